@@ -1,0 +1,53 @@
+"""Source texts and places in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Scope(StrEnum):
+    """Where an object lives; an inner scope hides an outer one (spec CON-06..CON-09)."""
+
+    APPLICATION = "application"
+    POUS = "pous"
+    LIBRARY = "library"
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """One text the compiler reads: a whole POU, DUT, GVL, or a method, property or action of a POU.
+
+    `uri` names the text in diagnostics: a file path, or an object path such as `FB_Motor.Start`.
+    """
+
+    uri: str
+    text: str
+    scope: Scope = Scope.APPLICATION
+    owner: str | None = None
+    """Name of the POU a METHOD / PROPERTY / ACTION text belongs to, None for whole objects."""
+    name: str | None = None
+    """Name of the object where the text carries none: a GVL, or an action given as bare body."""
+    library: str | None = None
+    """Name of the library the text comes from (scope LIBRARY)."""
+    namespace: str | None = None
+    """Namespace under which the library is referenced; its objects are visible with and without it."""
+    body_line: int = 0
+    """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one text."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A half-open range of a source text; lines and columns are 0-based, in UTF-16-free code points."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def to(self, other: Span) -> Span:
+        """The span from the start of this one to the end of `other`."""
+        return Span(self.line, self.column, other.end_line, other.end_column)
+
+
+NOWHERE = Span(0, 0, 0, 0)

@@ -1,0 +1,122 @@
+"""What names stand for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from tappet.lang import ast
+from tappet.lang.source import Source, Span
+from tappet.lang.types import FunctionBlock, Type
+
+
+class Storage(StrEnum):
+    """Where a variable lives; it decides how code reaches it."""
+
+    GLOBAL = "global"  # member of a GVL: data object `owner`, at `offset`
+    PROGRAM = "program"  # member of a program: data object `owner`, at `offset`
+    INSTANCE = "instance"  # member of the FB instance that `THIS` points to, at `offset`
+    LOCAL = "local"  # on the stack of a function or method, and VAR_TEMP of any POU
+    PARAMETER = "parameter"  # parameter of a function or method: by value, VAR_IN_OUT by address
+    RESULT = "result"  # the return value inside a function, method or property
+    DIRECT = "direct"  # at an address %I %Q %M
+    CONSTANT = "constant"  # folded everywhere; also stored with its GVL or instance
+
+
+@dataclass(eq=False, slots=True)
+class Symbol:
+    """Base: a named thing with the place of its declaration."""
+
+    name: str
+    source: Source | None = None
+    span: Span | None = None
+    comment: str = ""
+
+
+@dataclass(eq=False, slots=True)
+class VarSymbol(Symbol):
+    """A variable, parameter, structure member or constant."""
+
+    type: Type | None = None
+    storage: Storage = Storage.LOCAL
+    section: str = "VAR"
+    flags: frozenset[str] = frozenset()
+    owner: str | None = None
+    """Data object for GLOBAL and PROGRAM: name of the GVL or program; for members the type's name."""
+    offset: int = 0
+    """Bytes inside the data object or instance; for DIRECT bytes inside the area."""
+    bit: int | None = None
+    area: str | None = None
+    """I, Q or M for DIRECT."""
+    decl: ast.VarDecl | None = None
+    constant: ast.Constant = None
+    is_constant: bool = False
+
+
+@dataclass(eq=False, slots=True)
+class TypeSymbol(Symbol):
+    """A user-defined data type."""
+
+    type: Type | None = None
+
+
+@dataclass(eq=False, slots=True)
+class EnumValueSymbol(Symbol):
+    """A value of an enumeration."""
+
+    type: Type | None = None
+    number: int = 0
+
+
+@dataclass(eq=False, slots=True)
+class PouSymbol(Symbol):
+    """Program, function, function block, method or action.
+
+    Parameters are in order of declaration: inputs, outputs and in-outs mixed as written.
+    """
+
+    pou: ast.Pou | None = None
+    kind: str = "PROGRAM"
+    qualified_name: str = ""
+    """`FB_Motor.Start` for methods and actions; `Standard.TON` stays `TON` with `source.library` set."""
+    return_type: Type | None = None
+    parameters: list[VarSymbol] = field(default_factory=list)
+    locals: dict[str, VarSymbol] = field(default_factory=dict)
+    """Every variable visible by its plain name in the body, by upper-case name (own, and inherited or of the owner)."""
+    instance: FunctionBlock | None = None
+    """Instance type of programs, function blocks and of the owner for methods and actions."""
+    methods: dict[str, PouSymbol] = field(default_factory=dict)
+    actions: dict[str, PouSymbol] = field(default_factory=dict)
+    properties: dict[str, PropertySymbol] = field(default_factory=dict)
+    owner: PouSymbol | None = None
+
+
+@dataclass(eq=False, slots=True)
+class PropertySymbol(Symbol):
+    """A property; getter and setter are called like methods `__getName`, `__setName`."""
+
+    type: Type | None = None
+    getter: PouSymbol | None = None
+    setter: PouSymbol | None = None
+
+
+@dataclass(eq=False, slots=True)
+class GvlSymbol(Symbol):
+    """A global variable list: a namespace and a data object."""
+
+    members: dict[str, VarSymbol] = field(default_factory=dict)
+    qualified_only: bool = False
+    size: int = 0
+    decl: ast.GlobalList | None = None
+
+
+@dataclass(eq=False, slots=True)
+class NamespaceSymbol(Symbol):
+    """A library namespace."""
+
+    members: dict[str, Symbol] = field(default_factory=dict)
+
+
+@dataclass(eq=False, slots=True)
+class BuiltinSymbol(Symbol):
+    """An operator known without a library: ADD, SEL, SIZEOF, INT_TO_REAL, TRUNC ... (LOPR-*)."""

@@ -1,0 +1,291 @@
+"""The data types of IEC 61131-3 with the CODESYS extensions (spec LTYP-*).
+
+Types are compared by identity for named types (struct, enum, FB ...) and by value for anonymous ones.
+Sizes and offsets are fixed here once, because SIZEOF, the memory image, DWARF and the monitor must agree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tappet.lang import ast
+
+
+class Kind(StrEnum):
+    """Family of an elementary type; it decides the operators that apply."""
+
+    BOOL = "bool"
+    BITS = "bits"  # BYTE WORD DWORD LWORD: unsigned value
+    SIGNED = "signed"  # SINT INT DINT LINT
+    UNSIGNED = "unsigned"  # USINT UINT UDINT ULINT
+    REAL = "real"  # REAL LREAL
+    TIME = "time"  # TIME (u32 ms), LTIME (u64 ns)
+    DATE = "date"  # DATE, DT (u32 s), TOD (u32 ms), and their L-forms (u64 ns)
+
+
+@dataclass(frozen=True, slots=True)
+class Elementary:
+    """BOOL, integers, bit strings, floats, times and dates."""
+
+    name: str
+    kind: Kind
+    size: int  # bytes
+
+    @property
+    def align(self) -> int:
+        """Natural alignment in bytes."""
+        return self.size
+
+    @property
+    def is_integer(self) -> bool:
+        """Whether this is one of the integer or bit-string types."""
+        return self.kind in (Kind.BITS, Kind.SIGNED, Kind.UNSIGNED)
+
+    @property
+    def is_signed(self) -> bool:
+        """Whether values carry a sign (SINT INT DINT LINT REAL LREAL)."""
+        return self.kind in (Kind.SIGNED, Kind.REAL)
+
+    def __str__(self) -> str:
+        return self.name
+
+
+BOOL = Elementary("BOOL", Kind.BOOL, 1)
+BYTE = Elementary("BYTE", Kind.BITS, 1)
+WORD = Elementary("WORD", Kind.BITS, 2)
+DWORD = Elementary("DWORD", Kind.BITS, 4)
+LWORD = Elementary("LWORD", Kind.BITS, 8)
+SINT = Elementary("SINT", Kind.SIGNED, 1)
+INT = Elementary("INT", Kind.SIGNED, 2)
+DINT = Elementary("DINT", Kind.SIGNED, 4)
+LINT = Elementary("LINT", Kind.SIGNED, 8)
+USINT = Elementary("USINT", Kind.UNSIGNED, 1)
+UINT = Elementary("UINT", Kind.UNSIGNED, 2)
+UDINT = Elementary("UDINT", Kind.UNSIGNED, 4)
+ULINT = Elementary("ULINT", Kind.UNSIGNED, 8)
+REAL = Elementary("REAL", Kind.REAL, 4)
+LREAL = Elementary("LREAL", Kind.REAL, 8)
+TIME = Elementary("TIME", Kind.TIME, 4)
+LTIME = Elementary("LTIME", Kind.TIME, 8)
+DATE = Elementary("DATE", Kind.DATE, 4)
+TOD = Elementary("TIME_OF_DAY", Kind.DATE, 4)
+DT = Elementary("DATE_AND_TIME", Kind.DATE, 4)
+LDATE = Elementary("LDATE", Kind.DATE, 8)
+LTOD = Elementary("LTIME_OF_DAY", Kind.DATE, 8)
+LDT = Elementary("LDATE_AND_TIME", Kind.DATE, 8)
+
+ELEMENTARY: dict[str, Elementary] = {
+    t.name: t
+    for t in (
+        BOOL, BYTE, WORD, DWORD, LWORD, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT,
+        REAL, LREAL, TIME, LTIME, DATE, TOD, DT, LDATE, LTOD, LDT,
+    )
+}  # fmt: skip
+"""Elementary types by upper-case name, with the short names as well."""
+ELEMENTARY |= {"TOD": TOD, "DT": DT, "LTOD": LTOD, "LDT": LDT, "BIT": BOOL}
+ELEMENTARY |= {"__UXINT": ULINT, "__XINT": LINT, "__XWORD": LWORD}
+
+
+@dataclass(frozen=True, slots=True)
+class String:
+    """STRING(n): n 8-bit characters and a terminating zero; WSTRING(n): n UTF-16 units and a zero."""
+
+    length: int = 80
+    wide: bool = False
+
+    @property
+    def size(self) -> int:
+        """Bytes including the terminator."""
+        return (self.length + 1) * (2 if self.wide else 1)
+
+    @property
+    def align(self) -> int:
+        """1 for STRING, 2 for WSTRING."""
+        return 2 if self.wide else 1
+
+    def __str__(self) -> str:
+        return f"{'W' if self.wide else ''}STRING({self.length})"
+
+
+@dataclass(frozen=True, slots=True)
+class Array:
+    """ARRAY with constant bounds; the last index runs fastest. `bounds` is empty for ARRAY[*] (`open_dims`)."""
+
+    element: Type
+    bounds: tuple[tuple[int, int], ...]
+    open_dims: int = 0
+
+    @property
+    def count(self) -> int:
+        """Number of elements over all dimensions."""
+        n = 1
+        for low, high in self.bounds:
+            n *= high - low + 1
+        return n
+
+    @property
+    def size(self) -> int:
+        """Bytes; elements follow each other at a stride of the element size."""
+        return self.count * self.element.size
+
+    @property
+    def align(self) -> int:
+        """Alignment of the element."""
+        return self.element.align
+
+    def __str__(self) -> str:
+        if self.open_dims:
+            return f"ARRAY [{', '.join('*' * self.open_dims)}] OF {self.element}"
+        return f"ARRAY [{', '.join(f'{low}..{high}' for low, high in self.bounds)}] OF {self.element}"
+
+
+@dataclass(frozen=True, slots=True)
+class Pointer:
+    """POINTER TO base (`^` reads and writes the target); base None is a pointer to anything."""
+
+    base: Type | None
+    size: int = 8
+    align: int = 8
+
+    def __str__(self) -> str:
+        return f"POINTER TO {self.base}"
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """REFERENCE TO base: an alias; used like the base itself, bound by REF=."""
+
+    base: Type
+    size: int = 8
+    align: int = 8
+
+    def __str__(self) -> str:
+        return f"REFERENCE TO {self.base}"
+
+
+@dataclass(eq=False, slots=True)
+class Member:
+    """A member of a structure, function block or program, with its place in the instance."""
+
+    name: str
+    type: Type
+    offset: int = 0
+    section: str = "VAR"
+    """VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT (stored as pointer), VAR_TEMP, VAR_STAT ..."""
+    flags: frozenset[str] = frozenset()
+    """Of CONSTANT, RETAIN, PERSISTENT."""
+    decl: ast.VarDecl | None = None
+    bit: int | None = None
+    """Bit number inside the byte for BIT members, None otherwise."""
+
+
+@dataclass(eq=False, slots=True)
+class Struct:
+    """STRUCT or UNION (all offsets 0). Compared by identity."""
+
+    name: str
+    members: dict[str, Member] = field(default_factory=dict)
+    """By upper-case name, in order of declaration, members of the base structure first."""
+    size: int = 0
+    align: int = 1
+    union: bool = False
+    base: Struct | None = None
+    decl: ast.TypeDecl | None = None
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(eq=False, slots=True)
+class Enum:
+    """Enumeration with its base type and named values. Compared by identity."""
+
+    name: str
+    base: Elementary
+    values: dict[str, int] = field(default_factory=dict)
+    """By name as declared."""
+    decl: ast.TypeDecl | None = None
+    qualified_only: bool = False
+
+    @property
+    def size(self) -> int:
+        """Bytes of the base type."""
+        return self.base.size
+
+    @property
+    def align(self) -> int:
+        """Alignment of the base type."""
+        return self.base.align
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Subrange:
+    """Integer type with bounds; they are checked at run time only through the CheckRange functions (LTYP-122)."""
+
+    base: Elementary
+    low: int
+    high: int
+    name: str | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of the base type."""
+        return self.base.size
+
+    @property
+    def align(self) -> int:
+        """Alignment of the base type."""
+        return self.base.align
+
+    def __str__(self) -> str:
+        return self.name or f"{self.base}({self.low}..{self.high})"
+
+
+@dataclass(eq=False, slots=True)
+class FunctionBlock:
+    """The instance type of a FUNCTION_BLOCK or PROGRAM. Members hold everything an instance stores."""
+
+    name: str
+    members: dict[str, Member] = field(default_factory=dict)
+    """By upper-case name; VAR_IN_OUT members are 8-byte pointers, VAR_TEMP is not stored and not here."""
+    size: int = 0
+    align: int = 1
+    program: bool = False
+    base: FunctionBlock | None = None
+    pou: ast.Pou | None = None
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(eq=False, slots=True)
+class Interface:
+    """INTERFACE: a variable of it holds a reference to an implementing instance."""
+
+    name: str
+    size: int = 8
+    align: int = 8
+    pou: ast.Interface | None = None
+
+    def __str__(self) -> str:
+        return self.name
+
+
+Type = (
+    Elementary | String | Array | Pointer | Reference | Struct | Enum | Subrange | FunctionBlock | Interface
+)
+
+
+def value_type(t: Type) -> Type:
+    """`t` as it takes part in expressions: references, subranges and enums give the type below them."""
+    while True:
+        if isinstance(t, (Reference, Subrange, Enum)):
+            t = t.base
+        else:
+            return t
