@@ -1,0 +1,71 @@
+# Two targets are for everybody: `make run` and `make test`. The others are steps of these, or for contributors.
+
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+PORT   ?= 8080
+DATA   ?= data
+
+.DEFAULT_GOAL := run
+.PHONY: run test test-all check format lock system generate clean
+
+## run: set everything up, then serve the IDE with a running example machine and print its address
+run: $(VENV)/.ready frontend/dist/.ready
+	$(BIN)/tappet serve --port $(PORT) --data $(DATA) --example bottling --local-link
+
+## test: all fast tests, those in a real browser included
+test: $(VENV)/.ready frontend/dist/.ready system check
+	cd frontend && npm run --silent test
+	$(BIN)/python -m pytest -m "not slow" -n 2 --dist loadfile
+
+## test-all: the slow suites as well
+test-all: $(VENV)/.ready frontend/dist/.ready system check
+	cd frontend && npm run --silent test
+	$(BIN)/python -m pytest -n 2 --dist loadfile
+
+## check: format, lint, types, imports
+check: $(VENV)/.ready frontend/node_modules/.ready
+	$(BIN)/ruff format --check backend tests
+	$(BIN)/ruff check backend tests
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-timing
+	cd frontend && npm run --silent lint && npm run --silent typecheck
+
+format: $(VENV)/.ready
+	$(BIN)/ruff format backend tests
+	$(BIN)/ruff check --fix backend tests
+
+## lock: resolve pyproject.toml again into requirements.lock
+lock: $(VENV)/.ready
+	$(BIN)/pip install --quiet uv
+	$(BIN)/uv pip compile pyproject.toml --group dev --universal --python-version 3.11 --quiet \
+	  --custom-compile-command "make lock" -o requirements.lock
+
+## generate: what is made from the sources: OpenAPI, client types, pages of the diagnostics
+generate: $(VENV)/.ready frontend/node_modules/.ready
+	$(BIN)/python -m tappet.server.openapi > frontend/src/api/openapi.json
+	cd frontend && npm run --silent generate
+	$(BIN)/python -m tappet.lang.diagnostic_pages
+
+$(VENV)/.ready: requirements.lock pyproject.toml
+	@test -d $(VENV) || $(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps -e .
+	@touch $@
+
+frontend/node_modules/.ready: frontend/package-lock.json frontend/package.json
+	cd frontend && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
+
+frontend/dist/.ready: frontend/node_modules/.ready $(FRONTEND_SOURCES)
+	cd frontend && npm run --silent build
+	@touch $@
+
+## system: the browser and the database server that the tests drive (Debian's packages)
+system:
+	@.ci/system
+
+clean:
+	rm -rf $(VENV) frontend/node_modules frontend/dist build dist
