@@ -1,0 +1,109 @@
+"""The messages of the compiler: one table of codes, and the values that carry a message to its reader.
+
+`diagnostics.csv` is the only list of codes, severities and texts. E00xx lexer, E01xx parser, E02xx names,
+E03xx types, E04xx declarations, E05xx calls, E06xx layout and addresses, E07xx tasks, E08xx statements;
+W1xxx warnings and notes. `alias` is the number CODESYS V3 gives the same message, where there is one.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Literal
+
+from tappet.lang.source import Span
+
+Severity = Literal["error", "warning", "info"]
+_SEVERITIES: dict[str, Severity] = {"error": "error", "warning": "warning", "info": "info"}
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One row of the table. `message` and `advice` are templates with named fields."""
+
+    code: str
+    severity: Severity
+    name: str
+    alias: str
+    message: str
+    advice: str
+
+
+@dataclass(frozen=True, slots=True)
+class Related:
+    """Another place that explains a message, such as the first of two declarations."""
+
+    message: str
+    uri: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One message: what is wrong (`message`), where (`uri`, `span`) and what would be right (`advice`)."""
+
+    code: str
+    severity: Severity
+    message: str
+    advice: str
+    uri: str
+    span: Span
+    related: tuple[Related, ...] = ()
+
+    @property
+    def alias(self) -> str:
+        """The number of the same message in CODESYS V3 (`C0032`), or ''."""
+        return TABLE[self.code].alias
+
+    @property
+    def name(self) -> str:
+        """Short name of the code, as in the table."""
+        return TABLE[self.code].name
+
+    def __str__(self) -> str:
+        """`uri:line:column: severity code: message advice` with 1-based line and column."""
+        text = f"{self.uri}:{self.span.line + 1}:{self.span.column + 1}: {self.severity} {self.code}: {self.message}"
+        return f"{text}. {self.advice}" if self.advice else text
+
+
+def _read_table() -> dict[str, Entry]:
+    text = files("tappet.lang").joinpath("diagnostics.csv").read_text(encoding="utf-8")
+    table: dict[str, Entry] = {}
+    for row in csv.DictReader(text.splitlines()):
+        code = row["code"]
+        if code in table:
+            raise ValueError(f"diagnostics.csv lists {code} twice")
+        table[code] = Entry(
+            code, _SEVERITIES[row["severity"]], row["name"], row["alias"], row["message"], row["advice"]
+        )
+    return table
+
+
+TABLE: dict[str, Entry] = _read_table()
+"""All messages by code."""
+
+
+def report(
+    code: str,
+    uri: str,
+    span: Span,
+    *,
+    related: Iterable[Related] = (),
+    **fields: object,
+) -> Diagnostic:
+    """A message of the table with its fields filled in.
+
+    Raises KeyError when the code, or a field its templates name, is missing: a fault of the caller.
+    """
+    entry = TABLE[code]
+    return Diagnostic(
+        code,
+        entry.severity,
+        entry.message.format_map(fields),
+        entry.advice.format_map(fields),
+        uri,
+        span,
+        tuple(related),
+    )
