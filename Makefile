@@ -28,7 +28,7 @@ check: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/ruff format --check backend tests
 	$(BIN)/ruff check backend tests
 	$(BIN)/mypy
-	$(BIN)/lint-imports --no-timing
+	$(BIN)/lint-imports --no-logo
 	cd frontend && npm run --silent lint && npm run --silent typecheck
 
 format: $(VENV)/.ready
