@@ -1,0 +1,126 @@
+"""A 3D scene of a machine: elements with properties that are fixed or bound to variables of the application.
+
+A scene is data, never code: opening a project runs nothing (DESIGN decision 16). Lengths are in the unit of the
+machine (`unit` metres each, 0.001 for millimetres). `{i}` in a variable or name stands for the index of a repetition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Linear(_Strict):
+    """offset + factor * variable, in the unit of the scene."""
+
+    variable: str = Field(min_length=1)
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+class Threshold(_Strict):
+    """TRUE while the variable is at least as large; BOOL counts as 0 or 1."""
+
+    variable: str = Field(min_length=1)
+    at_least: float | Literal["{i}"] = 1.0
+
+
+class ColorChoice(_Strict):
+    """One of two colours by a BOOL variable."""
+
+    variable: str = Field(min_length=1)
+    when_true: Color
+    when_false: Color
+
+
+class Repetition(_Strict):
+    """The element stands once for each index from `first` to `last`."""
+
+    first: int = 1
+    last: int = Field(le=1000)
+
+
+Number = float | Linear
+
+
+class Element(_Strict):
+    """One body. `position` is the centre of its bottom face, x along the machine, z up.
+
+    `size` is x, y, z for a box, diameter x, diameter y, height for a cylinder or sphere; labels ignore it.
+    """
+
+    name: str = Field(min_length=1, max_length=60, pattern=r"^[A-Za-z0-9_ .-]+$")
+    shape: Literal["box", "cylinder", "sphere", "label"]
+    size: tuple[Number, Number, Number] = (1.0, 1.0, 1.0)
+    position: tuple[Number, Number, Number] = (0.0, 0.0, 0.0)
+    color: Color | ColorChoice = "#9aa0a6"
+    opacity: float = Field(default=1.0, gt=0.0, le=1.0)
+    visible: bool | Threshold = True
+    text: str = Field(default="", max_length=200)
+    value: str | None = None
+    """Variable whose value takes the place of `{}` in `text`."""
+    repeat: Repetition | None = None
+
+
+class Camera(_Strict):
+    """Where the view starts, in scene units."""
+
+    position: tuple[float, float, float]
+    look_at: tuple[float, float, float]
+
+
+class Scene(_Strict):
+    """Elements in the order they are drawn."""
+
+    unit: float = Field(default=0.001, gt=0.0)
+    camera: Camera | None = None
+    elements: tuple[Element, ...] = ()
+
+    def expanded(self) -> Iterator[Element]:
+        """Every single element, repetitions written out with their index."""
+        for element in self.elements:
+            if element.repeat is None:
+                yield element
+                continue
+            for i in range(element.repeat.first, element.repeat.last + 1):
+                yield _with_index(element, i)
+
+    def variables(self) -> list[str]:
+        """All variables the scene is bound to, each once, in order of first use."""
+        found: dict[str, None] = {}
+        for element in self.expanded():
+            for bound in (*element.size, *element.position, element.color, element.visible):
+                if isinstance(bound, (Linear, Threshold, ColorChoice)):
+                    found.setdefault(bound.variable)
+            if element.value:
+                found.setdefault(element.value)
+        return list(found)
+
+
+def _with_index(element: Element, i: int) -> Element:
+    raw = element.model_dump(exclude={"repeat"})
+
+    def fill(node: object) -> object:
+        if isinstance(node, str):
+            return node.replace("{i}", str(i))
+        if isinstance(node, dict):
+            filled = {key: fill(value) for key, value in node.items()}
+            if isinstance(filled.get("at_least"), str):
+                filled["at_least"] = float(str(filled["at_least"]))
+            return filled
+        if isinstance(node, (tuple, list)):
+            return tuple(fill(value) for value in node)
+        return node
+
+    filled = fill(raw)
+    assert isinstance(filled, dict)
+    filled["name"] = f"{element.name} {i}" if filled["name"] == element.name else filled["name"]
+    return Element.model_validate(filled)
