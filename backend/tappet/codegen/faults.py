@@ -1,0 +1,52 @@
+"""Fault codes: what compiled code hands to `tappet_fault(code, a, b, c)` and what signal handlers report.
+
+The numbers are a contract between object code and runtime; never renumber them.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Fault(IntEnum):
+    """Reason of an application exception; `a`, `b`, `c` are the further arguments of `tappet_fault`."""
+
+    DIV_ZERO = 1
+    """Integer division or MOD by zero."""
+    ARRAY_BOUNDS = 2
+    """Array index a outside b..c."""
+    NULL_REFERENCE = 3
+    """Access through a pointer, reference or interface that is 0."""
+    ACCESS_VIOLATION = 4
+    """Access to memory that is not there (signal)."""
+    STACK_OVERFLOW = 5
+    """Calls nested too deep (signal on the guard page)."""
+    WATCHDOG = 6
+    """The task ran longer than its watchdog allows."""
+    ASSERT = 7
+    """An assertion of the program failed."""
+    ILLEGAL_CONVERSION = 8
+    """A value that the conversion cannot take."""
+    USER = 9
+    """Raised by the program with code a."""
+
+
+_MESSAGES: dict[int, str] = {
+    Fault.DIV_ZERO: "division by zero",
+    Fault.ARRAY_BOUNDS: "array index {a} outside {b}..{c}",
+    Fault.NULL_REFERENCE: "access through a null pointer or reference",
+    Fault.ACCESS_VIOLATION: "access to invalid address 16#{a:X}",
+    Fault.STACK_OVERFLOW: "stack overflow",
+    Fault.WATCHDOG: "watchdog: the task exceeded its time",
+    Fault.ASSERT: "assertion failed",
+    Fault.ILLEGAL_CONVERSION: "value cannot be converted",
+    Fault.USER: "exception {a} raised by the program",
+}
+
+
+def fault_message(code: int, a: int = 0, b: int = 0, c: int = 0) -> str:
+    """English text of a fault, for example `array index 12 outside 0..9`."""
+    template = _MESSAGES.get(code)
+    if template is None:
+        return f"fault {code} ({a}, {b}, {c})"
+    return template.format(a=a, b=b, c=c)

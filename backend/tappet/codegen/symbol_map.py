@@ -1,0 +1,448 @@
+"""The symbol map: from a path such as `PLC_PRG.fb1.aVal[3].x` to bytes in the image, and how to read them.
+
+Plain data without the compiler: a runtime or a browser-side tool needs nothing else to watch variables.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from tappet.codegen import values
+
+
+class SymbolError(ValueError):
+    """The path names nothing in this application; the message says which part."""
+
+
+@dataclass(frozen=True, slots=True)
+class MemberInfo:
+    """One member of a structure, function block, program or variable list."""
+
+    name: str
+    type: int
+    """Index into `SymbolMap.types`."""
+    offset: int
+    section: str = "VAR"
+    """VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT (a pointer) ..."""
+    flags: str = ""
+    """Space separated of CONSTANT, RETAIN, PERSISTENT, HIDDEN."""
+    bit: int | None = None
+    """Bit of a BIT member or of a variable at a bit address."""
+    absolute: bool = False
+    """`offset` counts from the start of the image (variables at addresses)."""
+
+
+@dataclass(frozen=True, slots=True)
+class TypeInfo:
+    """One type; `elem` and `base` are indices into `SymbolMap.types`."""
+
+    name: str
+    kind: str
+    """bool bits int uint real time ltime date tod dt ldate ltod ldt string wstring enum array struct union
+    fb program gvl pointer reference interface."""
+    size: int
+    elem: int | None = None
+    """Array element, or target of a pointer or reference."""
+    bounds: tuple[tuple[int, int], ...] = ()
+    members: tuple[MemberInfo, ...] = ()
+    values: tuple[tuple[str, int], ...] = ()
+    """Names and numbers of an enumeration."""
+    base: str = ""
+    """Kind of the integer below an enumeration (`int` or `uint` or `bits`)."""
+    length: int = 0
+    """Characters of a string."""
+    range: tuple[int, int] | None = None
+    """Bounds of a subrange."""
+
+    @property
+    def leaf(self) -> bool:
+        """Whether a value of this type has no parts to open."""
+        return self.kind not in ("array", "struct", "union", "fb", "program", "gvl")
+
+    def to_row(self) -> list[Any]:
+        """Compact JSON-able form."""
+        return [
+            self.name, self.kind, self.size, self.elem, [list(b) for b in self.bounds],
+            [[m.name, m.type, m.offset, m.section, m.flags, m.bit, m.absolute] for m in self.members],
+            [list(v) for v in self.values], self.base, self.length, list(self.range) if self.range else None,
+        ]  # fmt: skip
+
+    @classmethod
+    def from_row(cls, row: list[Any]) -> TypeInfo:
+        """Inverse of `to_row`; raises ValueError on a malformed row."""
+        name, kind, size, elem, bounds, members, enum_values, base, length, limits = row
+        if not isinstance(size, int) or size < 0:
+            raise ValueError(f"type {name}: size {size!r}")
+        return cls(
+            name=str(name),
+            kind=str(kind),
+            size=size,
+            elem=elem,
+            bounds=tuple((int(low), int(high)) for low, high in bounds),
+            members=tuple(
+                MemberInfo(str(n), int(t), int(at), str(section), str(flags), bit, bool(absolute))
+                for n, t, at, section, flags, bit, absolute in members
+            ),
+            values=tuple((str(n), int(v)) for n, v in enum_values),
+            base=str(base),
+            length=int(length),
+            range=(int(limits[0]), int(limits[1])) if limits else None,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class VarRef:
+    """Where a variable lies in the image and what it is."""
+
+    path: str
+    """Full path with the spelling of the declarations."""
+    offset: int
+    bit: int | None
+    """Bit number inside the byte at `offset`, None for whole bytes."""
+    size: int
+    """Bytes to read; 1 for a bit."""
+    type: TypeInfo
+    flags: str = ""
+    section: str = "VAR"
+
+
+@dataclass(frozen=True, slots=True)
+class Child:
+    """One entry below a path, for browsing."""
+
+    name: str
+    path: str
+    type: str
+    kind: str
+    leaf: bool
+    section: str = "VAR"
+    flags: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A program or variable list."""
+
+    name: str
+    kind: str
+    """program or gvl."""
+    offset: int
+    type: int
+
+
+_TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_]\w*)|(?P<number>-?\d+)|(?P<mark>[.\[\],]))")
+_ADDRESS = re.compile(r"%([IQM])([XBWDL]?)(\d+)(?:\.(\d+))?$", re.IGNORECASE)
+_ADDRESS_SIZE = {"X": 0, "": 0, "B": 1, "W": 2, "D": 4, "L": 8}
+_BIT_TYPE = TypeInfo("BOOL", "bool", 1)
+_ADDRESS_TYPES = {
+    1: TypeInfo("BYTE", "bits", 1),
+    2: TypeInfo("WORD", "bits", 2),
+    4: TypeInfo("DWORD", "bits", 4),
+    8: TypeInfo("LWORD", "bits", 8),
+}
+
+
+def address_place(size: int, number: int, bit: int | None, byte_addressing: bool) -> tuple[int, int | None]:
+    """Byte offset inside the area, and bit, of `%<area><size><number>[.<bit>]` (LDEC-59).
+
+    Word-oriented IEC addressing counts in units of the size and bits as `word.bit` (0..15); byte addressing
+    counts bytes and `byte.bit` (0..7).
+    """
+    if size == 0:
+        if byte_addressing:
+            return number, bit or 0
+        place = number * 16 + (bit or 0)
+        return place // 8, place % 8
+    return (number if byte_addressing else number * size), None
+
+
+@dataclass(slots=True)
+class SymbolMap:
+    """All variables of an application."""
+
+    types: list[TypeInfo] = field(default_factory=list)
+    roots: dict[str, Root] = field(default_factory=dict)
+    """Programs and variable lists by upper-case name."""
+    globals: dict[str, str] = field(default_factory=dict)
+    """Upper-case variable name to the upper-case list it is in; "" when several lists have it."""
+    areas: dict[str, tuple[int, int]] = field(default_factory=dict)
+    """I, Q, M to (offset, size) in the image."""
+    byte_addressing: bool = False
+
+    # -- look-up -------------------------------------------------------------------------------------
+
+    def resolve(self, path: str) -> VarRef:
+        """The variable at `path` (case-insensitive); raises SymbolError naming the part that is wrong.
+
+        Understands `PRG.a.b[1, 2].c`, unqualified global variables, `.3` bits and %IX / %QW / %MD addresses.
+        Pointers and references are values here: their targets are not static.
+        """
+        text = path.strip()
+        if text.startswith("%"):
+            return self._resolve_address(text)
+        tokens = _tokenize(text)
+        return _Walk(self, text, tokens).run()
+
+    def children(self, path: str = "") -> list[Child]:
+        """What lies below `path`; the programs and variable lists for an empty path."""
+        if not path.strip():
+            return [
+                Child(r.name, r.name, r.name, r.kind, False)
+                for r in sorted(self.roots.values(), key=lambda r: r.name.upper())
+            ]
+        key = path.strip().upper()
+        if key in self.roots:
+            root = self.roots[key]
+            return self._members(root.name, self.types[root.type])
+        ref = self.resolve(path)
+        if ref.type.kind == "array":
+            return self._elements(ref)
+        return self._members(ref.path, ref.type)
+
+    def decode(self, ref: VarRef, data: bytes) -> values.Value:
+        """Python value of the raw bytes of `ref` (see `values.decode`)."""
+        return values.decode(self.types, ref.type, data, ref.bit)
+
+    def encode(self, ref: VarRef, value: values.Value | str) -> bytes:
+        """Raw bytes for a JSON value or an IEC literal; raises ValueError saying what is expected."""
+        return values.encode(self.types, ref.type, value)
+
+    def format_literal(self, ref: VarRef, value: values.Value) -> str:
+        """`value` as IEC literal: TRUE, T#1s500ms, 'abc', an enumeration name ..."""
+        return values.format_literal(self.types, ref.type, value)
+
+    # -- table ---------------------------------------------------------------------------------------
+
+    def to_table(self) -> dict[str, Any]:
+        """Compact JSON-able form."""
+        return {
+            "types": [t.to_row() for t in self.types],
+            "roots": [[r.name, r.kind, r.offset, r.type] for r in self.roots.values()],
+            "globals": self.globals,
+            "areas": {k: list(v) for k, v in self.areas.items()},
+            "byte_addressing": self.byte_addressing,
+        }
+
+    @classmethod
+    def from_table(cls, table: dict[str, Any]) -> SymbolMap:
+        """Inverse of `to_table`; raises ValueError on malformed tables."""
+        try:
+            types = [TypeInfo.from_row(row) for row in table["types"]]
+            roots = {str(n).upper(): Root(str(n), str(k), int(o), int(t)) for n, k, o, t in table["roots"]}
+            result = cls(
+                types,
+                roots,
+                {str(k): str(v) for k, v in table["globals"].items()},
+                {str(k): (int(v[0]), int(v[1])) for k, v in table["areas"].items()},
+                bool(table["byte_addressing"]),
+            )
+        except (KeyError, TypeError, IndexError, AttributeError) as error:
+            raise ValueError(f"malformed symbol table: {error!r}") from error
+        count = len(types)
+        used = [m.type for t in types for m in t.members] + [t.elem for t in types if t.elem is not None]
+        used += [r.type for r in roots.values()]
+        if any(not isinstance(u, int) or not 0 <= u < count for u in used):
+            raise ValueError("malformed symbol table: type index out of range")
+        return result
+
+    # -- details -------------------------------------------------------------------------------------
+
+    def _resolve_address(self, text: str) -> VarRef:
+        match = _ADDRESS.match(text)
+        if not match:
+            raise SymbolError(f"'{text}' is no address; write for example %IX0.0, %QW2 or %MD48")
+        area, letter, number, bit = match[1].upper(), match[2].upper(), int(match[3]), match[4]
+        if area not in self.areas:
+            raise SymbolError(f"{text}: the application uses no %{area} area")
+        size = _ADDRESS_SIZE[letter]
+        if size and bit is not None:
+            raise SymbolError(f"{text}: only bit addresses have a part after the point")
+        limit = 8 if self.byte_addressing else 16
+        if bit is not None and int(bit) >= limit:
+            raise SymbolError(f"{text}: bit {bit} is outside 0..{limit - 1}")
+        place, bit_number = address_place(size, number, int(bit) if bit else None, self.byte_addressing)
+        start, length = self.areas[area]
+        if place + max(size, 1) > length:
+            raise SymbolError(f"{text} lies outside the %{area} area of {length} bytes")
+        info = _BIT_TYPE if size == 0 else _ADDRESS_TYPES[size]
+        return VarRef(text.upper(), start + place, bit_number, max(size, 1), info)
+
+    def _members(self, path: str, info: TypeInfo) -> list[Child]:
+        return [
+            self._child(m.name, f"{path}.{m.name}", m.type, m)
+            for m in info.members
+            if "HIDDEN" not in m.flags
+        ]
+
+    def _child(self, name: str, path: str, type_index: int, member: MemberInfo | None = None) -> Child:
+        info = self.types[type_index]
+        section, flags = (member.section, member.flags) if member else ("VAR", "")
+        return Child(name, path, info.name, info.kind, info.leaf, section, flags)
+
+    def _elements(self, ref: VarRef) -> list[Child]:
+        """Elements of an array, or of its first dimension's slices flattened, at most 10,000."""
+        assert ref.type.elem is not None
+        indices: list[tuple[int, ...]] = [()]
+        for low, high in ref.type.bounds:
+            indices = [(*done, i) for done in indices for i in range(low, high + 1)][:10_000]
+        texts = (", ".join(map(str, index)) for index in indices)
+        return [self._child(f"[{t}]", f"{ref.path}[{t}]", ref.type.elem) for t in texts]
+
+
+def _tokenize(text: str) -> list[str]:
+    tokens: list[str] = []
+    at = 0
+    while at < len(text):
+        match = _TOKEN.match(text, at)
+        if not match:
+            raise SymbolError(f"'{text}': unexpected '{text[at]}' at column {at + 1}")
+        tokens.append(match[0].strip())
+        at = match.end()
+        if text[at:].isspace():
+            break
+    if not tokens:
+        raise SymbolError("the path is empty")
+    return tokens
+
+
+class _Walk:
+    """One resolution: position in the tokens, offset so far and the current type."""
+
+    def __init__(self, symbols: SymbolMap, text: str, tokens: list[str]) -> None:
+        self.symbols = symbols
+        self.text = text
+        self.tokens = tokens
+        self.at = 0
+        self.offset = 0
+        self.path = ""
+        self.info = _BIT_TYPE
+        self.bit: int | None = None
+        self.member: MemberInfo | None = None
+
+    def run(self) -> VarRef:
+        self.start()
+        while self.at < len(self.tokens):
+            mark = self.tokens[self.at]
+            self.at += 1
+            if mark == ".":
+                self.dot()
+            elif mark == "[":
+                self.index()
+            else:
+                raise SymbolError(f"'{self.text}': expected '.' or '[' after '{self.path}'")
+        flags = self.member.flags if self.member else ""
+        section = self.member.section if self.member else "VAR"
+        size = 1 if self.bit is not None else self.info.size
+        return VarRef(self.path, self.offset, self.bit, size, self.info, flags, section)
+
+    def next(self, what: str) -> str:
+        if self.at >= len(self.tokens):
+            raise SymbolError(f"'{self.text}': {what} is missing at the end")
+        token = self.tokens[self.at]
+        self.at += 1
+        return token
+
+    def start(self) -> None:
+        symbols = self.symbols
+        if self.tokens[0] == ".":
+            self.at = 1
+        name = self.next("a name")
+        root = symbols.roots.get(name.upper())
+        if root is not None:
+            self.path, self.offset, self.info = root.name, root.offset, symbols.types[root.type]
+            return
+        owner = symbols.globals.get(name.upper())
+        if owner is None:
+            raise SymbolError(f"'{name}' is no program, variable list or global variable of the application")
+        if owner == "":
+            raise SymbolError(f"'{name}' is declared in several variable lists; write <list>.{name}")
+        root = symbols.roots[owner]
+        self.path, self.offset, self.info = root.name, root.offset, symbols.types[root.type]
+        self.enter(name)
+
+    def dot(self) -> None:
+        token = self.next("a member name")
+        if token.isdigit():
+            self.take_bit(int(token))
+        elif token[0].isalpha() or token[0] == "_":
+            self.enter(token)
+        else:
+            raise SymbolError(f"'{self.text}': expected a member name after '{self.path}.'")
+
+    def enter(self, name: str) -> None:
+        key = name.upper()
+        for member in self.info.members:
+            if member.name.upper() == key:
+                break
+        else:
+            if self.info.kind in ("pointer", "reference", "interface"):
+                raise SymbolError(f"'{self.path}' is a {self.info.kind}; its target has no fixed place")
+            raise SymbolError(f"'{self.path}' ({self.info.name}) has no member '{name}'")
+        self.path += f".{member.name}"
+        self.offset = member.offset if member.absolute else self.offset + member.offset
+        self.info = self.symbols.types[member.type]
+        self.bit = member.bit
+        self.member = member
+
+    def take_bit(self, bit: int) -> None:
+        kind = self.info.kind
+        if kind not in ("bits", "int", "uint") or self.bit is not None:
+            raise SymbolError(f"'{self.path}' ({self.info.name}) has no bits")
+        if bit >= self.info.size * 8:
+            raise SymbolError(f"'{self.path}': bit {bit} is outside 0..{self.info.size * 8 - 1}")
+        self.path += f".{bit}"
+        self.offset += bit // 8
+        self.bit = bit % 8
+        self.info = _BIT_TYPE
+
+    def index(self) -> None:
+        if self.info.kind in ("string", "wstring"):
+            self.character()
+            return
+        while True:
+            if self.info.kind != "array" or self.info.elem is None:
+                raise SymbolError(f"'{self.path}' ({self.info.name}) is no array")
+            array, indices, closed = self.info, [], False
+            for number, (low, high) in enumerate(array.bounds):
+                value = self.number()
+                if not low <= value <= high:
+                    raise SymbolError(f"'{self.path}': index {value} is outside {low}..{high}")
+                indices.append(value)
+                mark = self.next("']'")
+                last = number == len(array.bounds) - 1
+                if mark == "]" and not last:
+                    raise SymbolError(f"'{self.path}' needs {len(array.bounds)} indices")
+                if mark not in ",]":
+                    raise SymbolError(f"'{self.text}': expected ',' or ']' in the index")
+                closed = mark == "]"
+            flat = 0
+            for value, (low, high) in zip(indices, array.bounds, strict=True):
+                flat = flat * (high - low + 1) + value - low
+            assert array.elem is not None
+            self.info = self.symbols.types[array.elem]
+            self.offset += flat * self.info.size
+            self.path += f"[{', '.join(map(str, indices))}]"
+            self.bit = None
+            if closed:
+                return
+
+    def number(self) -> int:
+        token = self.next("an index")
+        try:
+            return int(token)
+        except ValueError:
+            raise SymbolError(f"'{self.text}': index '{token}' is no number") from None
+
+    def character(self) -> None:
+        value = self.number()
+        if self.next("']'") != "]":
+            raise SymbolError(f"'{self.path}' takes one index")
+        wide = 2 if self.info.kind == "wstring" else 1
+        if not 0 <= value <= self.info.length:
+            raise SymbolError(f"'{self.path}': index {value} is outside 0..{self.info.length}")
+        self.path += f"[{value}]"
+        self.offset += value * wide
+        self.info = _ADDRESS_TYPES[wide]
+        self.bit = None
