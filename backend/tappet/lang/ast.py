@@ -52,6 +52,8 @@ class Expr(Node):
     constant: Constant = None
     """Folded value when the expression is constant, else None (use `is_constant`)."""
     is_constant: bool = False
+    untyped: bool = False
+    """Constant made of literals without type prefix only: it adapts to the type its context needs (LOPR-02)."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -69,7 +71,7 @@ class Literal(Expr):
 
 @dataclass(slots=True, kw_only=True)
 class Name(Expr):
-    """An identifier. `leading_dot` marks `.name`, the global one (GVL-05)."""
+    """An identifier, or a direct address (`%MB193`). `leading_dot` marks `.name`, the global one (GVL-05)."""
 
     name: str
     leading_dot: bool = False
@@ -111,6 +113,9 @@ class Unary(Expr):
 
     op: str
     operand: Expr
+    # resolved
+    operand_type: Type | None = None
+    """Type the operand is converted to before the operation."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -433,6 +438,8 @@ class VarDecl(Node):
     """Comment on the same line or the lines above, without its marks."""
     # resolved
     symbol: Symbol | None = None
+    init: Expr | None = None
+    """What initialises the variable: `initial`, or the initial value of its alias type, else None."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -505,6 +512,8 @@ class Interface(Declaration):
     extends: list[str] = field(default_factory=list)
     methods: list[Pou] = field(default_factory=list)
     properties: list[Property] = field(default_factory=list)
+    # resolved
+    symbol: Symbol | None = None
 
 
 @dataclass(slots=True, kw_only=True)

@@ -64,7 +64,8 @@ class Diagnostic:
 
     def __str__(self) -> str:
         """`uri:line:column: severity code: message advice` with 1-based line and column."""
-        text = f"{self.uri}:{self.span.line + 1}:{self.span.column + 1}: {self.severity} {self.code}: {self.message}"
+        place = f"{self.uri}:{self.span.line + 1}:{self.span.column + 1}"
+        text = f"{place}: {self.severity} {self.code}: {self.message}"
         return f"{text}. {self.advice}" if self.advice else text
 
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from tappet.lang import ast
 from tappet.lang.source import Source, Span
-from tappet.lang.types import FunctionBlock, Type
+from tappet.lang.types import FunctionBlock, Interface, Type
 
 
 class Storage(StrEnum):
@@ -18,7 +18,7 @@ class Storage(StrEnum):
     INSTANCE = "instance"  # member of the FB instance that `THIS` points to, at `offset`
     LOCAL = "local"  # on the stack of a function or method, and VAR_TEMP of any POU
     PARAMETER = "parameter"  # parameter of a function or method: by value, VAR_IN_OUT by address
-    RESULT = "result"  # the return value inside a function, method or property
+    RESULT = "result"  # the return value inside a function, method or property getter
     DIRECT = "direct"  # at an address %I %Q %M
     CONSTANT = "constant"  # folded everywhere; also stored with its GVL or instance
 
@@ -51,6 +51,8 @@ class VarSymbol(Symbol):
     decl: ast.VarDecl | None = None
     constant: ast.Constant = None
     is_constant: bool = False
+    home: Storage = Storage.LOCAL
+    """The storage without regard to being constant: GLOBAL, PROGRAM, INSTANCE or LOCAL; same as `storage` otherwise."""
 
 
 @dataclass(eq=False, slots=True)
@@ -89,6 +91,15 @@ class PouSymbol(Symbol):
     actions: dict[str, PouSymbol] = field(default_factory=dict)
     properties: dict[str, PropertySymbol] = field(default_factory=dict)
     owner: PouSymbol | None = None
+    base: PouSymbol | None = None
+    """The function block after EXTENDS."""
+    interfaces: list[InterfaceSymbol] = field(default_factory=list)
+    """After IMPLEMENTS, as written."""
+    result: VarSymbol | None = None
+    """The variable that holds the return value (storage RESULT)."""
+    vtable: dict[str, PouSymbol] = field(default_factory=dict)
+    """Function blocks: what a virtual call by upper-case name reaches (methods, actions, `__GETX`, `__SETX`,
+    inherited ones first), in slot order; a derived block keeps the slots of its base."""
 
 
 @dataclass(eq=False, slots=True)
@@ -98,6 +109,17 @@ class PropertySymbol(Symbol):
     type: Type | None = None
     getter: PouSymbol | None = None
     setter: PouSymbol | None = None
+
+
+@dataclass(eq=False, slots=True)
+class InterfaceSymbol(Symbol):
+    """An interface: heads of methods and properties (PouSymbols without a body)."""
+
+    type: Interface | None = None
+    methods: dict[str, PouSymbol] = field(default_factory=dict)
+    """Own and inherited ones by upper-case name, `__GETX` / `__SETX` of the properties included."""
+    properties: dict[str, PropertySymbol] = field(default_factory=dict)
+    bases: list[InterfaceSymbol] = field(default_factory=list)
 
 
 @dataclass(eq=False, slots=True)
@@ -119,4 +141,13 @@ class NamespaceSymbol(Symbol):
 
 @dataclass(eq=False, slots=True)
 class BuiltinSymbol(Symbol):
-    """An operator known without a library: ADD, SEL, SIZEOF, INT_TO_REAL, TRUNC ... (LOPR-*)."""
+    """An operator known without a library, resolved for one call: ADD, SEL, SIZEOF, TRUNC ... (LOPR-*).
+
+    `name` is the operation in upper case; every `<T1>_TO_<T2>`, `TO_<T>`, `ANY_TO_<T>` has the name `CONVERT`.
+    """
+
+    parameter_types: tuple[Type | None, ...] = ()
+    """What each argument is converted to; None = the argument is a place or a type and is not loaded
+    (ADR, SIZEOF, __ISVALIDREF, __NEW, the target of __QUERYINTERFACE ...)."""
+    return_type: Type | None = None
+    """Type of the result as lowering computes it (the 32 bit type for ADD(INT, INT)); None = no value."""

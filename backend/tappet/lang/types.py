@@ -107,7 +107,8 @@ class String:
         return 2 if self.wide else 1
 
     def __str__(self) -> str:
-        return f"{'W' if self.wide else ''}STRING({self.length})"
+        name = "WSTRING" if self.wide else "STRING"
+        return name if self.length == 80 else f"{name}({self.length})"
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +152,7 @@ class Pointer:
     align: int = 8
 
     def __str__(self) -> str:
-        return f"POINTER TO {self.base}"
+        return f"POINTER TO {self.base or 'ANY'}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,6 +210,10 @@ class Enum:
     """By name as declared."""
     decl: ast.TypeDecl | None = None
     qualified_only: bool = False
+    strict: bool = False
+    """Attribute 'strict': no integers, no arithmetic."""
+    default: int = 0
+    """Value a variable starts with: the first one, unless the declaration says otherwise (LTYP-112)."""
 
     @property
     def size(self) -> int:
@@ -244,7 +249,7 @@ class Subrange:
         return self.base.align
 
     def __str__(self) -> str:
-        return self.name or f"{self.base}({self.low}..{self.high})"
+        return self.name or f"{self.base} ({self.low}..{self.high})"
 
 
 @dataclass(eq=False, slots=True)
@@ -253,7 +258,9 @@ class FunctionBlock:
 
     name: str
     members: dict[str, Member] = field(default_factory=dict)
-    """By upper-case name; VAR_IN_OUT members are 8-byte pointers, VAR_TEMP is not stored and not here."""
+    """By upper-case name; VAR_IN_OUT members are 8-byte pointers. Not stored and so not here: VAR_TEMP,
+    VAR_STAT, VAR_EXTERNAL, and variables AT an address. `__VFTABLE` (see analysis) is the first one of blocks
+    that take part in inheritance or have methods; `METHOD.NAME` holds VAR_INST of a method."""
     size: int = 0
     align: int = 1
     program: bool = False
