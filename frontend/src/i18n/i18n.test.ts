@@ -1,0 +1,61 @@
+import { readdirSync, readFileSync, statSync } from 'node:fs';
+import { join } from 'node:path';
+import { describe, expect, it } from 'vitest';
+
+const root = join(import.meta.dirname, '..');
+
+function texts(language: string): Record<string, string> {
+  const folder = join(import.meta.dirname, language);
+  const all: Record<string, string> = {};
+  for (const file of readdirSync(folder)) {
+    for (const [key, text] of Object.entries(JSON.parse(readFileSync(join(folder, file), 'utf8')) as Record<string, string>)) {
+      if (key in all) throw new Error(`${language}/${file}: '${key}' is defined twice`);
+      all[key] = text;
+    }
+  }
+  return all;
+}
+
+function sources(folder: string): string[] {
+  return readdirSync(folder).flatMap((name) => {
+    const path = join(folder, name);
+    if (statSync(path).isDirectory()) return sources(path);
+    return /\.tsx?$/.test(name) && !/\.test\.tsx?$/.test(name) ? [path] : [];
+  });
+}
+
+const base = (key: string) => key.replace(/_(one|other)$/, '');
+const values = (text: string) => [...text.matchAll(/{{\s*(\w+)/g)].map((match) => match[1]).sort();
+const en = texts('en');
+const zh = texts('zh');
+
+describe('texts', () => {
+  it('are there in both languages', () => {
+    const keys = (all: Record<string, string>) => [...new Set(Object.keys(all).map(base))].sort();
+    expect(keys(zh)).toEqual(keys(en));
+  });
+
+  it('name the same values in both languages', () => {
+    for (const [key, text] of Object.entries(zh)) {
+      const english = en[key];
+      if (english !== undefined) expect(values(text), key).toEqual(values(english));
+    }
+  });
+
+  it('are not empty', () => {
+    for (const [key, text] of [...Object.entries(en), ...Object.entries(zh)]) expect(text.trim(), key).not.toBe('');
+  });
+
+  it('are all used', () => {
+    // A key counts as used when its literal stands in a source, or a template literal `prefix.${...}` builds it.
+    const code = sources(root)
+      .map((path) => readFileSync(path, 'utf8'))
+      .join('\n');
+    const prefixes = [...code.matchAll(/`([a-zA-Z]+(?:\.[a-zA-Z]+)*\.)\$\{/g)].map((match) => match[1]!);
+    const unused = [...new Set(Object.keys(en).map(base))].filter(
+      (key) =>
+        !code.includes(`'${key}'`) && !code.includes(`"${key}"`) && !prefixes.some((prefix) => key.startsWith(prefix)),
+    );
+    expect(unused).toEqual([]);
+  });
+});

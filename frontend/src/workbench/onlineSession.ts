@@ -1,0 +1,81 @@
+/**
+ * Which application is logged in to which runtime, and in what state that runtime is.
+ *
+ * The online commands of the workbench write the logins. `src/online` opens the socket for each runtime named here and
+ * reports what it hears through `runtimeStateReceived`, `connectionLost` and `forcesReceived`.
+ */
+import { create } from 'zustand';
+import type { LoginRelation, RuntimeState } from '@/api/types';
+
+export interface OnlineSession {
+  applicationId: string;
+  runtimeId: string;
+  /** What the runtime holds compared with the project, asked at login and after each build. */
+  relation: LoginRelation;
+  /** Latest word of the runtime, null before the first. */
+  runtime: RuntimeState | null;
+  /** Milliseconds since 1970 when the connection broke, null while it stands. */
+  lostSince: number | null;
+}
+
+interface OnlineState {
+  sessions: Readonly<Record<string, OnlineSession>>;
+  /** Paths of forced variables, by runtime. */
+  forces: Readonly<Record<string, readonly string[]>>;
+}
+
+export const useOnline = create<OnlineState>(() => ({ sessions: {}, forces: {} }));
+
+export function loggedIn(applicationId: string, runtimeId: string, relation: LoginRelation): void {
+  const session: OnlineSession = { applicationId, runtimeId, relation, runtime: null, lostSince: null };
+  useOnline.setState((state) => ({ sessions: { ...state.sessions, [applicationId]: session } }));
+}
+
+export function loggedOut(applicationId: string): void {
+  useOnline.setState((state) => {
+    const { [applicationId]: _gone, ...sessions } = state.sessions;
+    return { sessions };
+  });
+}
+
+export function relationChanged(applicationId: string, relation: LoginRelation): void {
+  change((session) => session.applicationId === applicationId, { relation });
+}
+
+/** The online socket heard a runtime's state; a lost connection counts as restored. */
+export function runtimeStateReceived(runtimeId: string, runtime: RuntimeState): void {
+  change((session) => session.runtimeId === runtimeId, { runtime, lostSince: null });
+}
+
+/** The online socket lost a runtime; values are frozen from now on. */
+export function connectionLost(runtimeId: string, since: number = Date.now()): void {
+  change((session) => session.runtimeId === runtimeId && session.lostSince === null, { lostSince: since });
+}
+
+export function forcesReceived(runtimeId: string, paths: readonly string[]): void {
+  useOnline.setState((state) => ({ forces: { ...state.forces, [runtimeId]: paths } }));
+}
+
+function change(where: (session: OnlineSession) => boolean, values: Partial<OnlineSession>): void {
+  useOnline.setState((state) => {
+    const sessions = { ...state.sessions };
+    for (const [id, session] of Object.entries(sessions)) if (where(session)) sessions[id] = { ...session, ...values };
+    return { sessions };
+  });
+}
+
+/** How a session looks: the colour of editor headers, tree nodes and the status bar. */
+export type OnlineTone = 'running' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'unknown';
+
+export function onlineTone(session: OnlineSession | null | undefined, simulated = false): OnlineTone {
+  if (!session?.runtime) return session?.lostSince ? 'lost' : 'unknown';
+  if (session.lostSince !== null || !session.runtime.connected) return 'lost';
+  switch (session.runtime.state) {
+    case 'run':
+      return simulated ? 'simulated' : 'running';
+    case 'exception':
+      return 'exception';
+    default:
+      return 'stopped';
+  }
+}

@@ -1,0 +1,63 @@
+/**
+ * The panel registry: tool windows of the docks (trees, messages, watch lists ...).
+ *
+ * Register at module level of your room's `register.ts`:
+ *
+ *     registerPanel({
+ *       id: 'watch1',
+ *       title: 'panel.watch', titleValues: { number: 1 },
+ *       icon: Eye,
+ *       component: lazy(() => import('./watch/WatchPanel')),
+ *       props: { list: 1 },                       // reaches the component as `props.options`
+ *       position: 'bottom', order: 20,
+ *       initial: true,                            // part of the default layout; otherwise opened from the View menu
+ *     });
+ *
+ * The View menu gets an entry `view.<id>` for each panel by itself. `showPanel(id)` (workbench/dock.ts) opens or raises one.
+ */
+import type { ComponentType, LazyExoticComponent } from 'react';
+import type { TextKey, TextValues } from '@/i18n';
+import type { IconComponent } from './types';
+
+export type DockPosition = 'left' | 'right' | 'bottom';
+
+export interface PanelProps {
+  /** Id of the dock panel; same as the registration's id. */
+  panelId: string;
+  /** `props` of the registration. */
+  options: Readonly<Record<string, unknown>>;
+  visible: boolean;
+}
+
+export interface PanelRegistration {
+  id: string;
+  title: TextKey;
+  titleValues?: TextValues;
+  icon: IconComponent;
+  component: LazyExoticComponent<ComponentType<PanelProps>> | ComponentType<PanelProps>;
+  props?: Readonly<Record<string, unknown>>;
+  position: DockPosition;
+  /** Order of the tabs in the default layout and of the entries in the View menu. */
+  order: number;
+  initial?: boolean;
+  /** Submenu of the View menu, for families such as Watch 1 to 4. */
+  submenu?: TextKey;
+  keys?: readonly string[];
+  /** A live count on the tab (messages, forces); null shows none. A hook, called inside the tab. */
+  useBadge?: () => { text: string; tone: 'neutral' | 'warn' | 'error' | 'forced' } | null;
+}
+
+const registrations = new Map<string, PanelRegistration>();
+
+export function registerPanel(registration: PanelRegistration): void {
+  registrations.set(registration.id, registration);
+}
+
+export function findPanel(id: string): PanelRegistration | undefined {
+  return registrations.get(id);
+}
+
+/** All panels in the order of the View menu. */
+export function allPanels(): PanelRegistration[] {
+  return [...registrations.values()].sort((a, b) => a.order - b.order);
+}
