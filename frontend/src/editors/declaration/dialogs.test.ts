@@ -1,0 +1,95 @@
+import { describe, expect, it } from 'vitest';
+import { headerValues, setHeader } from './header';
+import { composeInitial, formatInitial, givenValues, initialLines, parseInitial } from './initial';
+import { expandShorthand } from './shorthand';
+import { formatArrayType, parseArrayType, shapeOf, type MemberSource } from './types';
+
+describe('shorthand (DECL-61..66, EX-02)', () => {
+  const plain = (text: string | null) => text?.replace(/\s+/g, '');
+  it.each([
+    ['A', 'A: BOOL;'],
+    ['A B I 2', 'A, B: INT := 2;'],
+    ['ST S 2; A string', 'ST:STRING(2); (* A string *)'],
+    ['X %MD12 R 5; Real Number', 'X AT %MD12: REAL := 5.0;(* Real Number *)'],
+    ['B !', 'B: BOOL;'],
+    ['C BOOL', 'C: BOOL;'],
+    ['k INT 7', 'k: INT := 7;'],
+    ['r REAL', 'r: REAL;'],
+    ['t string 20', 't: STRING(20);'],
+    ["t S 'abc'", "t: STRING := 'abc';"],
+    ['n I -3', 'n: INT := -3;'],
+  ])('%s', (line, expected) => expect(plain(expandShorthand(line))).toBe(plain(expected)));
+
+  it('declares nothing without a name', () => expect(expandShorthand('  ; only a remark')).toBeNull());
+});
+
+describe('header', () => {
+  const text = "// old\n{attribute 'a'}\nPROGRAM Main\nVAR\nEND_VAR\n";
+  it('is read and written in place', () => {
+    const values = headerValues(text)!;
+    expect(values).toEqual({ keyword: 'PROGRAM', name: 'Main', comment: 'old', attributes: ["attribute 'a'"] });
+    expect(setHeader(text, values)).toBe(text);
+    expect(setHeader(text, { ...values, name: 'Prg', comment: 'one\ntwo', attributes: ["attribute 'a'", 'b'] })).toBe(
+      "// one\n// two\n{attribute 'a'}\n{b}\nPROGRAM Prg\nVAR\nEND_VAR\n",
+    );
+    expect(setHeader(text, { ...values, comment: '', attributes: [] })).toBe('PROGRAM Main\nVAR\nEND_VAR\n');
+  });
+  it('gives a function a return type and takes it away again', () => {
+    const values = headerValues(text)!;
+    const asFunction = setHeader(text, { ...values, keyword: 'FUNCTION' });
+    expect(asFunction).toContain('FUNCTION Main : BOOL\n');
+    expect(setHeader(asFunction, { ...headerValues(asFunction)!, keyword: 'FUNCTION_BLOCK' })).toContain(
+      'FUNCTION_BLOCK Main\n',
+    );
+  });
+});
+
+describe('initial values (DECL-31)', () => {
+  const members: MemberSource = (name) =>
+    name === 'ST_POINT'
+      ? [
+          { name: 'x', type: 'LREAL', initial: null },
+          { name: 'y', type: 'LREAL', initial: '1.5' },
+          { name: 'tags', type: 'ARRAY [0..2] OF INT', initial: null },
+        ]
+      : null;
+
+  it.each(['5', '(a := 1, b := (c := 2, d := [1, 2(5)]))', "[3(0), (x := 'a,b')]", 'GVL.x + 3', 'F(1, 2)'])(
+    'keeps %s',
+    (text) => expect(formatInitial(parseInitial(text))).toBe(text),
+  );
+
+  it('keeps a broken aggregate as it is', () => expect(formatInitial(parseInitial('(a := ,'))).toBe('(a := ,'));
+
+  it('lists components with their values and composes them again', () => {
+    const shape = shapeOf('ST_Point', members);
+    const given = givenValues(shape, parseInitial('(X := 2.0, tags := [7, 2(8)])'));
+    expect(initialLines(shape, 'p', given).map((l) => [l.path, l.value, l.isDefault])).toEqual([
+      ['', null, true],
+      ['.x', '2.0', false],
+      ['.y', '1.5', true],
+      ['.tags', null, true],
+      ['.tags[0]', '7', false],
+      ['.tags[1]', '8', false],
+      ['.tags[2]', '8', false],
+    ]);
+    expect(composeInitial(shape, given)).toBe('(x := 2.0, tags := [7, 2(8)])');
+    const { '.x': _x, '.tags[1]': _one, '.tags[2]': _two, ...rest } = given;
+    expect(composeInitial(shape, { ...rest, '.y': '3.0' })).toBe('(y := 3.0, tags := [7])');
+    expect(composeInitial(shape, {})).toBe('');
+  });
+
+  it('reads and writes array types', () => {
+    expect(parseArrayType('array[0..3,1..n] of ARRAY [1..2] OF BOOL')).toEqual({
+      dimensions: [
+        { low: '0', high: '3' },
+        { low: '1', high: 'n' },
+      ],
+      element: 'ARRAY [1..2] OF BOOL',
+    });
+    expect(formatArrayType(parseArrayType('ARRAY[1..3]OF INT') ?? { dimensions: [], element: '' })).toBe(
+      'ARRAY [1..3] OF INT',
+    );
+    expect(parseArrayType('INT')).toBeNull();
+  });
+});
