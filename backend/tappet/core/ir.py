@@ -1,11 +1,11 @@
 """The core IR: typed expressions over places in memory, structured statements, functions.
 
-Everything implicit in the source is explicit here: conversions, bounds checks, hidden pointers, evaluation order.
-Expressions and statements are trees; `Goto`/`Label` cover the few jumps of the languages. Nodes are compared by
-identity and may be shared only when they are constants.
+Everything implicit in the source is explicit here: conversions, bounds checks, hidden pointers, evaluation
+order. Expressions and statements are trees; `Goto`/`Label` cover the few jumps of the languages. Nodes are
+compared by identity and may be shared only when they are constants.
 
-Scalars carry their signedness, so one `div` or `lt` serves all. Narrow integer arithmetic is done in 32 bits by
-the lowering (LOPR-03); the IR itself never widens.
+Scalars carry their signedness, so one `div` or `lt` serves all. Narrow integer arithmetic is done in 32 bits
+by the lowering (LOPR-03); the IR itself never widens.
 """
 
 from __future__ import annotations
@@ -173,7 +173,8 @@ class Binary(Expr):
 
     Operands have the type of the result; the right operand of shifts and rotates is U32, that of offset I64.
     Integer div and rem: the divisor is not zero unless `checked`; the smallest number divided by -1 wraps.
-    Shifts by the width or more give 0 (shl, unsigned shr) or the sign (signed shr); rotates count modulo width.
+    Shifts by the width or more give 0 (shl, unsigned shr) or the sign (signed shr); rotates count modulo
+    the width.
     """
 
     op: str
@@ -195,8 +196,8 @@ class Compare(Expr):
 class Convert(Expr):
     """Conversion to `type` by value: integers are cut or extended by the sign of the source.
 
-    Floats to integers: `mode` round (half away from zero) or trunc; outside the range they saturate, NaN is 0.
-    BOOL gives 0 or 1. Integers to BOOL take bit 0; pointer and 64-bit integer convert as addresses.
+    Floats to integers: `mode` round (half away from zero) or trunc; outside the range they saturate, NaN
+    is 0. BOOL gives 0 or 1. Integers to BOOL take bit 0; pointer and 64-bit integer convert as addresses.
     """
 
     operand: Expr
@@ -367,7 +368,7 @@ class Switch(Stmt):
 
 @dataclass(eq=False, slots=True)
 class For(Stmt):
-    """Counting loop: `counter := start`, then while counter <= stop (>= for negative steps) body, counter += step.
+    """Counting loop: `counter := start`; while counter <= stop (>= if step < 0): body, counter += step.
 
     `stop` is evaluated before each pass. `step` is an expression when it is no constant. The counter wraps.
     """
@@ -380,6 +381,8 @@ class For(Stmt):
     body: list[Stmt]
     line: int = 0
     """Line of the head, for the code of check and increment."""
+    fixed: bool = False
+    """Nothing in the body writes the counter; set by `loops`."""
 
 
 @dataclass(eq=False, slots=True)
@@ -443,11 +446,13 @@ class Promoted(Stmt):
     """A loop during which scalar variables live in locals; `promote` makes these.
 
     `variables` holds (home, local, type, written). Written ones are stored back when the loop is left in any
-    way, before a fault, and around calls in `barriers`.
+    way, before a fault, and around every call that is not in `free`.
     """
 
     variables: list[tuple[Place, Local, Scalar, bool]]
     loop: Stmt
+    free: frozenset[str] = frozenset()
+    """Functions known to touch none of the variables."""
 
 
 # -- functions and modules ----------------------------------------------------------------------------
@@ -487,6 +492,8 @@ class Function:
     """Calls setjmp."""
     inline: str = ""
     """"", "never" or "always"."""
+    subscripted: dict[Base, set[int]] = field(default_factory=dict)
+    """Roots of places with subscripts, by base: what needs alias scopes."""
     self_type: str = ""
     """Upper-case name of the function block type `parameters[0]` points to, if any."""
     cold: bool = False
@@ -533,4 +540,4 @@ class Module:
     """Data objects used: symbol to (size, align)."""
     dispatch: list[DispatchTable] = field(default_factory=list)
     exposed: set[tuple[str, int]] = field(default_factory=set)
-    """Variables reachable through pointers: (data symbol or type name, root offset); offset -1 = all of it."""
+    """Variables reachable through pointers: (data symbol or type name, root offset); offset -1 = all."""
