@@ -24,6 +24,7 @@ from pydantic import (
     Tag,
     TypeAdapter,
     ValidationError,
+    model_validator,
 )
 
 from tappet.project.declaration_text import subkind_of
@@ -138,7 +139,7 @@ class WatchdogData(Data):
     enabled: StrictBool = False
     time: Duration = Field(default="T#100ms", description="Longest allowed duration of a cycle.")
     sensitivity: StrictInt = Field(
-        1, ge=0, le=1_000_000, description="Number of overruns that are one too many."
+        default=1, ge=0, le=1_000_000, description="Number of overruns that are one too many."
     )
 
 
@@ -155,6 +156,12 @@ class TaskData(Data):
     event: Line = Field(default="", description="Path of the BOOL variable, or the system event (TASK-18).")
     watchdog: WatchdogData = WatchdogData()
     pous: tuple[ProgramCall, ...] = ()
+
+    @model_validator(mode="after")
+    def _cyclic_needs_interval(self) -> TaskData:
+        if self.type == "cyclic" and duration_ns(self.interval) == 0:
+            raise ValueError("a cyclic task needs an interval longer than 0, such as T#20ms")
+        return self
 
 
 class LibraryReference(Data):

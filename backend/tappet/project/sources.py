@@ -1,0 +1,293 @@
+"""What the compiler gets of a project: the texts of an application, its tasks and its libraries.
+
+The texts have the fields of `lang.source.Source`; this room does not import that one. Besides, each knows
+which object and part every line comes from, so that a diagnostic finds its editor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from tappet.project.declaration_text import end_keyword
+from tappet.project.durations import duration_ns
+from tappet.project.errors import UnknownObjectError
+from tappet.project.model import (
+    AccessorData,
+    ActionData,
+    BodyData,
+    DeclarationData,
+    LibraryManagerData,
+    LibraryReference,
+    Project,
+    ProjectObject,
+    TaskData,
+)
+from tappet.project.naming import name_key
+from tappet.project.placement import in_scope_of, owner_of
+
+Part = Literal["declaration", "implementation"]
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """From `line` of a text on (0-based), the lines are those of a part of an object from `part_line` on."""
+
+    line: int
+    object_id: str
+    part: Part
+    part_line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A line of a part of an object, 0-based."""
+
+    object_id: str
+    part: Part
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class SourceText:
+    """One text for the compiler; the first eight fields are those of `lang.source.Source`."""
+
+    uri: str
+    text: str
+    scope: Literal["application", "pous"]
+    owner: str | None
+    name: str | None
+    library: str | None
+    namespace: str | None
+    body_line: int
+    object_id: str
+    segments: tuple[Segment, ...]
+
+    def locate(self, line: int) -> Place:
+        """The object, part and line that a 0-based line of this text comes from."""
+        found = self.segments[0]
+        for segment in self.segments:
+            if segment.line > line:
+                break
+            found = segment
+        return Place(found.object_id, found.part, max(0, line - found.line) + found.part_line)
+
+    def line_of(self, object_id: str, part: Part, line: int) -> int | None:
+        """The line of this text that shows a line of a part; None when the text does not hold it."""
+        found = None
+        for segment in self.segments:
+            if segment.object_id == object_id and segment.part == part and segment.part_line <= line:
+                found = segment.line + line - segment.part_line
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class WatchdogDefinition:
+    """An enabled watchdog (TASK-31..33)."""
+
+    time_ns: int
+    sensitivity: int
+
+
+@dataclass(frozen=True, slots=True)
+class TaskDefinition:
+    """A task as the build takes it."""
+
+    name: str
+    kind: Literal["cyclic", "freewheeling", "event", "status", "external"]
+    interval_ns: int
+    """0 unless cyclic."""
+    priority: int
+    event: str | None
+    watchdog: WatchdogDefinition | None
+    programs: tuple[str, ...]
+    object_id: str | None
+    """The task object; None for the task that stands in where none is configured."""
+
+
+def application_sources(project: Project, application_id: str) -> list[SourceText]:
+    """The texts of an application: its own, those of the applications above it, and those of the POUs view.
+
+    An object of the application hides an equally named one of an application above (CON-09); what it hides in
+    the POUs view is left to the compiler, which warns.
+    Raises UnknownObjectError when the id is no application.
+    """
+    texts: list[SourceText] = []
+    hidden: set[str] = set()
+    for application in _with_parents(project, application_id):
+        own = list(in_scope_of(project, application))
+        visible = [item for item in own if name_key(item.name) not in hidden]
+        texts += _texts(project, visible, "application")
+        hidden.update(name_key(item.name) for item in own if item.kind != "folder")
+    texts += _texts(project, in_scope_of(project, None), "pous")
+    return texts
+
+
+def tasks(project: Project, application_id: str) -> list[TaskDefinition]:
+    """The tasks of an application in tree order.
+
+    An application without any task calls PLC_PRG every 20 ms if there is one (POU-07); else it has no task.
+    """
+    application = _application(project, application_id)
+    found = [
+        _task_definition(task, task.data)
+        for configuration in project.children(application.id)
+        if configuration.kind == "task_configuration"
+        for task in project.children(configuration.id)
+        if isinstance(task.data, TaskData)
+    ]
+    if found:
+        return found
+    main = any(
+        item.kind == "pou" and name_key(item.name) == name_key("PLC_PRG")
+        for owner in (application, None)
+        for item in in_scope_of(project, owner)
+    )
+    if not main:
+        return []
+    return [TaskDefinition("MainTask", "cyclic", duration_ns("T#20ms"), 1, None, None, ("PLC_PRG",), None)]
+
+
+def libraries(project: Project, application_id: str) -> list[LibraryReference]:
+    """The libraries of an application, then those of the applications above and of the POUs view (CON-09)."""
+    found: dict[str, LibraryReference] = {}
+    for owner in (*_with_parents(project, application_id), None):
+        for item in project.children(owner.id if owner else None):
+            if isinstance(item.data, LibraryManagerData):
+                for reference in item.data.references:
+                    found.setdefault(name_key(reference.name), reference)
+    return list(found.values())
+
+
+def source_of(project: Project, object_id: str) -> SourceText | None:
+    """The text an object is compiled in, None for objects without code; an accessor is in its property's."""
+    item = project.get(object_id)
+    if isinstance(item.data, AccessorData) and item.parent_id is not None:
+        item = project.get(item.parent_id)
+    in_application = any(above.kind == "application" for above in project.ancestors(item.id))
+    owner = owner_of(project, item.parent_id)
+    owner_name = owner.name if owner is not None and owner.kind in ("pou", "interface") else None
+    return _text(project, item, "application" if in_application else "pous", owner_name)
+
+
+def _application(project: Project, application_id: str) -> ProjectObject:
+    application = project.get(application_id)
+    if application.kind != "application":
+        raise UnknownObjectError(f"'{application.name}' is a {application.kind}, not an application")
+    return application
+
+
+def _with_parents(project: Project, application_id: str) -> list[ProjectObject]:
+    """An application, then the applications it is a child of, nearest first (CON-07)."""
+    application = _application(project, application_id)
+    above = [item for item in project.ancestors(application_id) if item.kind == "application"]
+    return [application, *above]
+
+
+def _texts(
+    project: Project, items: Iterable[ProjectObject], scope: Literal["application", "pous"]
+) -> Iterator[SourceText]:
+    for item in items:
+        text = _text(project, item, scope, None)
+        if text is None:
+            continue
+        yield text
+        if item.kind in ("pou", "interface"):
+            for child in in_scope_of(project, item):
+                child_text = _text(project, child, scope, item.name)
+                if child_text is not None:
+                    yield child_text
+
+
+def _text(
+    project: Project, item: ProjectObject, scope: Literal["application", "pous"], owner: str | None
+) -> SourceText | None:
+    writer = _Writer()
+    name = None
+    body_line = 0
+    data = item.data
+    if isinstance(data, BodyData):
+        writer.part(item.id, "declaration", data.declaration)
+        body_line = writer.line
+        writer.part(item.id, "implementation", data.implementation)
+        writer.keyword(end_keyword(data.declaration))
+    elif isinstance(data, ActionData):
+        writer.keyword(f"ACTION {item.name}")
+        body_line = writer.line
+        writer.part(item.id, "implementation", data.implementation)
+        writer.keyword("END_ACTION")
+        name = item.name
+    elif isinstance(data, DeclarationData):
+        writer.part(item.id, "declaration", data.declaration)
+        if item.kind == "property":
+            _accessors(project, item, writer)
+        if item.kind in ("property", "interface"):
+            writer.keyword(end_keyword(data.declaration))
+        elif item.kind in ("gvl", "persistent"):
+            name = item.name
+    else:
+        return None
+    return SourceText(
+        uri=f"{owner}.{item.name}" if owner else item.name,
+        text=writer.text(),
+        scope=scope,
+        owner=owner,
+        name=name,
+        library=None,
+        namespace=None,
+        body_line=body_line,
+        object_id=item.id,
+        segments=tuple(writer.segments),
+    )
+
+
+def _accessors(project: Project, item: ProjectObject, writer: _Writer) -> None:
+    for accessor in project.children(item.id):
+        if isinstance(accessor.data, AccessorData):
+            keyword = accessor.name.upper()
+            writer.keyword(keyword)
+            if accessor.data.declaration:
+                writer.part(accessor.id, "declaration", accessor.data.declaration)
+            writer.part(accessor.id, "implementation", accessor.data.implementation)
+            writer.keyword(f"END_{keyword}")
+
+
+class _Writer:
+    """Joins parts and keywords line by line and remembers which part each line came from."""
+
+    def __init__(self) -> None:
+        self.line = 0
+        self.segments: list[Segment] = []
+        self._pieces: list[str] = []
+
+    def part(self, object_id: str, part: Part, text: str) -> None:
+        """Append a part of an object."""
+        self.segments.append(Segment(self.line, object_id, part))
+        self.keyword(text)
+
+    def keyword(self, text: str | None) -> None:
+        """Append a line that is in no part; None appends nothing."""
+        if text is not None:
+            self._pieces.append(text)
+            self.line += text.count("\n") + 1
+
+    def text(self) -> str:
+        """Everything appended so far."""
+        return "\n".join(self._pieces)
+
+
+def _task_definition(task: ProjectObject, data: TaskData) -> TaskDefinition:
+    watchdog = None
+    if data.watchdog.enabled:
+        watchdog = WatchdogDefinition(duration_ns(data.watchdog.time), data.watchdog.sensitivity)
+    return TaskDefinition(
+        name=task.name,
+        kind=data.type,
+        interval_ns=duration_ns(data.interval) if data.type == "cyclic" else 0,
+        priority=data.priority,
+        event=data.event or None if data.type in ("event", "status", "external") else None,
+        watchdog=watchdog,
+        programs=tuple(call.name for call in data.pous),
+        object_id=task.id,
+    )

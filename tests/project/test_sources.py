@@ -1,0 +1,178 @@
+"""What the compiler gets of a project (seams 1 and 5; POU-07, CON-06..CON-09, TASK-12..TASK-20)."""
+
+import pytest
+
+from tappet.project import edit
+from tappet.project.errors import UnknownObjectError
+from tappet.project.model import Project, ProjectObject
+from tappet.project.sources import (
+    Place,
+    SourceText,
+    WatchdogDefinition,
+    application_sources,
+    libraries,
+    source_of,
+    tasks,
+)
+from tappet.project.templates import new_project
+
+APP = "Tappet Soft PLC/PLC Logic/Application"
+
+
+def at(project: Project, path: str) -> ProjectObject:
+    item = project.find(path)
+    assert item is not None, path
+    return item
+
+
+def machine() -> Project:
+    project = new_project("machine")
+    app = at(project, APP)
+    project, folder = edit.add_object(project, app.id, "folder", "Drives")
+    declaration = "FUNCTION_BLOCK FB_Motor\nVAR\n    rSpeed : REAL;\nEND_VAR"
+    body = {"declaration": declaration, "implementation": "rSpeed := 1.0;"}
+    project, motor = edit.add_object(project, folder.id, "pou", "FB_Motor", data=body)
+    project, inner = edit.add_object(project, motor.id, "folder", "Private")
+    body = {"declaration": "METHOD Start : BOOL", "implementation": "Start := TRUE;"}
+    project, _ = edit.add_object(project, inner.id, "method", "Start", data=body)
+    project, _ = edit.add_object(
+        project, motor.id, "action", "Reset", data={"implementation": "rSpeed := 0;"}
+    )
+    project, speed = edit.add_object(
+        project, motor.id, "property", "Speed", data={"declaration": "PROPERTY Speed : REAL"}
+    )
+    get, set_ = project.children(speed.id)
+    project = edit.change_data(project, get.id, {"implementation": "Speed := rSpeed;"})
+    project = edit.change_data(
+        project, set_.id, {"declaration": "VAR\n    r : REAL;\nEND_VAR", "implementation": "rSpeed := Speed;"}
+    )
+    project, _ = edit.add_object(project, None, "gvl", "Shared", data={"declaration": "VAR_GLOBAL\nEND_VAR"})
+    return project
+
+
+def texts(project: Project) -> dict[str, SourceText]:
+    return {source.uri: source for source in application_sources(project, at(project, APP).id)}
+
+
+def test_texts_of_an_application() -> None:
+    found = texts(machine())
+    assert list(found) == [
+        "PLC_PRG",
+        "FB_Motor",
+        "FB_Motor.Start",
+        "FB_Motor.Reset",
+        "FB_Motor.Speed",
+        "Shared",
+    ]
+    motor = found["FB_Motor"]
+    assert motor.text == (
+        "FUNCTION_BLOCK FB_Motor\nVAR\n    rSpeed : REAL;\nEND_VAR\nrSpeed := 1.0;\nEND_FUNCTION_BLOCK"
+    )
+    assert (motor.body_line, motor.scope, motor.owner, motor.name) == (4, "application", None, None)
+    assert found["PLC_PRG"].text == "PROGRAM PLC_PRG\nVAR\nEND_VAR\n\nEND_PROGRAM"
+    assert found["FB_Motor.Start"].owner == "FB_Motor"
+    assert found["FB_Motor.Reset"].text == "ACTION Reset\nrSpeed := 0;\nEND_ACTION"
+    assert found["FB_Motor.Reset"].body_line == 1
+    assert found["FB_Motor.Speed"].text == (
+        "PROPERTY Speed : REAL\n"
+        "GET\nSpeed := rSpeed;\nEND_GET\n"
+        "SET\nVAR\n    r : REAL;\nEND_VAR\nrSpeed := Speed;\nEND_SET\n"
+        "END_PROPERTY"
+    )
+    assert (found["Shared"].scope, found["Shared"].name) == ("pous", "Shared")
+
+
+def test_every_line_finds_its_editor_and_back() -> None:
+    project = machine()
+    found = texts(project)
+    motor = at(project, f"{APP}/Drives/FB_Motor")
+    assert found["FB_Motor"].locate(2) == Place(motor.id, "declaration", 2)
+    assert found["FB_Motor"].locate(4) == Place(motor.id, "implementation", 0)
+    setter = at(project, f"{APP}/Drives/FB_Motor/Speed/Set")
+    speed = found["FB_Motor.Speed"]
+    assert speed.locate(6) == Place(setter.id, "declaration", 1)
+    assert speed.locate(8) == Place(setter.id, "implementation", 0)
+    assert speed.line_of(setter.id, "implementation", 0) == 8
+    assert speed.line_of(motor.id, "implementation", 0) is None
+    assert source_of(project, setter.id) == speed
+    assert source_of(project, at(project, APP).id) is None
+    reset = found["FB_Motor.Reset"]
+    assert reset.locate(0) == reset.locate(1) == Place(reset.object_id, "implementation", 0)
+
+
+def test_one_text_of_each_object_is_that_of_its_application() -> None:
+    project = machine()
+    for source in texts(project).values():
+        assert source_of(project, source.object_id) == source
+
+
+def test_an_interface_is_a_frame_around_its_methods() -> None:
+    project, itf = edit.add_object(new_project("x"), None, "interface", "I_Drive")
+    project, _ = edit.add_object(
+        project, itf.id, "method", "Stop", data={"declaration": "METHOD Stop : BOOL"}
+    )
+    found = texts(project)
+    assert found["I_Drive"].text == "INTERFACE I_Drive\nEND_INTERFACE"
+    assert (found["I_Drive.Stop"].owner, found["I_Drive.Stop"].scope) == ("I_Drive", "pous")
+
+
+def test_a_child_application_sees_its_parent() -> None:
+    """CON-07, CON-09: what is above is visible below, and hidden by an equal name."""
+    project = new_project("x")
+    parent = at(project, APP)
+    project, _ = edit.add_object(project, parent.id, "gvl", "Limits")
+    project, child = edit.add_object(project, parent.id, "application", "Child")
+    project, own = edit.add_object(project, child.id, "pou", "PLC_PRG")
+    found = application_sources(project, child.id)
+    assert [source.uri for source in found] == ["PLC_PRG", "Limits"]
+    assert found[0].object_id == own.id
+    assert [source.uri for source in application_sources(project, parent.id)] == ["PLC_PRG", "Limits"]
+
+
+def test_tasks() -> None:
+    project = new_project("x")
+    app = at(project, APP)
+    configuration = at(project, f"{APP}/Task Configuration")
+    data = {
+        "type": "event",
+        "priority": 3,
+        "event": "GVL.xGo",
+        "interval": "300",
+        "watchdog": {"enabled": True, "time": "T#5ms", "sensitivity": 2},
+        "pous": [{"name": "A"}, {"name": "B", "comment": "second"}],
+    }
+    project, _ = edit.add_object(project, configuration.id, "task", "Fast", data=data)
+    main, fast = tasks(project, app.id)
+    assert (main.name, main.kind, main.interval_ns, main.priority, main.programs) == (
+        "MainTask",
+        "cyclic",
+        20_000_000,
+        1,
+        ("PLC_PRG",),
+    )
+    assert (main.event, main.watchdog) == (None, None)
+    assert (fast.kind, fast.interval_ns, fast.event, fast.programs) == ("event", 0, "GVL.xGo", ("A", "B"))
+    assert fast.watchdog == WatchdogDefinition(5_000_000, 2)
+
+
+def test_without_tasks_plc_prg_is_called() -> None:
+    project = new_project("x")
+    app = at(project, APP)
+    project = edit.delete_object(project, at(project, f"{APP}/Task Configuration/MainTask").id)
+    (task,) = tasks(project, app.id)
+    assert (task.name, task.programs, task.object_id) == ("MainTask", ("PLC_PRG",), None)
+    project = edit.delete_object(project, at(project, f"{APP}/PLC_PRG").id)
+    assert tasks(project, app.id) == []
+
+
+def test_libraries_come_from_the_application_and_the_pous_view() -> None:
+    project, manager = edit.add_object(new_project("x"), None, "library_manager")
+    data = {"references": [{"name": "Util", "namespace": "U"}, {"name": "STANDARD"}]}
+    project = edit.change_data(project, manager.id, data)
+    assert [item.name for item in libraries(project, at(project, APP).id)] == ["Standard", "Util"]
+
+
+def test_only_an_application_is_compiled() -> None:
+    project = new_project("x")
+    with pytest.raises(UnknownObjectError, match="is a pou, not an application"):
+        application_sources(project, at(project, f"{APP}/PLC_PRG").id)
