@@ -1,0 +1,128 @@
+"""Opening the database and bringing its schema up to date."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import time
+from pathlib import Path
+from threading import Lock
+from typing import Any
+
+from alembic import command
+from alembic.config import Config
+from alembic.script import ScriptDirectory
+from alembic.util import CommandError
+from sqlalchemy import Connection, Engine, create_engine, event, make_url, text
+from sqlalchemy.engine.interfaces import DBAPIConnection
+from sqlalchemy.pool import ConnectionPoolEntry
+
+from tappet.project.errors import ProjectError
+
+WRITES = "tappet_writes"
+"""Execution option of connections that will write: SQLite then takes its lock at BEGIN, not at first use."""
+
+BUSY_TIMEOUT_MS = 15_000
+"""How long a connection waits for SQLite's lock before it gives up."""
+
+_MIGRATION_LOCK = 7_461_707_065
+"""Key of the advisory lock that lets one process at a time migrate a PostgreSQL database."""
+
+_ONE_AT_A_TIME = Lock()  # Alembic keeps the running migration in a global
+
+_MIGRATIONS = Path(__file__).parent / "migrations"
+
+
+class StoreError(ProjectError):
+    """The database cannot be used."""
+
+    code = "store"
+
+
+def open_engine(url: str) -> Engine:
+    """An engine for `sqlite:///path` or `postgresql://user@host/name`, as DATABASE_URL has it.
+
+    SQLite runs in WAL mode with foreign keys. Raises StoreError for other databases.
+    """
+    address = make_url(url)
+    if address.drivername in ("postgres", "postgresql"):
+        address = address.set(drivername="postgresql+psycopg")
+    name = address.get_backend_name()
+    if name not in ("sqlite", "postgresql"):
+        raise StoreError(f"'{name}' is no database of the store; use sqlite:///file or postgresql://...")
+    engine = create_engine(address, json_serializer=_json, pool_pre_ping=name == "postgresql")
+    if name == "sqlite":
+        event.listen(engine, "connect", _prepare_sqlite)
+        event.listen(engine, "begin", _begin_sqlite)
+    return engine
+
+
+def migrate(engine: Engine) -> None:
+    """Bring the schema to the newest revision; safe when several processes start at once.
+
+    Raises StoreError when the database was made by a newer Tappet.
+    """
+    config = _config()
+    if engine.dialect.name == "sqlite":
+        _use_write_ahead_log(engine)
+    with (
+        _ONE_AT_A_TIME,
+        engine.connect().execution_options(**{WRITES: True}) as connection,
+        connection.begin(),
+    ):
+        if engine.dialect.name == "postgresql":
+            connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": _MIGRATION_LOCK})
+        config.attributes["connection"] = connection
+        try:
+            command.upgrade(config, "head")
+        except CommandError as error:
+            if "Can't locate revision" not in str(error):
+                raise
+            raise StoreError(
+                "The database was written by a newer version of Tappet; start that version, "
+                f"or restore a backup made with this one ({error})"
+            ) from error
+
+
+def newest_revision() -> str:
+    """The schema revision that `migrate` leads to."""
+    head = ScriptDirectory.from_config(_config()).get_current_head()
+    assert head is not None, "the package holds migrations"
+    return head
+
+
+def _config() -> Config:
+    config = Config()
+    config.set_main_option("script_location", str(_MIGRATIONS).replace("%", "%%"))
+    return config
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+
+def _use_write_ahead_log(engine: Engine) -> None:
+    """Switch a SQLite file to WAL, which it then stays in; unlike others, this lock is not waited for."""
+    deadline = time.monotonic() + BUSY_TIMEOUT_MS / 1000
+    while True:
+        try:
+            with engine.connect() as connection:
+                connection.connection.cursor().execute("PRAGMA journal_mode = WAL").close()
+            return
+        except sqlite3.OperationalError:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.02)
+
+
+def _prepare_sqlite(connection: DBAPIConnection, _entry: ConnectionPoolEntry) -> None:
+    connection.isolation_level = None  # the driver begins no transactions of its own; _begin_sqlite does
+    cursor = connection.cursor()
+    cursor.execute(f"PRAGMA busy_timeout = {BUSY_TIMEOUT_MS}")
+    cursor.execute("PRAGMA foreign_keys = ON")
+    cursor.close()
+
+
+def _begin_sqlite(connection: Connection) -> None:
+    immediate = connection.get_execution_options().get(WRITES, False)
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if immediate else "BEGIN")

@@ -1,0 +1,1 @@
+"""One file a schema change, named NNNN_what.py in order."""
