@@ -1,0 +1,5 @@
+"""The IDE server: REST under `/api/v1`, WebSockets, accounts, builds and the online channel.
+
+May import every other room; nothing but the command line imports it. Start reading at `app.create_app`,
+then `dependencies` (who may do what), `schemas` (every JSON shape), and one `routes_*` per resource.
+"""

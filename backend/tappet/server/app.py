@@ -1,0 +1,72 @@
+"""The ASGI application: every part put together."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+
+from fastapi import APIRouter, FastAPI
+from fastapi.routing import APIRoute
+from sqlalchemy import Engine, create_engine
+from starlette.concurrency import run_in_threadpool
+from starlette.middleware import Middleware
+
+from tappet import __version__
+from tappet.server import (
+    openapi,
+    problems,
+    routes_auth,
+    routes_health,
+    routes_settings,
+    routes_users,
+)
+from tappet.server.guard import RequestGuard
+from tappet.server.services import open_services
+from tappet.server.settings import ServerSettings
+
+API = "/api/v1"
+ROUTERS: tuple[APIRouter, ...] = (
+    routes_health.router,
+    routes_auth.router,
+    routes_users.router,
+    routes_settings.router,
+)
+"""One router per resource, all below `API`."""
+
+
+def _operation_id(route: APIRoute) -> str:
+    """Names of operations in the OpenAPI document are those of the Python functions: `list_users`."""
+    return route.name
+
+
+def create_app(settings: ServerSettings, open_engine: Callable[[str], Engine] = create_engine) -> FastAPI:
+    """The application for `settings`. Nothing is opened before its lifespan starts."""
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        engine = await run_in_threadpool(open_engine, settings.url)
+        app.state.services = await run_in_threadpool(open_services, settings, engine)
+        try:
+            yield
+        finally:
+            engine.dispose()
+
+    app = FastAPI(
+        title="Tappet",
+        version=__version__,
+        summary="Browser-based PLC engineering: the same operations as the workbench.",
+        lifespan=lifespan,
+        openapi_url=f"{API}/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+        generate_unique_id_function=_operation_id,
+        middleware=[Middleware(RequestGuard, settings=settings)],
+        telemetry={"tracing": False, "metrics": False, "logs": False},
+    )
+    problems.install(app)
+    api = APIRouter(prefix=API, responses=openapi.PROBLEM_RESPONSES, max_body_size=settings.max_body_bytes)
+    for router in ROUTERS:
+        api.include_router(router)
+    app.include_router(api)
+    openapi.install(app)
+    return app

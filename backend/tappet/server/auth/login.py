@@ -1,0 +1,166 @@
+"""The ways in: password, first account, one-time link."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+from sqlalchemy import Connection
+
+from tappet.server import audit
+from tappet.server.audit import Act
+from tappet.server.auth import accounts, lockout, sessions
+from tappet.server.auth.accounts import Account
+from tappet.server.auth.identity import Identity
+from tappet.server.auth.one_time import OneTimeSecrets
+from tappet.server.auth.passwords import Passwords
+from tappet.server.auth.roles import Role
+from tappet.server.database import Database
+from tappet.server.problems import Problem
+
+FIRST_ACCOUNT = "first-account"
+LOCAL_LINK = "local-link"
+
+
+@dataclass(frozen=True, slots=True)
+class Client:
+    """Where a login comes from."""
+
+    address: str
+    browser: str
+    old_secret: str | None = None
+    """Session the browser had before; it ends, so that a planted cookie is never logged in."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedIn:
+    """A fresh session."""
+
+    account: Account
+    secret: str
+
+
+class Login:
+    """Checks who asks and starts sessions; every attempt is in the audit log."""
+
+    def __init__(self, database: Database, passwords: Passwords, secrets: OneTimeSecrets) -> None:
+        self._database = database
+        self._passwords = passwords
+        self._secrets = secrets
+
+    def by_password(self, username: str, password: str, client: Client) -> LoggedIn:
+        """Blocks for one hash. Raises 401 and 429 problems; neither tells whether the account exists."""
+        keys = [lockout.account_key(username), lockout.address_key(client.address)]
+        self._attempt(keys, username, client)
+
+        def check(db: Connection) -> LoggedIn | None:
+            account = accounts.authenticate(db, self._passwords, username, password)
+            if account is None:
+                audit.write(db, username, client.address, Act("login-failed", username))
+                return None
+            lockout.succeeded(db, keys)
+            return self._start(db, account, client, "password")
+
+        result = self._database.run(check)
+        if result is None:
+            raise Problem(401, "login-failed", "User name or password is wrong.")
+        return result
+
+    def create_first(self, token: str, username: str, password: str, client: Client) -> LoggedIn:
+        """The first administrator. Raises 403 for a wrong or used token, 422 for an unfit password."""
+        keys = [lockout.address_key(client.address)]
+        self._attempt(keys, username, client)
+        if not self._secrets.matches(FIRST_ACCOUNT, token):
+            self._database.run(
+                lambda db: audit.write(db, username, client.address, Act("first-account-refused", username))
+            )
+            raise Problem(
+                403, "wrong-token", "This is not the open token for the first account; the console shows it."
+            )
+        accounts.check_password(password, username)
+        encoded = self._passwords.hash(password)
+        if not self._secrets.redeem(FIRST_ACCOUNT, token):
+            raise Problem(403, "wrong-token", "The token for the first account has been used.")
+
+        def create(db: Connection) -> LoggedIn:
+            if accounts.count(db):
+                raise Problem(409, "accounts-exist", "There already is an account; ask its administrator.")
+            account = accounts.create(db, username, encoded, Role.ADMIN, datetime.now(UTC))
+            lockout.succeeded(db, keys)
+            audit.write(db, username, client.address, Act("user-created", username, new_value="admin"))
+            return self._start(db, account, client, "first account")
+
+        return self._database.run(create)
+
+    def by_link(self, token: str, client: Client) -> LoggedIn:
+        """A login as the local user by a one-time link. Raises a 403 problem."""
+        keys = [lockout.address_key(client.address)]
+        self._attempt(keys, accounts.LOCAL_USER, client)
+        if not self._secrets.redeem(LOCAL_LINK, token):
+            raise Problem(
+                403,
+                "link-expired",
+                "This login link has been used or is too old. Press Enter on the server's console.",
+            )
+
+        def start(db: Connection) -> LoggedIn:
+            account = accounts.by_name(db, accounts.LOCAL_USER)
+            if account is None or account.disabled:
+                raise Problem(403, "link-refused", "The local account has been disabled.")
+            lockout.succeeded(db, keys)
+            return self._start(db, account, client, "local link")
+
+        return self._database.run(start)
+
+    def change_own_password(self, who: Identity, current: str, new: str) -> None:
+        """Sets a password after checking the current one, where there is one. Raises a 403 problem."""
+        keys = [lockout.account_key(who.username), lockout.address_key(who.address)]
+        client = Client(who.address, "")
+        self._attempt(keys, who.username, client)
+        encoded = self._passwords.hash(new)
+
+        def change(db: Connection) -> bool:
+            account = accounts.by_id(db, who.user_id)
+            if account.has_password and not self._passwords.verify(account.password_hash, current):
+                audit.record(db, who, Act("password-change-refused", who.username))
+                return False
+            lockout.succeeded(db, keys)
+            accounts.set_password(db, who.user_id, encoded, keep_session=who.session_id)
+            audit.record(db, who, Act("password-set", who.username))
+            return True
+
+        if not self._database.run(change):
+            raise Problem(403, "wrong-password", "The current password is wrong.")
+
+    def ensure_local_user(self) -> None:
+        """Makes the account of local links; whoever starts the server owns its data directory anyway."""
+
+        def ensure(db: Connection) -> None:
+            if accounts.by_name(db, accounts.LOCAL_USER) is None:
+                accounts.create(db, accounts.LOCAL_USER, None, Role.ADMIN, datetime.now(UTC))
+                audit.write(db, accounts.LOCAL_USER, "console", Act("user-created", accounts.LOCAL_USER))
+
+        self._database.run(ensure)
+
+    def _attempt(self, keys: list[str], username: str, client: Client) -> None:
+        now = datetime.now(UTC)
+        pause = self._database.run(lambda db: lockout.attempt(db, keys, now))
+        if pause:
+            self._database.run(
+                lambda db: audit.write(db, username, client.address, Act("login-locked-out", username))
+            )
+            seconds = max(1, round(pause.total_seconds()))
+            raise Problem(
+                429,
+                "locked-out",
+                f"Too many failed attempts; try again in {seconds} s.",
+                headers={"Retry-After": str(seconds)},
+                retry_after=seconds,
+            )
+
+    def _start(self, db: Connection, account: Account, client: Client, way: str) -> LoggedIn:
+        if client.old_secret:
+            sessions.end(db, client.old_secret)
+        secret = sessions.start(db, account.id, client.address, client.browser, datetime.now(UTC))
+        audit.write(db, account.username, client.address, Act("login", account.username, new_value=way))
+        return LoggedIn(account, secret)

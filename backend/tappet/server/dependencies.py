@@ -1,0 +1,78 @@
+"""What routes ask for: the services, the database, and who is asking in which role.
+
+Every route names its minimum role by taking `Viewer`, `Operator`, `Engineer` or `Admin` (or by
+`dependencies=[Depends(require_viewer)]`); a test walks all routes and fails for one that does not.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import HTTPConnection
+
+from tappet.server.auth import identity as identities
+from tappet.server.auth.identity import Identity
+from tappet.server.auth.roles import Role
+from tappet.server.database import Database
+from tappet.server.services import Services
+from tappet.server.settings import ServerSettings
+
+
+async def services_of(connection: HTTPConnection) -> Services:
+    """The services of the running server."""
+    services: Services = connection.app.state.services
+    return services
+
+
+async def settings_of(connection: HTTPConnection) -> ServerSettings:
+    """The settings of the running server."""
+    return (await services_of(connection)).settings
+
+
+async def database_of(connection: HTTPConnection) -> Database:
+    """The server's database."""
+    return (await services_of(connection)).database
+
+
+async def optional_identity(connection: HTTPConnection) -> Identity | None:
+    """Who asks, or None; for the few routes open to everybody."""
+    services: Services = connection.app.state.services
+    credential = identities.credential_of(connection)
+    if credential is None:
+        return None
+    address = identities.client_address(connection)
+    return await run_in_threadpool(
+        services.database.run, lambda db: identities.resolve(db, credential, address, services.settings)
+    )
+
+
+class RequireRole:
+    """Dependency of routes and sockets: who asks, having at least `role`; also refuses foreign pages."""
+
+    def __init__(self, role: Role) -> None:
+        self.role = role
+
+    async def __call__(self, connection: HTTPConnection) -> Identity:
+        """Raises 401 and 403 problems."""
+        services: Services = connection.app.state.services
+        credential = identities.credential_of(connection)
+        if credential is not None:
+            identities.check_request(connection, credential, services.settings)
+        return identities.require(await optional_identity(connection), self.role)
+
+
+require_viewer = RequireRole(Role.VIEWER)
+require_operator = RequireRole(Role.OPERATOR)
+require_engineer = RequireRole(Role.ENGINEER)
+require_admin = RequireRole(Role.ADMIN)
+
+ServicesDep = Annotated[Services, Depends(services_of)]
+SettingsDep = Annotated[ServerSettings, Depends(settings_of)]
+DatabaseDep = Annotated[Database, Depends(database_of)]
+MaybeIdentity = Annotated[Identity | None, Depends(optional_identity)]
+Viewer = Annotated[Identity, Depends(require_viewer)]
+Operator = Annotated[Identity, Depends(require_operator)]
+Engineer = Annotated[Identity, Depends(require_engineer)]
+Admin = Annotated[Identity, Depends(require_admin)]

@@ -1,0 +1,88 @@
+"""The OpenAPI document, with the shapes of the WebSocket messages too. Run as a module to print it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import TypeAdapter
+
+from tappet.project.model import ProjectObject
+from tappet.server.problems import MEDIA_TYPE
+from tappet.server.schemas.base import ProblemDetails
+from tappet.server.schemas.events import EventMessage, OpenObject
+from tappet.server.schemas.online import ClientMessage, ServerMessage
+
+_REF = "#/components/schemas/{model}"
+_PROBLEM = {
+    "description": "The request was refused",
+    "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/ProblemDetails"}}},
+}
+PROBLEM_RESPONSES: dict[int | str, dict[str, Any]] = {"default": _PROBLEM, 422: _PROBLEM}
+"""Responses of all routes."""
+SOCKET_SHAPES: dict[str, Any] = {
+    "ProblemDetails": ProblemDetails,
+    "OnlineClientMessage": ClientMessage,
+    "OnlineServerMessage": ServerMessage,
+    "EventClientMessage": OpenObject,
+    "EventServerMessage": EventMessage,
+    "AnyProjectObject": ProjectObject,
+}
+"""Shapes that no REST route mentions, by the name the client knows them under."""
+
+
+def _extra_schemas() -> dict[str, Any]:
+    schemas: dict[str, Any] = {}
+    for name, shape in SOCKET_SHAPES.items():
+        schema = TypeAdapter(shape).json_schema(
+            ref_template=_REF, mode="validation" if "Client" in name else "serialization"
+        )
+        schemas.update(schema.pop("$defs", {}))
+        schemas.setdefault(name, schema)
+    return schemas
+
+
+def document(app: FastAPI) -> dict[str, Any]:
+    """The whole document."""
+    result = get_openapi(
+        title=app.title, version=app.version, summary=app.summary, routes=app.routes, openapi_version="3.1.0"
+    )
+    components = result.setdefault("components", {})
+    schemas = components.setdefault("schemas", {})
+    for name, schema in _extra_schemas().items():
+        schemas.setdefault(name, schema)
+    for unused in ("HTTPValidationError", "ValidationError"):
+        schemas.pop(unused, None)
+    components["schemas"] = dict(sorted(schemas.items()))
+    components["securitySchemes"] = {
+        "session": {"type": "apiKey", "in": "cookie", "name": "tappet_session"},
+        "token": {"type": "http", "scheme": "bearer"},
+    }
+    result["security"] = [{"session": []}, {"token": []}]
+    return result
+
+
+def install(app: FastAPI) -> None:
+    """Makes `app` serve this document."""
+
+    def cached() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            app.openapi_schema = document(app)
+        return app.openapi_schema
+
+    app.openapi = cached  # type: ignore[method-assign]
+
+
+def text(app: FastAPI) -> str:
+    """The document as it is kept in the front end: sorted, one line per value, so that diffs read well."""
+    return json.dumps(document(app), indent=2, ensure_ascii=False, sort_keys=True) + "\n"
+
+
+if __name__ == "__main__":
+    from tappet.server.app import create_app
+    from tappet.server.settings import ServerSettings
+
+    sys.stdout.write(text(create_app(ServerSettings())))

@@ -1,0 +1,84 @@
+"""Messages of the WebSocket `/api/v1/online`.
+
+Samples are binary frames, little endian: u32 subscription, u32 flags (0), u64 cycle, i64 nanoseconds since
+1970, then the values as raw bytes at the offsets of the `subscribed` message, counted from the frame's begin.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tappet.server.schemas.base import Reply, Request
+from tappet.server.schemas.runtimes import RuntimeState
+from tappet.server.schemas.values import MAX_EXPRESSIONS, Expression
+
+HEADER_BYTES = 24
+"""Bytes of a frame before its values."""
+SubscriptionId = Annotated[int, Field(ge=0, le=0xFFFFFFFF, strict=True)]
+
+
+class Subscribe(Request):
+    """Ask for values; a second one with the same id replaces the first."""
+
+    op: Literal["subscribe"]
+    id: SubscriptionId
+    expressions: Annotated[list[Expression], Field(max_length=MAX_EXPRESSIONS)]
+    interval_ms: Annotated[int, Field(ge=10, le=60_000)] = 100
+
+
+class Unsubscribe(Request):
+    """End a subscription."""
+
+    op: Literal["unsubscribe"]
+    id: SubscriptionId
+
+
+ClientMessage = Annotated[Subscribe | Unsubscribe, Field(discriminator="op")]
+
+
+class Item(Reply):
+    """How to read one value of the frames; `kind` is `error` when there is none."""
+
+    expression: str
+    offset: int = Field(description="Bytes from the beginning of the frame.")
+    size: int
+    type: str
+    kind: str = Field(description="bool bits int uint real time date ... enum string wstring error.")
+    enum: dict[str, int] | None = None
+    bit: int | None = None
+    error: str | None = None
+
+
+class Subscribed(Reply):
+    """The layout of the frames that follow; sent again when it changes (download, reconnection)."""
+
+    op: Literal["subscribed"] = "subscribed"
+    id: int
+    items: list[Item]
+    renewed: bool = Field(default=False, description="Set up again after a lost connection or a download.")
+
+
+class StateChanged(RuntimeState):
+    """The runtime's state; the first message after opening, then at every change."""
+
+    op: Literal["state"] = "state"
+
+
+class ForcesChanged(Reply):
+    """All forced variables."""
+
+    op: Literal["forces"] = "forces"
+    expressions: list[str]
+
+
+class OnlineError(Reply):
+    """A message that could not be served; the connection stays open."""
+
+    op: Literal["error"] = "error"
+    id: int | None = None
+    detail: str
+
+
+ServerMessage = Annotated[Subscribed | StateChanged | ForcesChanged | OnlineError, Field(discriminator="op")]

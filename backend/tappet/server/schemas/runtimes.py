@@ -1,0 +1,107 @@
+"""Runtimes: soft PLCs this server is connected to."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, StringConstraints
+
+from tappet.server.schemas.base import Reply, Request
+
+RuntimeName = Annotated[str, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
+RuntimeUrl = Annotated[str, StringConstraints(pattern=r"^wss?://[^\s/?#]+(/[^\s]*)?$", max_length=500)]
+Activity = Literal["empty", "stop", "run", "exception"]
+
+
+class NewRuntime(Request):
+    """A runtime to connect to."""
+
+    name: RuntimeName
+    url: RuntimeUrl = Field(description="`ws://host:port` or `wss://...` of a running `tappet runtime`.")
+    token: Annotated[str, StringConstraints(max_length=500)] = Field(
+        description="The access token that runtime printed."
+    )
+
+
+class CallFrame(Reply):
+    """One level of the call stack."""
+
+    pou: str
+    uri: str | None
+    line: int | None = Field(description="From 1, in the text that the compiler read.")
+
+
+class RuntimeException(Reply):
+    """Why an application stopped."""
+
+    code: int | str
+    message: str
+    task: str
+    pou: str | None
+    line: int | None = Field(description="From 1, in declaration and implementation taken together.")
+    uri: str | None = None
+    call_stack: list[CallFrame] = Field(default_factory=list)
+    values: dict[str, Any] = Field(default_factory=dict)
+
+
+class RuntimeState(Reply):
+    """A runtime as it is now; while not connected, `since` says since when and the rest is the last known."""
+
+    id: str
+    name: str
+    url: str
+    connected: bool
+    since: datetime | None = Field(description="Since when it is connected, or not.")
+    state: Activity | None
+    application: str | None
+    code_id: str | None
+    data_id: str | None
+    exception: RuntimeException | None
+    scheduling: str | None = Field(description="Real-time class the runtime got, and what it misses.")
+    problem: str | None = Field(default=None, description="Why there is no connection.")
+
+
+class ResetOrder(Request):
+    """How much to initialise."""
+
+    kind: Literal["warm", "cold", "origin"]
+
+
+class TaskState(Reply):
+    """Statistics of one task; times in µs."""
+
+    name: str
+    kind: str | None = None
+    priority: int | None = None
+    status: str | None = None
+    interval_us: float | None = None
+    cycles: int = 0
+    last_us: float | None = None
+    mean_us: float | None = None
+    min_us: float | None = None
+    max_us: float | None = None
+    jitter_us: float | None = Field(default=None, description="Last lateness against the ideal start.")
+    min_jitter_us: float | None = None
+    max_jitter_us: float | None = None
+    overruns: int | None = None
+
+
+class LogEntry(Reply):
+    """One line of a runtime's log."""
+
+    id: int
+    at: datetime
+    severity: str
+    component: str
+    message: str
+
+
+class Symbol(Reply):
+    """A variable or a group of variables below a path."""
+
+    name: str
+    path: str
+    type: str
+    kind: str
+    leaf: bool
