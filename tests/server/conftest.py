@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, HOST, PASSWORD, ROLES, browser, open_engine, script
+from server_clients import CHEAP, HOST, PASSWORD, ROLES, browser, script
 
 from tappet.server.app import create_app
 from tappet.server.services import Services
@@ -22,7 +22,7 @@ def settings(tmp_path: Path) -> ServerSettings:
 
 @pytest.fixture
 def app(settings: ServerSettings) -> Iterator[FastAPI]:
-    app = create_app(settings, open_engine)
+    app = create_app(settings)
     with TestClient(app, base_url=HOST):
         yield app
 

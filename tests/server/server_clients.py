@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from sqlalchemy import Engine, create_engine
 
-from tappet.server import tables
 from tappet.server.auth.passwords import HashCost
 
 HOST = "http://127.0.0.1:8080"
@@ -26,10 +24,3 @@ def browser(app: FastAPI) -> TestClient:
 def script(app: FastAPI, token: str) -> TestClient:
     """A program with a bearer token."""
     return TestClient(app, base_url=HOST, headers={"Authorization": f"Bearer {token}"})
-
-
-def open_engine(url: str) -> Engine:
-    """A database with the server's tables."""
-    engine = create_engine(url)
-    tables.metadata.create_all(engine)
-    return engine

@@ -9,7 +9,7 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from hypothesis import given
 from hypothesis import strategies as st
-from server_clients import HOST, PAGE, open_engine
+from server_clients import HOST, PAGE
 from starlette.requests import HTTPConnection
 
 from tappet.server.app import create_app
@@ -83,7 +83,6 @@ def test_loopback_names_pass(app: FastAPI, host: str) -> None:
 def test_configured_names_pass(settings: ServerSettings) -> None:
     named = create_app(
         replace(settings, host="0.0.0.0", allowed_hosts=("plc.plant",)),
-        open_engine,
     )
     with TestClient(named, base_url=HOST) as client:
         assert client.get("/api/v1/health", headers={"Host": "plc.plant"}).status_code == 200

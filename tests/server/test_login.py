@@ -7,7 +7,7 @@ from datetime import UTC, datetime, timedelta
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, HOST, PAGE, PASSWORD, browser, open_engine
+from server_clients import CHEAP, HOST, PAGE, PASSWORD, browser
 from sqlalchemy import select, update
 
 from tappet.server import tables
@@ -54,7 +54,7 @@ def test_weak_password_does_not_use_up_the_token(app: FastAPI, services: Service
 def test_token_is_gone_after_restart_with_accounts(
     app: FastAPI, admin: TestClient, settings: ServerSettings
 ) -> None:
-    again = create_app(settings, open_engine)
+    again = create_app(settings)
     with TestClient(again, base_url=HOST):
         assert again.state.services.first_account_token is None
 
@@ -70,9 +70,7 @@ def test_cookie_is_protected(app: FastAPI, admin: TestClient) -> None:
 
 
 def test_cookie_is_secure_behind_https(settings: ServerSettings) -> None:
-    secured = create_app(
-        ServerSettings(data_dir=settings.data_dir, password_cost=CHEAP, https=True), open_engine
-    )
+    secured = create_app(ServerSettings(data_dir=settings.data_dir, password_cost=CHEAP, https=True))
     with TestClient(secured, base_url=HOST):
         client = TestClient(
             secured, base_url="https://127.0.0.1:8080", headers={**PAGE, "Origin": "https://127.0.0.1:8080"}
@@ -85,7 +83,7 @@ def test_cookie_is_secure_behind_https(settings: ServerSettings) -> None:
 
 def test_session_secret_is_stored_as_digest_only(admin: TestClient, services: Services) -> None:
     secret = admin.cookies["tappet_session"]
-    stored = services.database.run(lambda db: db.scalars(select(tables.sessions.c.secret_digest)).all())
+    stored = services.database.write(lambda db: db.scalars(select(tables.sessions.c.secret_digest)).all())
     assert stored
     assert secret not in stored
 
@@ -111,7 +109,7 @@ def test_logout_ends_the_session(app: FastAPI, admin: TestClient) -> None:
 def test_sessions_expire(admin: TestClient, services: Services, column: str) -> None:
     assert admin.get("/api/v1/auth/me").status_code == 200
     old = datetime.now(UTC) - timedelta(days=8)
-    services.database.run(lambda db: db.execute(update(tables.sessions).values({column: old})))
+    services.database.write(lambda db: db.execute(update(tables.sessions).values({column: old})))
     assert admin.get("/api/v1/auth/me").status_code == 401
 
 
@@ -145,7 +143,7 @@ def test_a_right_password_frees_the_account_only(app: FastAPI, admin: TestClient
     for _ in range(3):
         _log_in(client, "wrong password")
     assert _log_in(client).status_code == 200
-    counts = services.database.run(
+    counts = services.database.write(
         lambda db: dict(db.execute(select(tables.login_failures.c.key, tables.login_failures.c.count)).all())
     )
     assert lockout.account_key("admin") not in counts

@@ -79,7 +79,7 @@ def test_token_secret_is_shown_once_and_stored_as_digest(admin: TestClient, serv
     ).json()
     assert made["secret"].startswith("tappet_")
     assert "secret" not in admin.get("/api/v1/auth/tokens").json()[0]
-    rows = services.database.run(
+    rows = services.database.write(
         lambda db: [dict(r) for r in db.execute(select(tables.api_tokens)).mappings()]
     )
     assert made["secret"] not in json.dumps(rows, default=str)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 from fastapi import APIRouter, FastAPI
 from fastapi.routing import APIRoute
-from sqlalchemy import Engine, create_engine
 from starlette.concurrency import run_in_threadpool
 from starlette.middleware import Middleware
 
@@ -39,17 +38,16 @@ def _operation_id(route: APIRoute) -> str:
     return route.name
 
 
-def create_app(settings: ServerSettings, open_engine: Callable[[str], Engine] = create_engine) -> FastAPI:
+def create_app(settings: ServerSettings) -> FastAPI:
     """The application for `settings`. Nothing is opened before its lifespan starts."""
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        engine = await run_in_threadpool(open_engine, settings.url)
-        app.state.services = await run_in_threadpool(open_services, settings, engine)
+        app.state.services = services = await run_in_threadpool(open_services, settings)
         try:
             yield
         finally:
-            engine.dispose()
+            await services.close()
 
     app = FastAPI(
         title="Tappet",

@@ -8,20 +8,33 @@ from typing import TypeVar
 from sqlalchemy import Connection, Engine
 from starlette.concurrency import run_in_threadpool
 
+from tappet.project.store.engine import WRITES
+
 T = TypeVar("T")
 
 
 class Database:
-    """The engine shared with the project store."""
+    """The engine shared with the project store. `work` is called in one transaction, which is committed
+    when it returns and rolled back when it raises."""
 
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
+        self._writing = engine.execution_options(**{WRITES: True})
 
-    def run(self, work: Callable[[Connection], T]) -> T:
-        """Calls `work` in one transaction: committed on return, rolled back on an exception. Blocks."""
+    def read(self, work: Callable[[Connection], T]) -> T:
+        """Calls `work`, which must not write. Blocks."""
         with self.engine.begin() as connection:
             return work(connection)
 
-    async def run_async(self, work: Callable[[Connection], T]) -> T:
-        """`run` on a thread, for coroutines."""
-        return await run_in_threadpool(self.run, work)
+    def write(self, work: Callable[[Connection], T]) -> T:
+        """Calls `work`, which may write; SQLite lets one such call run at a time. Blocks."""
+        with self._writing.begin() as connection:
+            return work(connection)
+
+    async def read_async(self, work: Callable[[Connection], T]) -> T:
+        """`read` on a thread, for coroutines."""
+        return await run_in_threadpool(self.read, work)
+
+    async def write_async(self, work: Callable[[Connection], T]) -> T:
+        """`write` on a thread, for coroutines."""
+        return await run_in_threadpool(self.write, work)

@@ -44,7 +44,7 @@ async def optional_identity(connection: HTTPConnection) -> Identity | None:
         return None
     address = identities.client_address(connection)
     return await run_in_threadpool(
-        services.database.run, lambda db: identities.resolve(db, credential, address, services.settings)
+        identities.resolve, services.database, credential, address, services.settings
     )
 
 

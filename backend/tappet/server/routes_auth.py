@@ -58,7 +58,7 @@ def _welcome(services: Services, response: Response, logged_in: LoggedIn, addres
     sessions.set_cookie(response, logged_in.secret, services.settings)
     account = logged_in.account
     who = Identity(account.id, account.username, account.role, address)
-    return services.database.run(lambda db: _me(db, who))
+    return services.database.read(lambda db: _me(db, who))
 
 
 def _refuse_foreign_page(request: Request, settings: ServerSettings) -> None:
@@ -75,7 +75,7 @@ def status(services: ServicesDep, who: MaybeIdentity) -> AuthStatus:
         me = _me(db, who) if who is not None else None
         return AuthStatus(first_account_needed=accounts.count(db) == 0, authenticated=me is not None, user=me)
 
-    return services.database.run(read)
+    return services.database.read(read)
 
 
 @router.post("/login")
@@ -134,14 +134,14 @@ def logout(
             sessions.end(db, secret)
             audit.record(db, who, Act("logout", who.username))
 
-    database.run(end)
+    database.write(end)
     sessions.clear_cookie(response, settings)
 
 
 @router.get("/me")
 def me(who: Viewer, database: DatabaseDep) -> Me:
     """The user behind this request."""
-    return database.run(lambda db: _me(db, who))
+    return database.read(lambda db: _me(db, who))
 
 
 @router.post("/password", status_code=204)
@@ -158,7 +158,7 @@ def list_tokens(who: Viewer, database: DatabaseDep) -> list[Token]:
     """One's own tokens, without their secrets."""
     return [
         Token.model_validate(t, from_attributes=True)
-        for t in database.run(lambda db: tokens.of_user(db, who.user_id))
+        for t in database.read(lambda db: tokens.of_user(db, who.user_id))
     ]
 
 
@@ -177,7 +177,7 @@ def create_token(body: NewToken, who: Viewer, database: DatabaseDep) -> IssuedTo
         audit.record(db, who, Act("token-created", body.name, new_value=body.role.value))
         return IssuedToken(**Token.model_validate(token, from_attributes=True).model_dump(), secret=secret)
 
-    return database.run(issue)
+    return database.write(issue)
 
 
 @router.delete("/tokens/{token_id}", status_code=204)
@@ -188,4 +188,4 @@ def revoke_token(token_id: str, who: Viewer, database: DatabaseDep) -> None:
         name = tokens.revoke(db, who.user_id, token_id)
         audit.record(db, who, Act("token-revoked", name))
 
-    database.run(revoke)
+    database.write(revoke)

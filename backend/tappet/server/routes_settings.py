@@ -19,7 +19,7 @@ Key = Annotated[
 @router.get("/{key}")
 def read_setting(key: Key, who: Viewer, database: DatabaseDep) -> JsonValue:
     """A setting of one's own as the JSON that was stored; null when never set."""
-    value: JsonValue = database.run(lambda db: personal_settings.get(db, who.user_id, key))
+    value: JsonValue = database.read(lambda db: personal_settings.get(db, who.user_id, key))
     return value
 
 
@@ -28,5 +28,5 @@ def write_setting(
     key: Key, who: Viewer, database: DatabaseDep, body: Annotated[JsonValue, Body()] = None
 ) -> JsonValue:
     """Store any JSON, at most 256 KiB, as a setting of one's own."""
-    database.run(lambda db: personal_settings.put(db, who.user_id, key, body))
+    database.write(lambda db: personal_settings.put(db, who.user_id, key, body))
     return body

@@ -34,7 +34,7 @@ def _user(account: Account) -> User:
 @router.get("/users")
 def list_users(who: Admin, database: DatabaseDep) -> list[User]:
     """All accounts by name."""
-    return [_user(account) for account in database.run(accounts.all_accounts)]
+    return [_user(account) for account in database.read(accounts.all_accounts)]
 
 
 @router.post("/users", status_code=201)
@@ -48,7 +48,7 @@ def create_user(body: NewUser, who: Admin, services: ServicesDep) -> User:
         audit.record(db, who, Act("user-created", account.username, new_value=account.role.value))
         return _user(account)
 
-    return services.database.run(create)
+    return services.database.write(create)
 
 
 @router.patch("/users/{user_id}")
@@ -56,7 +56,7 @@ def change_user(user_id: str, body: UserChange, who: Admin, services: ServicesDe
     """Change role or password, or disable an account; its sessions end."""
     encoded = None
     if body.password is not None:
-        account = services.database.run(lambda db: accounts.by_id(db, user_id))
+        account = services.database.read(lambda db: accounts.by_id(db, user_id))
         accounts.check_password(body.password, account.username)
         encoded = services.passwords.hash(body.password)
 
@@ -70,7 +70,7 @@ def change_user(user_id: str, body: UserChange, who: Admin, services: ServicesDe
             audit.record(db, who, Act("user-changed", old.username, _summary(old), _summary(new)))
         return _user(accounts.by_id(db, user_id))
 
-    return services.database.run(change)
+    return services.database.write(change)
 
 
 @router.delete("/users/{user_id}", status_code=204)
@@ -86,7 +86,7 @@ def delete_user(user_id: str, who: Admin, database: DatabaseDep) -> None:
         accounts.remove(db, account)
         audit.record(db, who, Act("user-deleted", account.username, old_value=account.role.value))
 
-    database.run(delete)
+    database.write(delete)
 
 
 @router.get("/audit")
@@ -98,7 +98,7 @@ def read_audit(
     action: Annotated[str | None, Query(max_length=40)] = None,
 ) -> list[AuditEntry]:
     """What was done by whom, newest first."""
-    rows = database.run(lambda db: audit.read(db, limit, before, action))
+    rows = database.read(lambda db: audit.read(db, limit, before, action))
     return [AuditEntry.model_validate(row) for row in rows]
 
 

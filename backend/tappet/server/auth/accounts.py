@@ -11,7 +11,7 @@ from sqlalchemy import Connection, Row, delete, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from tappet.server.auth import passwords
-from tappet.server.auth.passwords import Passwords, WeakPasswordError
+from tappet.server.auth.passwords import WeakPasswordError
 from tappet.server.auth.roles import Role
 from tappet.server.problems import Problem, not_found
 from tappet.server.tables import api_tokens, sessions, users
@@ -107,18 +107,6 @@ def create(db: Connection, username: str, password_hash: str | None, role: Role,
     except IntegrityError:
         raise Problem(409, "name-taken", f"There already is a user '{username}'.") from None
     return by_id(db, user_id)
-
-
-def authenticate(db: Connection, hasher: Passwords, username: str, password: str) -> Account | None:
-    """The account when name and password match and it is not disabled; equally slow in all cases."""
-    account = by_name(db, username)
-    matches = hasher.verify(account.password_hash if account else None, password)
-    if not matches or account is None or account.disabled:
-        return None
-    assert account.password_hash is not None
-    if hasher.outdated(account.password_hash):
-        set_password(db, account.id, hasher.hash(password), keep_session=None, end_sessions=False)
-    return account
 
 
 def set_password(

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from sqlalchemy import Connection
 from starlette.requests import HTTPConnection
 
 from tappet.server.auth import origin, sessions, tokens
 from tappet.server.auth.roles import Role
+from tappet.server.database import Database
 from tappet.server.problems import Problem
 from tappet.server.settings import ServerSettings
 
@@ -54,22 +54,22 @@ def credential_of(connection: HTTPConnection) -> Credential | None:
 
 
 def resolve(
-    db: Connection,
-    credential: Credential,
-    address: str,
-    settings: ServerSettings,
-    now: datetime | None = None,
+    database: Database, credential: Credential, address: str, settings: ServerSettings
 ) -> Identity | None:
-    """Who the credential stands for now; None when it no longer does."""
-    now = now or datetime.now(UTC)
+    """Who the credential stands for now; None when it no longer does. Blocks for the database."""
+    now = datetime.now(UTC)
     if credential.bearer:
-        token = tokens.find(db, credential.secret, now)
+        token = database.read(lambda db: tokens.find(db, credential.secret, now))
         if token is None:
             return None
+        if token.touch_due:
+            database.write(lambda db: tokens.touch(db, token.id, now))
         return Identity(token.user_id, token.username, token.role, address, token_id=token.id)
-    session = sessions.find(db, credential.secret, settings, now)
+    session = database.read(lambda db: sessions.find(db, credential.secret, settings, now))
     if session is None:
         return None
+    if session.touch_due:
+        database.write(lambda db: sessions.touch(db, session.id, now))
     return Identity(session.user_id, session.username, session.role, address, session_id=session.id)
 
 

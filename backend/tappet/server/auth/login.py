@@ -53,25 +53,28 @@ class Login:
         keys = [lockout.account_key(username), lockout.address_key(client.address)]
         self._attempt(keys, username, client)
 
-        def check(db: Connection) -> LoggedIn | None:
-            account = accounts.authenticate(db, self._passwords, username, password)
-            if account is None:
-                audit.write(db, username, client.address, Act("login-failed", username))
-                return None
+        account = self._database.read(lambda db: accounts.by_name(db, username))
+        matches = self._passwords.verify(account.password_hash if account else None, password)
+        if account is None or account.disabled or not matches:
+            act = Act("login-failed", username)
+            self._database.write(lambda db: audit.write(db, username, client.address, act))
+            raise Problem(401, "login-failed", "User name or password is wrong.")
+        renewed = self._passwords.hash(password) if self._passwords.outdated(account.password_hash) else None
+
+        def start(db: Connection) -> LoggedIn:
             lockout.succeeded(db, keys)
+            if renewed is not None:
+                accounts.set_password(db, account.id, renewed, end_sessions=False)
             return self._start(db, account, client, "password")
 
-        result = self._database.run(check)
-        if result is None:
-            raise Problem(401, "login-failed", "User name or password is wrong.")
-        return result
+        return self._database.write(start)
 
     def create_first(self, token: str, username: str, password: str, client: Client) -> LoggedIn:
         """The first administrator. Raises 403 for a wrong or used token, 422 for an unfit password."""
         keys = [lockout.address_key(client.address)]
         self._attempt(keys, username, client)
         if not self._secrets.matches(FIRST_ACCOUNT, token):
-            self._database.run(
+            self._database.write(
                 lambda db: audit.write(db, username, client.address, Act("first-account-refused", username))
             )
             raise Problem(
@@ -90,7 +93,7 @@ class Login:
             audit.write(db, username, client.address, Act("user-created", username, new_value="admin"))
             return self._start(db, account, client, "first account")
 
-        return self._database.run(create)
+        return self._database.write(create)
 
     def by_link(self, token: str, client: Client) -> LoggedIn:
         """A login as the local user by a one-time link. Raises a 403 problem."""
@@ -110,27 +113,26 @@ class Login:
             lockout.succeeded(db, keys)
             return self._start(db, account, client, "local link")
 
-        return self._database.run(start)
+        return self._database.write(start)
 
     def change_own_password(self, who: Identity, current: str, new: str) -> None:
         """Sets a password after checking the current one, where there is one. Raises a 403 problem."""
         keys = [lockout.account_key(who.username), lockout.address_key(who.address)]
         client = Client(who.address, "")
         self._attempt(keys, who.username, client)
+        account = self._database.read(lambda db: accounts.by_id(db, who.user_id))
+        if account.has_password and not self._passwords.verify(account.password_hash, current):
+            act = Act("password-change-refused", who.username)
+            self._database.write(lambda db: audit.record(db, who, act))
+            raise Problem(403, "wrong-password", "The current password is wrong.")
         encoded = self._passwords.hash(new)
 
-        def change(db: Connection) -> bool:
-            account = accounts.by_id(db, who.user_id)
-            if account.has_password and not self._passwords.verify(account.password_hash, current):
-                audit.record(db, who, Act("password-change-refused", who.username))
-                return False
+        def change(db: Connection) -> None:
             lockout.succeeded(db, keys)
             accounts.set_password(db, who.user_id, encoded, keep_session=who.session_id)
             audit.record(db, who, Act("password-set", who.username))
-            return True
 
-        if not self._database.run(change):
-            raise Problem(403, "wrong-password", "The current password is wrong.")
+        self._database.write(change)
 
     def ensure_local_user(self) -> None:
         """Makes the account of local links; whoever starts the server owns its data directory anyway."""
@@ -140,13 +142,13 @@ class Login:
                 accounts.create(db, accounts.LOCAL_USER, None, Role.ADMIN, datetime.now(UTC))
                 audit.write(db, accounts.LOCAL_USER, "console", Act("user-created", accounts.LOCAL_USER))
 
-        self._database.run(ensure)
+        self._database.write(ensure)
 
     def _attempt(self, keys: list[str], username: str, client: Client) -> None:
         now = datetime.now(UTC)
-        pause = self._database.run(lambda db: lockout.attempt(db, keys, now))
+        pause = self._database.write(lambda db: lockout.attempt(db, keys, now))
         if pause:
-            self._database.run(
+            self._database.write(
                 lambda db: audit.write(db, username, client.address, Act("login-locked-out", username))
             )
             seconds = max(1, round(pause.total_seconds()))

@@ -61,9 +61,9 @@ class Passwords:
                 return False
             return matches and encoded is not None
 
-    def outdated(self, encoded: str) -> bool:
+    def outdated(self, encoded: str | None) -> bool:
         """Whether the hash was made at another cost and should be made anew."""
-        return self._hasher.check_needs_rehash(encoded)
+        return encoded is not None and self._hasher.check_needs_rehash(encoded)
 
 
 def _normal(password: str) -> str:

@@ -27,6 +27,8 @@ class Session:
     user_id: str
     username: str
     role: Role
+    touch_due: bool
+    """Whether the last use has to be written down anew."""
 
 
 def start(db: Connection, user_id: str, address: str, browser: str, now: datetime) -> str:
@@ -48,7 +50,7 @@ def start(db: Connection, user_id: str, address: str, browser: str, now: datetim
 
 
 def find(db: Connection, secret: str, settings: ServerSettings, now: datetime) -> Session | None:
-    """The live session of a cookie; None when unknown, ended or its user is disabled."""
+    """The live session of a cookie; None when unknown, ended or its user is disabled. Only reads."""
     query = (
         select(
             sessions.c.id,
@@ -66,11 +68,13 @@ def find(db: Connection, secret: str, settings: ServerSettings, now: datetime) -
         return None
     session_id, created, seen, user_id, username, role = row
     if now - seen > settings.session_idle or now - created > settings.session_lifetime:
-        db.execute(delete(sessions).where(sessions.c.id == session_id))
         return None
-    if now - seen > SEEN_STEP:
-        db.execute(update(sessions).where(sessions.c.id == session_id).values(seen_at=now))
-    return Session(session_id, user_id, username, Role(role))
+    return Session(session_id, user_id, username, Role(role), now - seen > SEEN_STEP)
+
+
+def touch(db: Connection, session_id: str, now: datetime) -> None:
+    """Writes down that the session was used."""
+    db.execute(update(sessions).where(sessions.c.id == session_id).values(seen_at=now))
 
 
 def end(db: Connection, secret: str) -> None:

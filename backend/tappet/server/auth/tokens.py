@@ -39,6 +39,8 @@ class TokenUse:
     user_id: str
     username: str
     role: Role
+    touch_due: bool
+    """Whether the last use has to be written down anew."""
 
 
 def issue(
@@ -80,7 +82,7 @@ def revoke(db: Connection, user_id: str, token_id: str) -> str:
 
 
 def find(db: Connection, secret: str, now: datetime) -> TokenUse | None:
-    """Who presents `secret`; None when unknown, expired or the user is disabled."""
+    """Who presents `secret`; None when unknown, expired or the user is disabled. Only reads."""
     c = api_tokens.c
     row = db.execute(
         select(c.id, c.role, c.used_at, c.expires_at, users.c.id, users.c.username, users.c.role)
@@ -92,6 +94,10 @@ def find(db: Connection, secret: str, now: datetime) -> TokenUse | None:
     token_id, role, used_at, expires_at, user_id, username, user_role = row
     if expires_at is not None and expires_at < now:
         return None
-    if used_at is None or now - used_at > USED_STEP:
-        db.execute(update(api_tokens).where(c.id == token_id).values(used_at=now))
-    return TokenUse(token_id, user_id, username, Role(role).at_most(Role(user_role)))
+    touch_due = used_at is None or now - used_at > USED_STEP
+    return TokenUse(token_id, user_id, username, Role(role).at_most(Role(user_role)), touch_due)
+
+
+def touch(db: Connection, token_id: str, now: datetime) -> None:
+    """Writes down that the token was used."""
+    db.execute(update(api_tokens).where(api_tokens.c.id == token_id).values(used_at=now))
