@@ -1,0 +1,50 @@
+"""Text to syntax tree: a recursive-descent parser that takes any text and never raises.
+
+The parts build on each other: `parser_core` (tokens, errors, recovery), `parser_expressions`,
+`parser_statements`, `parser_types` (types and variables), `parser_declarations` (objects).
+A body in another textual language is one more reader of `Parser`, chosen where `_members` reads statements.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tappet.lang import ast
+from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.lexer import lex
+from tappet.lang.parser_declarations import Parser
+from tappet.lang.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class ParseResult:
+    """The tree of a text, complete as far as it could be read, and what was wrong, in order of the text."""
+
+    unit: ast.Unit
+    diagnostics: list[Diagnostic]
+
+
+def parse(source: Source) -> ParseResult:
+    """Parse a whole text. Time grows linearly with its length."""
+    lexed = lex(source.text, source.uri)
+    parser = Parser(source, lexed)
+    unit = parser.unit()
+    found = lexed.diagnostics + parser.diagnostics
+    found.sort(key=_place)
+    return ParseResult(unit, found)
+
+
+def parse_expression(text: str, uri: str = "") -> tuple[ast.Expr, list[Diagnostic]]:
+    """One expression that fills the whole text, as a watch list or a condition has it."""
+    lexed = lex(text, uri)
+    parser = Parser(Source(uri, text), lexed)
+    expression = parser.expression()
+    if parser.kinds[parser.i] != "end":
+        parser.expected("The end of the expression", "Remove the rest.")
+    found = lexed.diagnostics + parser.diagnostics
+    found.sort(key=_place)
+    return expression, found
+
+
+def _place(item: Diagnostic) -> tuple[int, int]:
+    return item.span.line, item.span.column

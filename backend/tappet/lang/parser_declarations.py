@@ -1,0 +1,378 @@
+"""Objects: POUs with their methods, actions and properties, interfaces, global variable lists."""
+
+from __future__ import annotations
+
+from pathlib import PurePosixPath
+from typing import Final
+
+from tappet.lang import ast
+from tappet.lang.lexer import END, ID
+from tappet.lang.parser_core import BODY_END, CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS, Opener
+from tappet.lang.parser_types import TypeParser
+
+_ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
+_MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
+_GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
+_HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
+_TYPED: Final = frozenset(["FUNCTION", "METHOD"])
+
+
+class Parser(TypeParser):
+    """Reads a whole text."""
+
+    __slots__ = ()
+
+    def unit(self) -> ast.Unit:
+        """Everything the text declares."""
+        out: list[ast.Declaration] = []
+        kinds = self.kinds
+        source = self.source
+        bare = source.name is not None and source.owner is not None
+        if bare and kinds[0] not in OBJECT_HEADS and not self._begins_accessor():
+            out.append(self._bare_action())
+        while True:
+            kind = kinds[self.i]
+            if kind is END:
+                break
+            if kind in POU_HEADS:
+                out.append(self.pou(kind))
+            elif kind in _GLOBAL_SECTIONS:
+                self._global_list(out)
+            elif kind == "TYPE":
+                out.extend(self.type_block())
+            elif kind in CHILD_HEADS:
+                self._child(out, kind)
+            elif kind == "INTERFACE":
+                out.append(self.interface())
+            elif kind == ";":
+                self.i += 1
+            else:
+                self._no_declaration(kind)
+        self._name_global_list(out)
+        return ast.Unit(span=self.span_from(0), source=source, declarations=out)
+
+    def _begins_accessor(self) -> bool:
+        return self.word() in ("GET", "SET")
+
+    def _bare_action(self) -> ast.Pou:
+        """The body of an action whose head is not in the text."""
+        action = ast.Pou(name=self.source.name or "", kind="ACTION", source=self.source)
+        self._members(action, ("ACTION", 0))
+        action.span = self.span_from(0)
+        return action
+
+    def _no_declaration(self, kind: str) -> None:
+        """Report what begins no object, and go to what does."""
+        if kind in ENDS.values() or kind == "END_VAR":
+            self.error("E0106", found=kind, hint="Remove it or write the beginning it closes.")
+        else:
+            self.error("E0108", found=self.found())
+        kinds = self.kinds
+        i = self.i + 1
+        while kinds[i] is not END and kinds[i] not in OBJECT_HEADS and kinds[i] not in _GLOBAL_SECTIONS:
+            i += 1
+        self.i = i
+
+    def _child(self, out: list[ast.Declaration], kind: str) -> None:
+        """A method, action or property outside a block: in a text of its own, or of the block before it."""
+        child: ast.Pou | ast.Property = self.property() if kind == "PROPERTY" else self.pou(kind)
+        before = next((item for item in reversed(out) if isinstance(item, ast.Pou)), None)
+        if (
+            self.source.owner is None
+            and before is not None
+            and before.kind in _HOLDERS
+            and before.owner is None
+        ):
+            _adopt(before, child)
+        else:
+            out.append(child)
+
+    # -- global lists
+
+    def _global_list(self, out: list[ast.Declaration]) -> None:
+        start = self.i
+        first = next((item for item in out if isinstance(item, ast.GlobalList)), None)
+        attributes = self.attributes_before(start)
+        comment = self.comment_above(start)
+        block = self.variable_block()
+        if first is not None:
+            first.blocks.append(block)
+            first.span = first.span.to(block.span)
+            return
+        out.append(
+            ast.GlobalList(
+                span=block.span,
+                name=self.source.name or "",
+                name_span=self.span_at(start),
+                source=self.source,
+                attributes=attributes,
+                comment=comment,
+                blocks=[block],
+            )
+        )
+
+    def _name_global_list(self, out: list[ast.Declaration]) -> None:
+        """A list without an object name gets the one of its file; other objects of the file keep theirs."""
+        for item in out:
+            if isinstance(item, ast.GlobalList) and not item.name:
+                stem = PurePosixPath(self.source.uri.replace("\\", "/")).name
+                stem = stem[:-3] if stem.lower().endswith(".st") else stem
+                name = (
+                    "".join(char if char.isascii() and char.isalnum() else "_" for char in stem) or "Globals"
+                )
+                taken = any(other.name.upper() == name.upper() for other in out if other is not item)
+                item.name = f"{name}_Globals" if taken else name
+
+    # -- POUs
+
+    def pou(self, kind: str, owner: ast.Pou | ast.Interface | None = None) -> ast.Pou:
+        """A POU, method, action or transition; stands at the keyword `kind`."""
+        start = self.i
+        opener = (kind, self.lines[start])
+        self.i = start + 1
+        access, modifiers = self._access()
+        name, name_span = self.name(kind.lower().replace("_", " "))
+        pou = ast.Pou(
+            span=self.span_at(start),
+            name=name,
+            name_span=name_span,
+            source=self.source,
+            attributes=self.attributes_before(start),
+            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
+            kind=kind,
+            access=access,
+            modifiers=modifiers,
+            owner=owner if isinstance(owner, ast.Pou) else None,
+        )
+        self._heritage(pou)
+        if kind in _TYPED and self.kinds[self.i] == ":":
+            self.i += 1
+            pou.return_type = self.type_reference("return type")
+        elif kind in ("ACTION", "TRANSITION") and self.kinds[self.i] == ":":
+            self.i += 1
+        elif self.kinds[self.i] == ":":
+            hint = f"A {kind.lower().replace('_', ' ')} has no return type; use VAR_OUTPUT."
+            self.error("E0101", expected="A declaration", found="':'", hint=hint)
+            self.i += 1
+            self.type_reference()
+        if self.kinds[self.i] == ";":
+            self.i += 1
+        if self.failed_at == self.i:  # a faulty head: its rest is the rest of the line
+            while self.lines[self.i] == self.lines[start] and self.kinds[self.i] not in BODY_END:
+                self.i += 1
+        self.open.append(opener)
+        self._members(pou, opener)
+        self.open.pop()
+        self.close(opener)
+        pou.span = self.span_from(start)
+        return pou
+
+    def _access(self) -> tuple[str, set[str]]:
+        """Words before a name such as PRIVATE or ABSTRACT; such a word may also be the name itself."""
+        access = "PUBLIC"
+        modifiers: set[str] = set()
+        while self.kinds[self.i + 1] is ID if self.kinds[self.i] is ID else False:
+            word = self.word()
+            if word in _ACCESS:
+                access = word
+            elif word in _MODIFIERS:
+                modifiers.add(word)
+            else:
+                break
+            self.i += 1
+        return access, modifiers
+
+    def _heritage(self, pou: ast.Pou) -> None:
+        while self.word() in ("EXTENDS", "IMPLEMENTS"):
+            word = self.word()
+            self.i += 1
+            names = [self.qualified_name("base" if word == "EXTENDS" else "interface")]
+            while self.kinds[self.i] == ",":
+                self.i += 1
+                names.append(self.qualified_name("interface"))
+            if word == "IMPLEMENTS":
+                pou.implements += [name for name in names if name]
+            else:
+                pou.extends = names[0] or None
+
+    def _members(self, pou: ast.Pou, opener: Opener) -> None:
+        """Variables, statements and children up to the end of `pou`, in any order."""
+        kinds = self.kinds
+        end = ENDS[opener[0]]
+        begun = False  # whether a statement has been read
+        while True:
+            kind = kinds[self.i]
+            if kind == end or kind is END:
+                break
+            if kind in SECTIONS:
+                if begun:
+                    self.error("E0112", section=kind)
+                pou.blocks.append(self.variable_block())
+            elif kind in CHILD_HEADS and pou.kind in _HOLDERS:
+                _adopt(pou, self.property(pou) if kind == "PROPERTY" else self.pou(kind, pou))
+            elif kind in OBJECT_HEADS:
+                break
+            elif kind == "STRUCT" or kind == "UNION":
+                hint = "Declare the structure in a TYPE block."
+                self.error("E0114", what=f"A {kind}", where=opener[0], hint=hint)
+                self.i += 1
+                self.variables(ENDS[kind])
+                self._pass(ENDS[kind])
+            else:
+                at = self.i
+                body = self.statements()
+                pou.body += body
+                begun = begun or any(not isinstance(item, ast.PragmaStmt) for item in body)
+                if self.i == at and not self._foreign_end(kind):
+                    break
+
+    def _pass(self, kind: str) -> None:
+        if self.kinds[self.i] == kind:
+            self.i += 1
+
+    def _foreign_end(self, kind: str) -> bool:
+        """Step over an end keyword of something that was never begun, unless it is a slip of the own end."""
+        if kind in SECTIONS or kind in OBJECT_HEADS:
+            return True
+        if kind is END or kind not in ENDS.values():
+            return False
+        if any(ENDS[begin] == kind for begin, _ in self.open):
+            return False
+        following = self.kinds[self.i + 1]
+        if following is END or following in OBJECT_HEADS:
+            return False
+        self.error("E0106", found=kind, hint="Remove it or write the beginning it closes.")
+        self.i += 1
+        return True
+
+    # -- properties and interfaces
+
+    def property(self, owner: ast.Pou | ast.Interface | None = None) -> ast.Property:
+        """PROPERTY name : type GET ... END_GET SET ... END_SET END_PROPERTY."""
+        start = self.i
+        opener = ("PROPERTY", self.lines[start])
+        self.i = start + 1
+        access, modifiers = self._access()
+        name, name_span = self.name("property")
+        node = ast.Property(
+            span=self.span_at(start),
+            name=name,
+            name_span=name_span,
+            source=self.source,
+            attributes=self.attributes_before(start),
+            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
+            type_ref=None,
+            access=access,
+            modifiers=modifiers,
+        )
+        if self.take(":", "':' and a type", "Write 'PROPERTY name : type'."):
+            node.type_ref = self.type_reference()
+        if self.kinds[self.i] == ";":
+            self.i += 1
+        self.open.append(opener)
+        while True:
+            word = self.word()
+            if word == "GET" and node.getter is None:
+                node.getter = self._accessor("GET")
+            elif word == "SET" and node.setter is None:
+                node.setter = self._accessor("SET")
+            elif self.kinds[self.i] in SECTIONS:
+                hint = "Declare it in the GET or SET that uses it."
+                self.error("E0114", what="A variable", where="PROPERTY outside GET and SET", hint=hint)
+                self.variable_block()
+            else:
+                break
+        if self.kinds[self.i] not in BODY_END or self.kinds[self.i] == "END_VAR":
+            self.expected("GET, SET or END_PROPERTY", "Statements belong between GET and END_GET.")
+            kinds = self.kinds
+            while (
+                kinds[self.i] is not END
+                and kinds[self.i] not in OBJECT_HEADS
+                and kinds[self.i] != "END_PROPERTY"
+            ):
+                self.i += 1
+        self.open.pop()
+        self.close(opener)
+        node.span = self.span_from(start)
+        return node
+
+    def _accessor(self, word: str) -> ast.Accessor:
+        start = self.i
+        opener = (word, self.lines[start])
+        self.i = start + 1
+        self._access()
+        blocks: list[ast.VarBlock] = []
+        while self.kinds[self.i] in SECTIONS:
+            blocks.append(self.variable_block())
+        body: list[ast.Stmt] = []
+        if self.word() in ("GET", "SET") and self.kinds[self.i + 1] not in (":=", "(", ".", "["):
+            return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)  # a bare head
+        if self.kinds[self.i] == "END_PROPERTY":
+            return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)
+        self.open.append(opener)
+        while True:
+            at = self.i
+            body += self.statements()
+            if self.i == at and not self._foreign_end(self.kinds[at]):
+                break
+            if self.kinds[self.i] in SECTIONS or self.kinds[self.i] in OBJECT_HEADS:
+                break
+        self.open.pop()
+        self.close(opener)
+        return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)
+
+    def interface(self) -> ast.Interface:
+        """INTERFACE name EXTENDS a, b with the heads of methods and properties."""
+        start = self.i
+        opener = ("INTERFACE", self.lines[start])
+        self.i = start + 1
+        self._access()
+        name, name_span = self.name("interface")
+        node = ast.Interface(
+            span=self.span_at(start),
+            name=name,
+            name_span=name_span,
+            source=self.source,
+            attributes=self.attributes_before(start),
+            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
+        )
+        if self.word() == "EXTENDS":
+            self.i += 1
+            node.extends = [self.qualified_name("interface")]
+            while self.kinds[self.i] == ",":
+                self.i += 1
+                node.extends.append(self.qualified_name("interface"))
+            node.extends = [base for base in node.extends if base]
+        self.open.append(opener)
+        while True:
+            kind = self.kinds[self.i]
+            if kind == "METHOD":
+                node.methods.append(self.pou(kind, node))
+            elif kind == "PROPERTY":
+                node.properties.append(self.property(node))
+            elif kind == ";":
+                self.i += 1
+            elif kind in OBJECT_HEADS or kind in ENDS.values() or kind is END:
+                break
+            else:
+                hint = "An interface has heads of methods and properties only."
+                self.error("E0114", what=self.found(), where="INTERFACE", hint=hint)
+                kinds = self.kinds
+                while (
+                    kinds[self.i] is not END
+                    and kinds[self.i] not in OBJECT_HEADS
+                    and kinds[self.i] != "END_INTERFACE"
+                ):
+                    self.i += 1
+        self.open.pop()
+        self.close(opener)
+        node.span = self.span_from(start)
+        return node
+
+
+def _adopt(pou: ast.Pou, child: ast.Pou | ast.Property) -> None:
+    if isinstance(child, ast.Property):
+        pou.properties.append(child)
+        return
+    child.owner = pou
+    (pou.methods if child.kind == "METHOD" else pou.actions).append(child)
