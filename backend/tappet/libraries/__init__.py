@@ -1,0 +1,70 @@
+"""The IEC libraries that come with Tappet, written in ST, and the loader of their sources.
+
+One folder a library: `library.json` and one `.st` file a POU. May import lang. Start with `load`.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from tappet.lang.source import Scope, Source
+
+ROOT = Path(__file__).resolve().parent
+
+
+class UnknownLibraryError(LookupError):
+    """No library of this name, or not in this version, is installed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """An installed library with its sources."""
+
+    name: str
+    version: str
+    namespace: str
+    company: str
+    description: str
+    sources: tuple[Source, ...]
+
+
+def names() -> list[str]:
+    """Names of the installed libraries, sorted."""
+    return sorted(path.parent.name for path in ROOT.glob("*/library.json"))
+
+
+@cache
+def load(name: str, version: str = "*", namespace: str | None = None) -> Library:
+    """The library with its sources under `namespace` (its own unless given).
+
+    Raises UnknownLibraryError, with the names that are installed, when there is no such library or version.
+    """
+    by_name = {known.upper(): known for known in names()}
+    found = by_name.get(name.upper())
+    if found is None:
+        raise UnknownLibraryError(f"library '{name}' is not installed; installed are {', '.join(names())}")
+    folder = ROOT / found
+    facts = json.loads((folder / "library.json").read_text(encoding="utf-8"))
+    if version not in ("*", facts["version"]):
+        raise UnknownLibraryError(
+            f"library '{found}' is installed in version {facts['version']}, not {version}; "
+            "choose that version or * for the newest"
+        )
+    space = namespace or str(facts["namespace"])
+    sources = tuple(
+        Source(
+            uri=f"{found}/{path.stem}",
+            text=path.read_text(encoding="utf-8"),
+            scope=Scope.LIBRARY,
+            name=path.stem,
+            library=found,
+            namespace=space,
+        )
+        for path in sorted(folder.glob("*.st"))
+    )
+    return Library(
+        found, str(facts["version"]), space, str(facts["company"]), str(facts["description"]), sources
+    )
