@@ -18,6 +18,16 @@ from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
 START_LIMIT_S = 90.0
+CHROMIUM_FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-gl=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+]
 
 
 @dataclass
@@ -56,9 +66,8 @@ def browser() -> Iterator[Browser]:
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(
             executable_path=found,
-            args=["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--use-gl=swiftshader",
-                  "--enable-unsafe-swiftshader", "--disable-component-update", "--disable-sync", "--no-first-run"],
-        )  # fmt: skip
+            args=CHROMIUM_FLAGS,
+        )
         yield chromium
         chromium.close()
 
@@ -68,12 +77,13 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     """One server for a module of tests, on a free port, with data of its own."""
     data = tmp_path_factory.mktemp("serve")
     log = data / "serve.log"
+    command = [sys.executable, "-m", "tappet", "serve", "--port", "0", "--data", str(data / "data")]
+    command += ["--example", "bottling", "--local-link"]
+    environment = os.environ | {"PYTHONUNBUFFERED": "1"}
     with log.open("w") as out:
         process = subprocess.Popen(
-            [sys.executable, "-m", "tappet", "serve", "--port", "0", "--data", str(data / "data"),
-             "--example", "bottling", "--local-link"],
-            cwd=ROOT, stdout=out, stderr=subprocess.STDOUT, text=True, env=os.environ | {"PYTHONUNBUFFERED": "1"},
-        )  # fmt: skip
+            command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT, text=True, env=environment
+        )
         deadline = time.monotonic() + START_LIMIT_S
         while not _links(log.read_text()):
             if process.poll() is not None or time.monotonic() > deadline:

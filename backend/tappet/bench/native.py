@@ -69,7 +69,9 @@ class CProgram:
             raise FileNotFoundError("gcc is not installed; the C baseline needs it")
         library = directory / f"{source.stem}.so"
         subprocess.run(  # noqa: S603 - our own file, our own arguments
-            [gcc, "-O2", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"], check=True, capture_output=True
+            [gcc, "-O2", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"],
+            check=True,
+            capture_output=True,
         )
         self._library = ctypes.CDLL(str(library))
         self.cycle = ctypes.cast(self._library.cycle, ctypes.c_void_p).value or 0
