@@ -19,7 +19,7 @@ def test_another_namespace_is_taken_over() -> None:
 
 
 def test_unknown_names_and_versions_say_what_is_there() -> None:
-    with pytest.raises(UnknownLibraryError, match="installed are .*Standard"):
+    with pytest.raises(UnknownLibraryError, match=r"installed are .*Standard"):
         load("Standart")
-    with pytest.raises(UnknownLibraryError, match="not 1.0"):
+    with pytest.raises(UnknownLibraryError, match=r"not 1\.0"):
         load("Standard", "1.0")

@@ -68,11 +68,8 @@ class CProgram:
         if gcc is None:
             raise FileNotFoundError("gcc is not installed; the C baseline needs it")
         library = directory / f"{source.stem}.so"
-        subprocess.run(  # noqa: S603 - our own file, our own arguments
-            [gcc, "-O2", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"],
-            check=True,
-            capture_output=True,
-        )
+        command = [gcc, "-O2", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"]
+        subprocess.run(command, check=True, capture_output=True)  # noqa: S603 - our own file and arguments
         self._library = ctypes.CDLL(str(library))
         self.cycle = ctypes.cast(self._library.cycle, ctypes.c_void_p).value or 0
 

@@ -65,6 +65,5 @@ def load(name: str, version: str = "*", namespace: str | None = None) -> Library
         )
         for path in sorted(folder.glob("*.st"))
     )
-    return Library(
-        found, str(facts["version"]), space, str(facts["company"]), str(facts["description"]), sources
-    )
+    company, description = str(facts["company"]), str(facts["description"])
+    return Library(found, str(facts["version"]), space, company, description, sources)
