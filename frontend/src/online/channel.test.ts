@@ -1,0 +1,141 @@
+import { describe, expect, it } from 'vitest';
+import type { RuntimeState } from '@/api/types';
+import { ValueBoard } from './board';
+import { OnlineChannel, type ChannelSocket } from './channel';
+import type { SubscribedItem } from './item';
+
+class FakeSocket implements ChannelSocket {
+  binaryType = '';
+  readyState = 0;
+  onopen: (() => void) | null = null;
+  onclose: ((event: { code: number; reason: string }) => void) | null = null;
+  onmessage: ((event: { data: unknown }) => void) | null = null;
+  sent: { op: string; id: number; expressions?: string[] }[] = [];
+
+  send(text: string) {
+    this.sent.push(JSON.parse(text) as (typeof this.sent)[number]);
+  }
+  close() {
+    this.readyState = 3;
+  }
+  accept() {
+    this.readyState = 1;
+    this.onopen?.();
+  }
+  drop() {
+    this.readyState = 3;
+    this.onclose?.({ code: 1006, reason: '' });
+  }
+  say(message: unknown) {
+    this.onmessage?.({ data: JSON.stringify(message) });
+  }
+  answer(id: number, expressions: string[]) {
+    const items: SubscribedItem[] = expressions.map((expression, i) => ({
+      expression, offset: i, size: 1, type: 'BOOL', kind: 'bool',
+    })); // prettier-ignore
+    this.say({ op: 'subscribed', id, items });
+  }
+}
+
+function setUp() {
+  const sockets: FakeSocket[] = [];
+  const timers: { ms: number; run: () => void }[] = [];
+  const log: string[] = [];
+  const board = new ValueBoard({ now: () => 0, soon: (run) => run() });
+  const channel = new OnlineChannel(
+    board,
+    () => {
+      const socket = new FakeSocket();
+      sockets.push(socket);
+      return socket;
+    },
+    {
+      state: (state: RuntimeState) => log.push(`state ${state.code_id ?? ''}`),
+      forces: (paths) => log.push(`forces ${paths.join()}`),
+      lost: () => log.push('lost'),
+      restored: () => log.push('restored'),
+      answered: () => undefined,
+    },
+    {
+      after: (ms, run) => {
+        const timer = { ms, run };
+        timers.push(timer);
+        return () => timers.splice(timers.indexOf(timer), 1);
+      },
+    },
+  );
+  const elapse = () => timers.splice(0).forEach((timer) => timer.run());
+  return { channel, board, sockets, timers, log, elapse };
+}
+
+describe('online channel', () => {
+  it('subscribes groups when the socket opens, each expression once', () => {
+    const { channel, sockets } = setUp();
+    channel.watch(['P.a', 'p.A', 'P.b'], 100);
+    expect(sockets[0]?.sent).toEqual([]);
+    sockets[0]?.accept();
+    expect(sockets[0]?.sent).toEqual([{ op: 'subscribe', id: 1, expressions: ['P.a', 'P.b'], interval_ms: 100 }]);
+  });
+
+  it('ends the old subscription only when the new one is answered', () => {
+    const { channel, sockets, board, elapse } = setUp();
+    const socket = sockets[0] as FakeSocket;
+    socket.accept();
+    const group = channel.watch(['P.a'], 100);
+    socket.answer(1, ['P.a']);
+    group.update(['P.a', 'P.b']);
+    group.update(['P.b']);
+    expect(socket.sent).toHaveLength(1);
+    elapse();
+    expect(socket.sent[1]).toMatchObject({ op: 'subscribe', id: 2, expressions: ['P.b'] });
+    expect(board.get('P.a')).not.toBeNull();
+    socket.answer(2, ['P.b']);
+    expect(socket.sent[2]).toEqual({ op: 'unsubscribe', id: 1 });
+    expect(board.get('P.a')).toBeNull();
+    group.release();
+    expect(socket.sent[3]).toEqual({ op: 'unsubscribe', id: 2 });
+  });
+
+  it('reconnects with growing pauses and subscribes again; values stay meanwhile', () => {
+    const { channel, sockets, log, timers, board, elapse } = setUp();
+    sockets[0]?.accept();
+    channel.watch(['P.a'], 100);
+    sockets[0]?.answer(1, ['P.a']);
+    sockets[0]?.drop();
+    expect(log).toEqual(['lost']);
+    expect(board.get('P.a')).not.toBeNull();
+    expect(timers[0]?.ms).toBe(500);
+    elapse();
+    sockets[1]?.drop();
+    expect(timers[0]?.ms).toBe(1000);
+    expect(log).toEqual(['lost']);
+    elapse();
+    sockets[2]?.accept();
+    expect(log).toEqual(['lost', 'restored']);
+    expect(sockets[2]?.sent[0]).toMatchObject({ op: 'subscribe', expressions: ['P.a'] });
+  });
+
+  it('subscribes anew when the runtime has other code', () => {
+    const { channel, sockets, log } = setUp();
+    const socket = sockets[0] as FakeSocket;
+    socket.accept();
+    channel.watch(['P.a'], 100);
+    socket.say({ op: 'state', code_id: 'c1' });
+    socket.say({ op: 'state', code_id: 'c1' });
+    expect(socket.sent).toHaveLength(1);
+    socket.say({ op: 'state', code_id: 'c2' });
+    expect(socket.sent.map((m) => m.op)).toEqual(['subscribe', 'unsubscribe', 'subscribe']);
+    expect(log).toEqual(['state c1', 'state c1', 'state c2']);
+    socket.say({ op: 'forces', expressions: ['P.a'] });
+    expect(log.at(-1)).toBe('forces P.a');
+  });
+
+  it('is silent after it was closed', () => {
+    const { channel, sockets, timers, log } = setUp();
+    sockets[0]?.accept();
+    channel.close();
+    sockets[0]?.drop();
+    expect(timers).toEqual([]);
+    expect(log).toEqual([]);
+  });
+});

@@ -1,0 +1,2 @@
+/** Registers the online panels and commands. */
+export {};
