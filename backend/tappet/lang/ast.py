@@ -150,6 +150,8 @@ class Call(Expr):
     # resolved
     target: Symbol | None = None
     """PouSymbol for functions, methods, programs and the body of an FB; BuiltinSymbol for operators."""
+    expansion: Expr | None = None
+    """The same in operator form, for operators in functional form: `ADD(a, b)` is `a + b`, `MOVE(x)` is `x`."""
 
 
 @dataclass(slots=True, kw_only=True)

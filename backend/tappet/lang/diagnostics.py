@@ -90,8 +90,8 @@ def report(
     code: str,
     uri: str,
     span: Span,
-    *,
     related: Iterable[Related] = (),
+    /,
     **fields: object,
 ) -> Diagnostic:
     """A message of the table with its fields filled in.

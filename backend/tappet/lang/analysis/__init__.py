@@ -3,3 +3,8 @@
 Imports only `lang`. Start reading at `result` (what analysis leaves for code generation) and `run`
 (the order of the passes); `expressions`, `calls`, `statements` handle one node class per function.
 """
+
+from tappet.lang.analysis.result import Analysis, AnalysisOptions, ConfiguredAddress, carried_type
+from tappet.lang.analysis.run import analyse
+
+__all__ = ["Analysis", "AnalysisOptions", "ConfiguredAddress", "analyse", "carried_type"]

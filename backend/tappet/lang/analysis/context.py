@@ -1,0 +1,95 @@
+"""What the passes share: the session of one analysis, and the view of one text (`Body`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from tappet.lang import ast
+from tappet.lang.analysis.result import Analysis, AnalysisOptions
+from tappet.lang.analysis.scope import Levels, suggestion
+from tappet.lang.diagnostics import Diagnostic, Related, report
+from tappet.lang.source import Source, Span
+from tappet.lang.symbols import PouSymbol, Symbol
+from tappet.lang.types import Type
+
+SUGGESTION_LIMIT = 200
+"""Closest matches are searched for so many unknown names of one analysis: the search is slow."""
+
+
+@dataclass(slots=True)
+class Session:
+    """State of one analysis."""
+
+    options: AnalysisOptions
+    analysis: Analysis
+    levels: Levels = field(default_factory=Levels)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    resolve: Callable[[Symbol], None] = lambda symbol: None
+    """Gives a variable its type, and its value when it is constant; set by the declarations pass."""
+    complete: Callable[[Type], object] = lambda type_: None
+    """Makes sure that size and members of a type are known; set by the declarations pass."""
+    used: set[int] = field(default_factory=set)
+    """id() of every variable that some code names."""
+    written: set[int] = field(default_factory=set)
+    """id() of every variable that some code assigns, passes as VAR_IN_OUT or takes the address of."""
+    calls: dict[int, list[tuple[PouSymbol, str, Span]]] = field(default_factory=dict)
+    """Calls to a POU by id() of the caller, with their place."""
+    called: set[int] = field(default_factory=set)
+    """id() of every POU that is called, instantiated or whose address is taken."""
+    suggestions: int = 0
+
+    def report(
+        self, code: str, uri: str, span: Span, related: Iterable[Related] = (), /, **fields: object
+    ) -> None:
+        """Adds a message."""
+        self.diagnostics.append(report(code, uri, span, related, **fields))
+
+
+class Body:
+    """One text as the passes see it: what its names mean and where its messages go."""
+
+    __slots__ = (
+        "session", "source", "uri", "pou", "locals", "names", "loops", "labels", "jumps", "loop_variables",
+        "called", "assigned", "loop_writes",
+    )  # fmt: skip
+
+    def __init__(
+        self, session: Session, source: Source, pou: PouSymbol | None, visible: dict[str, Symbol]
+    ) -> None:
+        self.session = session
+        self.source = source
+        self.uri = source.uri
+        self.pou = pou
+        self.locals = visible
+        self.names = session.levels.seen_by(source)
+        self.loops = 0
+        self.labels: dict[str, Span] = {}
+        self.jumps: list[ast.Jump] = []
+        self.loop_variables: list[Symbol] = []
+        self.called: list[tuple[PouSymbol, str, Span]] = []
+        self.assigned: ast.Expr | None = None
+        """The value of the assignment being resolved: `__NEW` is legal only there."""
+        self.loop_writes: list[tuple[Symbol, Span]] = []
+
+    def report(self, code: str, span: Span, related: Iterable[Related] = (), /, **fields: object) -> None:
+        """Adds a message at a place of this text."""
+        self.session.diagnostics.append(report(code, self.uri, span, related, **fields))
+
+    def lookup(self, name: str) -> Symbol | None:
+        """What a plain name means here."""
+        key = name.upper()
+        return self.locals.get(key) or self.names.get(key)
+
+    def suggest(self, name: str, *tables: Iterable[tuple[str, Symbol]]) -> str:
+        """Advice with the closest name of the tables, by default of all that is visible here."""
+        if self.session.suggestions >= SUGGESTION_LIMIT:
+            return ""
+        self.session.suggestions += 1
+        return suggestion(name, *(tables or (self.locals.items(), self.names.items())))
+
+    @property
+    def block(self) -> PouSymbol | None:
+        """The function block or program this text belongs to."""
+        pou = self.pou
+        return pou.owner or pou if pou is not None else None

@@ -1,0 +1,620 @@
+"""Operands: literals, names, members, indices, pointers. One function per node class, found by `EXPRESSIONS`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis import addresses, conversion, folding, operators
+from tappet.lang.analysis.adaptation import require
+from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol, describe
+from tappet.lang.symbols import (
+    EnumValueSymbol,
+    GvlSymbol,
+    InterfaceSymbol,
+    NamespaceSymbol,
+    PouSymbol,
+    PropertySymbol,
+    Symbol,
+    TypeSymbol,
+    VarSymbol,
+)
+from tappet.lang.types import Elementary, Kind, Type
+
+Handler = Callable[[Body, Any], None]
+EXPRESSIONS: dict[type, Handler] = {}
+"""Resolves one expression and what is below it, by node class."""
+
+_LITERAL_TYPES: dict[str, Type] = {
+    "bool": t.BOOL, "real": t.LREAL, "time": t.TIME, "ltime": t.LTIME, "date": t.DATE, "tod": t.TOD, "dt": t.DT,
+    "ldate": t.LDATE, "ltod": t.LTOD, "ldt": t.LDT,
+}  # fmt: skip
+_ADAPTING = frozenset({"time", "date", "tod", "dt", "real"})
+
+
+def evaluate(b: Body, e: ast.Expr) -> Type | None:
+    """Resolves `e`; its type, or None for errors and for names that are no values (`symbol` says what they are)."""
+    handler = EXPRESSIONS.get(e.__class__)
+    if handler is not None:
+        handler(b, e)
+    return e.type
+
+
+def value(b: Body, e: ast.Expr) -> Type | None:
+    """Resolves `e` where a value is needed; None after an error, which has been reported."""
+    handler = EXPRESSIONS.get(e.__class__)
+    if handler is None:
+        return None
+    handler(b, e)
+    if e.type is None:
+        if e.__class__ in _NAMING:
+            symbol = e.symbol  # type: ignore[attr-defined]
+            if symbol is not None and symbol.__class__ is not VarSymbol:
+                not_a_value(b, e, symbol)
+        elif e.__class__ is ast.Call:
+            target = e.target  # type: ignore[attr-defined]
+            if target is not None and getattr(target, "return_type", None) is None:
+                _no_value(b, e, target)
+    return e.type
+
+
+def _no_value(b: Body, e: ast.Expr, target: Symbol) -> None:
+    """Reports a call without result where a value is needed."""
+    if isinstance(target, PouSymbol):
+        if target.pou is not None and target.pou.return_type is not None:
+            return  # its type is faulty, which has been reported
+        if target.kind == "FUNCTION":
+            b.report("E0432", e.span, name=target.name)
+            return
+    b.report("E0325", e.span, name=target.name)
+
+
+def not_a_value(b: Body, e: ast.Expr, symbol: Symbol) -> None:
+    """Reports a name that stands for an object instead of a value."""
+    if isinstance(symbol, PropertySymbol):
+        return
+    if isinstance(symbol, PouSymbol):
+        hint = (
+            f"Call it: {symbol.name}(...)." if symbol.kind != "FUNCTION_BLOCK" else "Use an instance of it."
+        )
+    elif isinstance(symbol, (GvlSymbol, NamespaceSymbol)):
+        hint = f"Write {symbol.name}.<name>."
+    elif isinstance(symbol, TypeSymbol) and isinstance(symbol.type, t.Enum):
+        hint = f"Write {symbol.name}.<value>."
+    else:
+        hint = "Declare a variable of this type."
+    b.report("E0210", e.span, name=symbol.name, what=describe(symbol), hint=hint)
+
+
+def assign_value(b: Body, e: ast.Expr, target: Type | None) -> bool:
+    """Resolves `e` and checks that it may be assigned to `target`."""
+    if value(b, e) is None or target is None:
+        return False
+    return require(b, e, target)
+
+
+def clear(e: ast.Expr) -> None:
+    """Takes back what an earlier analysis of the same tree left."""
+    e.type = e.constant = None
+    e.is_constant = e.untyped = False
+
+
+# -- literals ---------------------------------------------------------------------------------------
+
+
+def _literal(b: Body, e: ast.Literal) -> None:
+    e.untyped = False
+    e.is_constant = True
+    content = e.constant = e.value
+    if e.prefix is not None:
+        _typed_literal(b, e, e.prefix)
+        return
+    kind = e.kind
+    if kind == "int":
+        smallest = conversion.smallest_integer(content) if isinstance(content, int) else None
+        if smallest is None:
+            b.report("E0302", e.span, text=e.text, type="ULINT", low=0, high=(1 << 64) - 1)
+            clear(e)
+            return
+        e.type = smallest
+        e.untyped = True
+    elif kind == "string" or kind == "wstring":
+        e.type = t.String(max(1, len(content)) if isinstance(content, (bytes, str)) else 1, kind == "wstring")
+        e.untyped = True
+    elif kind == "null":
+        e.type, e.constant, e.untyped = t.USINT, 0, True
+    else:
+        e.type = _LITERAL_TYPES.get(kind)
+        e.untyped = kind in _ADAPTING
+        if content is None or e.type is None:
+            clear(e)
+        elif e.type.__class__ is Elementary and e.type.kind is not Kind.REAL and isinstance(content, int):
+            _range(b, e, e.type)
+
+
+def _typed_literal(b: Body, e: ast.Literal, prefix: str) -> None:
+    target = t.ELEMENTARY.get(prefix)
+    content = e.value
+    if target is None:
+        symbol = b.names.get(prefix)
+        if isinstance(symbol, TypeSymbol) and isinstance(symbol.type, t.Enum):
+            _enum_literal(b, e, symbol.type)
+            return
+        b.report("E0202", e.span, name=prefix, hint=b.suggest(prefix))
+        clear(e)
+        return
+    e.type = target
+    if target.kind is Kind.REAL and isinstance(content, (int, float)):
+        e.constant = folding.wrap(content, target)
+    elif target is t.BOOL and content in (0, 1):
+        e.constant = bool(content)
+    elif isinstance(content, int) and not isinstance(content, bool):
+        _range(b, e, target)
+    else:
+        b.report("E0301", e.span, source=_LITERAL_TYPES.get(e.kind, e.kind.upper()), target=target, hint="")
+        clear(e)
+
+
+def _enum_literal(b: Body, e: ast.Literal, enum: t.Enum) -> None:
+    name = e.text.partition("#")[2]
+    number = next((n for v, n in enum.values.items() if v.upper() == name.upper()), None)
+    if number is None:
+        b.report("E0204", e.span, name=name, type=enum, hint="")
+        clear(e)
+    else:
+        e.type, e.constant = enum, number
+
+
+def _range(b: Body, e: ast.Literal, target: Elementary) -> None:
+    low, high = conversion.RANGES.get(target.name, (0, 0))
+    number = e.constant
+    if isinstance(number, int) and not low <= number <= high:
+        b.report("E0302", e.span, text=e.text, type=target, low=low, high=high)
+        clear(e)
+
+
+# -- names ------------------------------------------------------------------------------------------
+
+
+def _name(b: Body, e: ast.Name) -> None:
+    key = e.name.upper()
+    symbol: Symbol | None = None if e.leading_dot else b.locals.get(key)
+    if symbol is None:
+        symbol = b.names.get(key)
+        if symbol is None:
+            e.untyped = e.is_constant = False
+            e.type = e.constant = e.symbol = None
+            _unknown_name(b, e, key)
+            return
+    if symbol.__class__ is VarSymbol:
+        _variable(b, e, symbol)  # type: ignore[arg-type]
+    else:
+        _object(b, e, symbol)
+
+
+def _variable(b: Body, e: ast.Name | ast.Member, symbol: VarSymbol) -> None:
+    session = b.session
+    type_ = symbol.type
+    if type_ is None:
+        session.resolve(symbol)
+        type_ = symbol.type
+    session.used.add(id(symbol))
+    e.symbol = symbol
+    e.type = type_.base if type_.__class__ is t.Reference else type_  # type: ignore[union-attr]
+    e.is_constant = symbol.is_constant
+    e.constant = symbol.constant
+    e.untyped = False
+
+
+def _object(b: Body, e: ast.Name | ast.Member, symbol: Symbol) -> None:
+    """A name that is no variable."""
+    e.type = e.constant = None
+    e.is_constant = e.untyped = False
+    e.symbol = symbol
+    if isinstance(symbol, EnumValueSymbol):
+        if symbol.type is None:
+            b.session.resolve(symbol)
+        e.type, e.constant, e.is_constant = symbol.type, symbol.number, True
+    elif isinstance(symbol, PropertySymbol):
+        e.type = symbol.type.base if isinstance(symbol.type, t.Reference) else symbol.type
+    elif isinstance(symbol, AmbiguousSymbol):
+        e.symbol = None
+        choices = ", ".join(dict.fromkeys(symbol.choices))
+        b.report("E0203", e.span, name=e.name, choices=choices)
+    elif isinstance(symbol, QualifiedSymbol):
+        e.symbol = None
+        b.report("E0207", e.span, name=e.name, choice=symbol.choice)
+
+
+def _unknown_name(b: Body, e: ast.Name, key: str) -> None:
+    if key.startswith("%"):
+        symbol = addresses.operand(b, e)
+        if symbol is not None:
+            e.symbol = symbol
+            e.type = symbol.type
+        return
+    b.report("E0201", e.span, name=e.name, hint=b.suggest(e.name))
+
+
+# -- members ----------------------------------------------------------------------------------------
+
+
+def _member(b: Body, e: ast.Member) -> None:
+    base = e.base
+    evaluate(b, base)
+    e.bit = e.symbol = e.type = e.constant = None
+    e.is_constant = e.untyped = False
+    type_ = base.type
+    if type_ is None:
+        if base.__class__ in _NAMING and base.symbol is not None:  # type: ignore[attr-defined]
+            _member_of_object(b, e, base.symbol)  # type: ignore[attr-defined]
+        return
+    handler = _MEMBER_OF.get(type_.__class__)
+    if handler is None:
+        b.report("E0204", e.name_span, name=e.name, type=type_, hint="")
+    else:
+        handler(b, e, type_)
+
+
+def _member_of_struct(b: Body, e: ast.Member, type_: t.Struct) -> None:
+    found = type_.members.get(e.name.upper())
+    if found is None and not type_.size:
+        b.session.complete(type_)
+        found = type_.members.get(e.name.upper())
+    if found is None or found.decl is None or not isinstance(found.decl.symbol, VarSymbol):
+        if type_.members:
+            _unknown_member(b, e, type_, [m.name for m in type_.members.values()])
+        return
+    _variable(b, e, found.decl.symbol)
+
+
+def _member_of_block(b: Body, e: ast.Member, type_: t.FunctionBlock) -> None:
+    pou = type_.pou.symbol if type_.pou is not None else None
+    if not isinstance(pou, PouSymbol):
+        return
+    inside = e.base.__class__ is ast.Deref and e.base.base.__class__ in (ast.This, ast.Super)  # type: ignore[attr-defined]
+    _member_of_pou(b, e, pou, inside)
+
+
+def _member_of_pou(b: Body, e: ast.Member, pou: PouSymbol, inside: bool) -> None:
+    key = e.name.upper()
+    symbol = pou.locals.get(key)
+    if symbol is not None:
+        own = inside or b.block is pou
+        if symbol.section in ("VAR_TEMP", "VAR_STAT", "VAR_EXTERNAL") and not own:
+            symbol = None
+        elif symbol.section == "VAR_IN_OUT" and not own:
+            b.report("E0208", e.name_span, name=symbol.name, type=pou.name)
+            return
+        else:
+            _variable(b, e, symbol)
+            return
+    member = find_member(pou, key)
+    if member is None:
+        names = [v.name for v in pou.locals.values() if v.section != "VAR_TEMP"]
+        walk: PouSymbol | None = pou
+        while walk is not None:
+            names += [
+                m.name for m in (*walk.methods.values(), *walk.properties.values(), *walk.actions.values())
+            ]
+            walk = walk.base
+        _unknown_member(b, e, pou.name, names)
+        return
+    _check_access(b, e, member, pou)
+    _object(b, e, member)
+
+
+def find_member(pou: PouSymbol, key: str) -> Symbol | None:
+    """Method, property or action of a block or of its bases by upper-case name."""
+    walk: PouSymbol | None = pou
+    seen = 0
+    while walk is not None and seen < 1000:
+        found: Symbol | None = walk.methods.get(key) or walk.properties.get(key) or walk.actions.get(key)
+        if found is not None:
+            return found
+        walk = walk.base
+        seen += 1
+    return None
+
+
+def _check_access(b: Body, e: ast.Member, member: Symbol, pou: PouSymbol) -> None:
+    if not isinstance(member, PouSymbol) or member.pou is None:
+        return
+    access = member.pou.access
+    own = b.block
+    if access == "PRIVATE" and own is not member.owner:
+        b.report("E0213", e.name_span, what="Method", name=member.name, type=pou.name, access="PRIVATE")
+    elif access == "PROTECTED":
+        while own is not None and own is not member.owner:
+            own = own.base
+        if own is None:
+            b.report("E0213", e.name_span, what="Method", name=member.name, type=pou.name, access="PROTECTED")
+
+
+def _member_of_interface(b: Body, e: ast.Member, type_: t.Interface) -> None:
+    symbol = type_.pou.symbol if type_.pou is not None else None
+    if not isinstance(symbol, InterfaceSymbol):
+        return
+    key = e.name.upper()
+    found: Symbol | None = symbol.properties.get(key) or symbol.methods.get(key)
+    if found is None:
+        _unknown_member(
+            b, e, type_, [m.name for m in (*symbol.methods.values(), *symbol.properties.values())]
+        )
+    else:
+        _object(b, e, found)
+
+
+def _member_of_object(b: Body, e: ast.Member, symbol: Symbol) -> None:
+    key = e.name.upper()
+    if isinstance(symbol, GvlSymbol):
+        variable = symbol.members.get(key)
+        if variable is None:
+            _unknown_member(b, e, symbol.name, [v.name for v in symbol.members.values()])
+        else:
+            _variable(b, e, variable)
+    elif isinstance(symbol, NamespaceSymbol):
+        found = symbol.members.get(key)
+        if found is None:
+            hint = b.suggest(e.name, symbol.members.items())
+            b.report("E0218", e.name_span, name=e.name, namespace=symbol.name, hint=hint)
+        elif isinstance(found, VarSymbol):
+            _variable(b, e, found)
+        else:
+            _object(b, e, found)
+    elif isinstance(symbol, TypeSymbol):
+        _member_of_type(b, e, symbol, key)
+    elif isinstance(symbol, PouSymbol):
+        if symbol.kind == "PROGRAM":
+            _member_of_pou(b, e, symbol, False)
+        elif symbol.kind == "FUNCTION_BLOCK" and find_member(symbol, key) is not None:
+            _object(b, e, find_member(symbol, key) or symbol)
+        else:
+            b.report("E0204", e.name_span, name=e.name, type=symbol.name, hint="Use an instance of it.")
+
+
+def _member_of_type(b: Body, e: ast.Member, symbol: TypeSymbol, key: str) -> None:
+    if symbol.type is None or not isinstance(symbol.type, t.Enum):
+        b.report("E0204", e.name_span, name=e.name, type=symbol.name, hint="Use a variable of this type.")
+        return
+    enum = symbol.type
+    for name, number in enum.values.items():
+        if name.upper() == key:
+            e.symbol = EnumValueSymbol(name, symbol.source, symbol.span, "", enum, number)
+            e.type, e.constant, e.is_constant = enum, number, True
+            return
+    _unknown_member(b, e, enum, list(enum.values))
+
+
+def _unknown_member(b: Body, e: ast.Member, type_: object, names: list[str]) -> None:
+    hint = b.suggest(e.name, [(n.upper(), Symbol(n)) for n in names])
+    hint = hint.partition(" (")[0] + "?" if " (" in hint else hint
+    b.report("E0204", e.name_span, name=e.name, type=type_, hint=hint)
+
+
+def _bit(b: Body, e: ast.Member, type_: Elementary) -> None:
+    """Bit access `x.3` or through an integer constant `x.enable` (LTYP-140..144)."""
+    name = e.name
+    if name.isdigit():
+        number = int(name)
+    else:
+        symbol = b.locals.get(name.upper()) or b.names.get(name.upper())
+        if isinstance(symbol, VarSymbol):
+            if symbol.type is None:
+                b.session.resolve(symbol)
+            b.session.used.add(id(symbol))
+        content = getattr(symbol, "constant", None) if isinstance(symbol, VarSymbol) else None
+        if isinstance(symbol, EnumValueSymbol):
+            content = symbol.number
+        if not isinstance(content, int) or isinstance(content, bool):
+            if symbol is None:
+                b.report("E0204", e.name_span, name=name, type=type_, hint="")
+            else:
+                b.report("E0315", e.name_span, name=name)
+            return
+        number = content
+    if not type_.is_integer:
+        b.report("E0314", e.name_span, type=type_)
+        return
+    if not 0 <= number < 8 * type_.size:
+        b.report(
+            "E0313", e.name_span, index=number, name=text_of(e.base), type=type_, high=8 * type_.size - 1
+        )
+        return
+    e.bit = number
+    e.type = t.BOOL
+    content = e.base.constant
+    if e.base.is_constant and isinstance(content, int):
+        e.is_constant, e.constant = True, bool(content >> number & 1)
+
+
+def _bit_of_base(b: Body, e: ast.Member, type_: t.Enum | t.Subrange) -> None:
+    _bit(b, e, type_.base)
+
+
+def _member_of_pointer(b: Body, e: ast.Member, type_: t.Pointer) -> None:
+    b.report("E0204", e.name_span, name=e.name, type=type_, hint=f"Write {text_of(e.base)}^.{e.name}.")
+
+
+_MEMBER_OF: dict[type, Callable[[Body, ast.Member, Any], None]] = {
+    t.Struct: _member_of_struct,
+    t.FunctionBlock: _member_of_block,
+    t.Interface: _member_of_interface,
+    Elementary: _bit,
+    t.Enum: _bit_of_base,
+    t.Subrange: _bit_of_base,
+    t.Pointer: _member_of_pointer,
+}
+
+
+def text_of(e: ast.Expr) -> str:
+    """The expression as written, for messages; '...' where it is more than a path."""
+    if isinstance(e, ast.Name):
+        return f".{e.name}" if e.leading_dot else e.name
+    if isinstance(e, ast.Member):
+        return f"{text_of(e.base)}.{e.name}"
+    if isinstance(e, ast.Deref):
+        return f"{text_of(e.base)}^"
+    if isinstance(e, ast.Index):
+        return f"{text_of(e.base)}[{', '.join(text_of(i) for i in e.indices)}]"
+    if isinstance(e, ast.Literal):
+        return e.text
+    if isinstance(e, (ast.This, ast.Super)):
+        return "THIS" if isinstance(e, ast.This) else "SUPER"
+    if isinstance(e, ast.Call):
+        return f"{text_of(e.callee)}(...)"
+    return "..."
+
+
+# -- places -----------------------------------------------------------------------------------------
+
+
+def _index(b: Body, e: ast.Index) -> None:
+    clear(e)
+    type_ = value(b, e.base)
+    for index in e.indices:
+        if value(b, index) is None:
+            continue
+        base = t.value_type(index.type)  # type: ignore[arg-type]
+        if not isinstance(base, Elementary) or not base.is_integer:
+            b.report("E0311", index.span, type=index.type)
+            index.type = None
+    if type_ is None:
+        return
+    if type_.__class__ is t.Array:
+        _array_index(b, e, type_)
+        return
+    if isinstance(type_, t.Pointer):
+        if type_.base is None:
+            b.report("E0321", e.span)
+            return
+        e.type = type_.base
+    elif isinstance(type_, t.String):
+        e.type = t.WORD if type_.wide else t.BYTE
+    else:
+        b.report("E0308", e.span, type=type_)
+        return
+    if len(e.indices) != 1:
+        b.report("E0309", e.span, type=type_, expected=1, actual=len(e.indices))
+        e.type = None
+    elif isinstance(type_, t.String):
+        position = e.indices[0].constant
+        if isinstance(position, int) and not 0 <= position <= type_.length:
+            b.report("E0310", e.indices[0].span, index=position, low=0, high=type_.length)
+    _widen_indices(e)
+
+
+def _array_index(b: Body, e: ast.Index, type_: t.Array) -> None:
+    dimensions = type_.open_dims or len(type_.bounds)
+    if len(e.indices) > dimensions and not type_.open_dims and isinstance(type_.element, t.Array):
+        # a[i, j] on an array of arrays counts like a[i][j]
+        b.report("E0309", e.span, type=type_, expected=dimensions, actual=len(e.indices))
+        return
+    if len(e.indices) != dimensions:
+        b.report("E0309", e.span, type=type_, expected=dimensions, actual=len(e.indices))
+        return
+    element = type_.element
+    e.type = element.base if element.__class__ is t.Reference else element
+    for index, (low, high) in zip(e.indices, type_.bounds, strict=False):
+        position = index.constant
+        if index.is_constant and isinstance(position, int) and not low <= position <= high:
+            b.report("E0310", index.span, index=position, low=low, high=high)
+    _widen_indices(e)
+
+
+def _widen_indices(e: ast.Index) -> None:
+    for index in e.indices:
+        index.untyped = False
+
+
+def _deref(b: Body, e: ast.Deref) -> None:
+    clear(e)
+    type_ = value(b, e.base)
+    if type_ is None:
+        return
+    if not isinstance(type_, t.Pointer):
+        b.report("E0312", e.span, name=text_of(e.base), type=type_)
+    elif type_.base is None:
+        b.report("E0321", e.span)
+    else:
+        e.type = type_.base
+
+
+def _this(b: Body, e: ast.This) -> None:
+    clear(e)
+    block = b.block
+    if block is None or block.instance is None or block.kind not in ("FUNCTION_BLOCK", "PROGRAM"):
+        b.report("E0214", e.span, name="THIS")
+    else:
+        e.type = t.Pointer(block.instance)
+
+
+def _super(b: Body, e: ast.Super) -> None:
+    clear(e)
+    block = b.block
+    if block is None or block.kind != "FUNCTION_BLOCK":
+        b.report("E0214", e.span, name="SUPER")
+    elif block.base is None or block.base.instance is None:
+        b.report("E0215", e.span, name=block.name)
+    else:
+        e.type = t.Pointer(block.base.instance)
+
+
+# -- operators --------------------------------------------------------------------------------------
+
+
+def _unary(b: Body, e: ast.Unary) -> None:
+    value(b, e.operand)
+    operators.unary(b, e)
+
+
+def _binary(b: Body, e: ast.Binary) -> None:
+    left = e.left
+    if left.__class__ is ast.Binary:
+        # a + b + c + ... nests to the left as deep as it is long: go down by a loop, not by recursion
+        spine = [e]
+        while left.__class__ is ast.Binary:
+            spine.append(left)  # type: ignore[arg-type]
+            left = left.left  # type: ignore[attr-defined]
+        value(b, left)
+        for node in reversed(spine):
+            value(b, node.right)
+            operators.binary(b, node)
+        return
+    value(b, left)
+    value(b, e.right)
+    operators.binary(b, e)
+
+
+def _aggregate(b: Body, e: ast.ArrayInit | ast.StructInit | ast.Repeat) -> None:
+    clear(e)
+    what = "An array initialiser" if isinstance(e, (ast.ArrayInit, ast.Repeat)) else "A structure initialiser"
+    b.report("E0333", e.span, what=what)
+
+
+def _error(b: Body, e: ast.ErrorExpr) -> None:
+    clear(e)
+
+
+_NAMING = frozenset({ast.Name, ast.Member})
+
+EXPRESSIONS.update(
+    {
+        ast.Literal: _literal,
+        ast.Name: _name,
+        ast.Member: _member,
+        ast.Index: _index,
+        ast.Deref: _deref,
+        ast.This: _this,
+        ast.Super: _super,
+        ast.Unary: _unary,
+        ast.Binary: _binary,
+        ast.ArrayInit: _aggregate,
+        ast.StructInit: _aggregate,
+        ast.Repeat: _aggregate,
+        ast.ErrorExpr: _error,
+    }
+)

@@ -1,0 +1,267 @@
+"""Between collecting and resolving: bases and interfaces are linked, and every POU gets its view of the names."""
+
+from __future__ import annotations
+
+from tappet.lang import ast
+from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.context import Body, Session
+from tappet.lang.analysis.declarations import Declarations
+from tappet.lang.analysis.scope import describe
+from tappet.lang.source import Source
+from tappet.lang.symbols import (
+    InterfaceSymbol,
+    NamespaceSymbol,
+    PouSymbol,
+    Storage,
+    Symbol,
+    VarSymbol,
+)
+
+_PASSED = frozenset({"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"})
+_DEPTH_LIMIT = 200
+
+
+def link(session: Session, found: Collected, declarations: Declarations) -> None:
+    """Links EXTENDS and IMPLEMENTS, then makes the views of all POUs."""
+    for interface, declaration, source in found.interfaces:
+        _link_interface(session, interface, declaration, source)
+    for interface, _, _ in found.interfaces:
+        _inherit_interface(interface, 0)
+    for pou, _ in found.pous:
+        _link_pou(session, pou)
+    for pou, _ in found.pous:
+        _break_cycle(session, pou)
+    extended = {id(p.base) for p, _ in found.pous if p.base is not None}
+    view = _Views(session, found, declarations, extended)
+    for pou, _ in found.pous:
+        view.block(pou)
+    for interface, _, source in found.interfaces:
+        for method in interface.methods.values():
+            if id(method) not in declarations.bodies:
+                view.method(method, None, source)
+
+
+def _find(session: Session, source: Source, name: str) -> Symbol | None:
+    symbol: Symbol | None = None
+    for number, part in enumerate(name.split(".")):
+        if number == 0:
+            symbol = session.levels.seen_by(source).get(part.upper())
+        elif isinstance(symbol, NamespaceSymbol):
+            symbol = symbol.members.get(part.upper())
+        else:
+            return None
+    return symbol
+
+
+def _link_interface(
+    session: Session, interface: InterfaceSymbol, declaration: ast.Interface, source: Source
+) -> None:
+    interface.bases = []
+    for name in declaration.extends:
+        base = _find(session, source, name)
+        if isinstance(base, InterfaceSymbol):
+            interface.bases.append(base)
+        else:
+            hint = f"'{name}' is a {describe(base)}." if base is not None else ""
+            session.report("E0217", source.uri, declaration.name_span, name=name, hint=hint)
+
+
+def _inherit_interface(interface: InterfaceSymbol, depth: int) -> None:
+    if depth > _DEPTH_LIMIT:
+        interface.bases = []
+        return
+    for base in interface.bases:
+        _inherit_interface(base, depth + 1)
+        for key, method in base.methods.items():
+            interface.methods.setdefault(key, method)
+        for key, property_ in base.properties.items():
+            interface.properties.setdefault(key, property_)
+
+
+def _link_pou(session: Session, pou: PouSymbol) -> None:
+    node, source = pou.pou, pou.source
+    if node is None or source is None:
+        return
+    if node.extends:
+        base = _find(session, source, node.extends)
+        if isinstance(base, PouSymbol) and base.kind == pou.kind == "FUNCTION_BLOCK":
+            pou.base = base
+            if base.pou is not None and "FINAL" in base.pou.modifiers:
+                session.report("E0426", source.uri, node.name_span, name=base.name)
+        elif base is None:
+            session.report("E0216", source.uri, node.name_span, name=node.extends, hint="")
+        else:
+            what = pou.kind.lower().replace("_", " ")
+            session.report("E0417", source.uri, node.name_span, name=pou.name, base=base.name, what=what)
+    for name in node.implements:
+        interface = _find(session, source, name)
+        if isinstance(interface, InterfaceSymbol):
+            pou.interfaces.append(interface)
+        else:
+            hint = f"'{name}' is a {describe(interface)}." if interface is not None else ""
+            session.report("E0217", source.uri, node.name_span, name=name, hint=hint)
+
+
+def _break_cycle(session: Session, pou: PouSymbol) -> None:
+    chain = [pou]
+    walk = pou.base
+    while walk is not None:
+        if walk is pou:
+            names = " -> ".join(p.name for p in [*chain, pou])
+            source, span = pou.source, pou.span
+            if source is not None and span is not None:
+                session.report("E0408", source.uri, span, name=pou.name, chain=names)
+            pou.base = None
+            return
+        if walk in chain:
+            return
+        chain.append(walk)
+        walk = walk.base
+
+
+class _Views:
+    """Makes `PouSymbol.locals`, `parameters`, `vtable` and the `Body` of every POU."""
+
+    def __init__(
+        self, session: Session, found: Collected, declarations: Declarations, extended: set[int]
+    ) -> None:
+        self.session = session
+        self.found = found
+        self.declarations = declarations
+        self.extended = extended
+
+    def block(self, pou: PouSymbol) -> None:
+        """View of a program, function or function block, and of what is below it."""
+        if id(pou) in self.declarations.bodies:
+            return
+        base = pou.base
+        if base is not None:
+            self.block(base)
+            pou.locals.update({k: v for k, v in base.locals.items() if v.section not in ("VAR_TEMP",)})
+            pou.parameters += base.parameters
+        self._own(pou)
+        if pou.kind == "FUNCTION":
+            self._result(pou, pou.name)
+        self._vtable(pou, base)
+        visible: dict[str, Symbol] = {}
+        self._members(visible, pou)
+        visible.update(pou.locals)
+        source = pou.source
+        assert source is not None
+        body = Body(self.session, source, pou, visible)
+        self._enter(pou, body)
+        if pou.instance is not None:
+            self.declarations.blocks[id(pou.instance)] = pou
+        for child in (*pou.methods.values(), *pou.actions.values()):
+            self.method(child, pou, child.source or source)
+        for property_ in pou.properties.values():
+            for accessor in (property_.getter, property_.setter):
+                if accessor is not None:
+                    self.method(accessor, pou, accessor.source or source, property_.name)
+
+    def method(
+        self, pou: PouSymbol, owner: PouSymbol | None, source: Source, result_name: str | None = None
+    ) -> None:
+        """View of a method, action, transition or accessor."""
+        if owner is not None:
+            pou.locals.update({k: v for k, v in owner.locals.items() if v.section != "VAR_TEMP"})
+        self._own(pou)
+        if pou.kind in ("METHOD", "TRANSITION"):
+            name = result_name or pou.name
+            if pou.pou is not None and pou.pou.return_type is not None:
+                self._result(pou, name)
+        visible: dict[str, Symbol] = {}
+        if owner is not None:
+            self._members(visible, owner)
+        visible.update(pou.locals)
+        self._enter(pou, Body(self.session, source, pou, visible))
+
+    def _members(self, visible: dict[str, Symbol], pou: PouSymbol) -> None:
+        """Methods, actions and properties, those of bases first."""
+        chain: list[PouSymbol] = []
+        walk: PouSymbol | None = pou
+        while walk is not None:
+            chain.append(walk)
+            walk = walk.base
+        for block in reversed(chain):
+            visible.update(block.methods)
+            visible.update(block.actions)
+            visible.update(block.properties)
+
+    def _own(self, pou: PouSymbol) -> None:
+        own = self.found.own[id(pou)]
+        inherited = pou.base.locals if pou.base is not None else {}
+        for key, variable in own.variables.items():
+            if key in inherited and variable.span is not None and variable.source is not None:
+                self.session.report(
+                    "E0205", variable.source.uri, variable.span, what="variable", name=variable.name
+                )
+            pou.locals[key] = variable
+            if variable.section in _PASSED:
+                pou.parameters.append(variable)
+
+    def _result(self, pou: PouSymbol, name: str) -> None:
+        node = pou.pou
+        decl = None
+        if node is not None and node.return_type is not None:
+            decl = ast.VarDecl(
+                name=name, name_span=node.name_span, span=node.name_span, type_ref=node.return_type
+            )
+        result = VarSymbol(
+            name,
+            pou.source,
+            pou.span,
+            storage=Storage.RESULT,
+            home=Storage.RESULT,
+            section="RESULT",
+            owner=pou.qualified_name,
+            decl=decl,
+        )
+        if decl is not None:
+            decl.symbol = result
+        pou.result = result
+        pou.locals.setdefault(name.upper(), result)
+
+    def _vtable(self, pou: PouSymbol, base: PouSymbol | None) -> None:
+        if pou.kind != "FUNCTION_BLOCK":
+            return
+        if base is not None:
+            pou.vtable.update(base.vtable)
+        entries: dict[str, PouSymbol] = {**pou.methods, **pou.actions}
+        for property_ in pou.properties.values():
+            for accessor in (property_.getter, property_.setter):
+                if accessor is not None:
+                    entries[accessor.name.upper()] = accessor
+        if base is not None or id(pou) in self.extended or pou.interfaces or entries:
+            pou.vtable.setdefault("__BODY", pou)
+            pou.vtable["__BODY"] = pou
+        pou.vtable.update(entries)
+
+    def _enter(self, pou: PouSymbol, body: Body) -> None:
+        """Registers a view and its variables; connects VAR_EXTERNAL with the global variable."""
+        self.declarations.bodies[id(pou)] = body
+        own = self.found.own[id(pou)]
+        for variable in own.externals:
+            self._external(pou, body, variable)
+        for variable in (*own.variables.values(), pou.result):
+            if variable is not None and variable.decl is not None and variable.section != "VAR_EXTERNAL":
+                self.declarations.variables[id(variable)] = (variable, body)
+
+    def _external(self, pou: PouSymbol, body: Body, variable: VarSymbol) -> None:
+        key = variable.name.upper()
+        target = body.names.get(key)
+        span = variable.span
+        assert span is not None
+        if isinstance(target, VarSymbol):
+            pou.locals[key] = target
+            body.locals[key] = target
+            if variable.decl is not None:
+                if variable.decl.initial is not None:
+                    body.report("W1207", span, name=variable.name)
+        else:
+            body.report("E0211", span, name=variable.name)
+
+
+def plain_body(session: Session, source: Source) -> Body:
+    """View of a text that belongs to no POU: a type or a global variable list."""
+    return Body(session, source, None, {})

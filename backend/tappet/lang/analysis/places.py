@@ -1,0 +1,158 @@
+"""Places: what can be written, bound or have its address taken."""
+
+from __future__ import annotations
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.expressions import text_of
+from tappet.lang.symbols import (
+    EnumValueSymbol,
+    GvlSymbol,
+    NamespaceSymbol,
+    PouSymbol,
+    PropertySymbol,
+    VarSymbol,
+)
+
+
+def is_place(e: ast.Expr) -> bool:
+    """Whether `e` stands for memory (no literal, no computed value, no bit, no property)."""
+    while True:
+        if isinstance(e, ast.Name):
+            return isinstance(e.symbol, VarSymbol)
+        if isinstance(e, ast.Member):
+            if e.bit is not None or not isinstance(e.symbol, VarSymbol) or e.symbol.bit is not None:
+                return False
+            if e.base.type is None:
+                return True
+            e = e.base
+        elif isinstance(e, ast.Index):
+            if isinstance(e.base.type, t.Pointer):
+                return True
+            e = e.base
+        elif isinstance(e, ast.Deref):
+            return True
+        elif isinstance(e, ast.Call):
+            return isinstance(e.target, PouSymbol) and isinstance(e.target.return_type, t.Reference)
+        else:
+            return False
+
+
+def mark_written(b: Body, e: ast.Expr) -> None:
+    """Notes that the variables on the way to a place are written."""
+    written = b.session.written
+    while True:
+        if e.__class__ in (ast.Name, ast.Member):
+            written.add(id(e.symbol))  # type: ignore[attr-defined]
+        if e.__class__ in (ast.Member, ast.Index):
+            e = e.base  # type: ignore[attr-defined]
+        else:
+            return
+
+
+def writable(b: Body, target: ast.Expr) -> bool:
+    """Checks that the analysed `target` may be assigned; reports why not."""
+    e = target
+    written = b.session.written
+    while True:
+        kind = e.__class__
+        if kind is ast.Name:
+            return _variable_writable(b, target, e, e.symbol)  # type: ignore[attr-defined]
+        if kind is ast.Member:
+            assert isinstance(e, ast.Member)
+            base = e.base
+            if e.bit is None:
+                symbol = e.symbol
+                if symbol.__class__ is not VarSymbol:
+                    return _variable_writable(b, target, e, symbol)
+                assert isinstance(symbol, VarSymbol)
+                if not _access_allowed(b, e, symbol):
+                    return False
+                if base.type is None:
+                    return _variable_writable(b, target, e, symbol)
+                if "CONSTANT" in symbol.flags:
+                    b.report("E0305", target.span, name=text_of(target), hint="It is a constant.")
+                    return False
+                written.add(id(symbol))
+                if base.type.__class__ is t.Interface:
+                    return True
+            e = base
+        elif kind is ast.Index:
+            assert isinstance(e, ast.Index)
+            if e.base.type.__class__ is t.Pointer:
+                return True
+            e = e.base
+        elif kind is ast.Deref:
+            return True
+        elif kind is ast.ErrorExpr:
+            return False
+        else:
+            if kind is ast.Call and is_place(e):
+                return True
+            if target.type is not None or kind is not ast.Call:
+                b.report("E0305", target.span, name=text_of(target), hint="Only a variable can be assigned.")
+            return False
+
+
+def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -> bool:
+    if symbol is None:
+        return False
+    if isinstance(symbol, VarSymbol):
+        if "CONSTANT" in symbol.flags:
+            b.report("E0305", target.span, name=text_of(target), hint="It is a constant.")
+            return False
+        if symbol.area == "I":
+            b.report("E0306", target.span, name=symbol.name)
+            return False
+        b.session.written.add(id(symbol))
+        return True
+    if isinstance(symbol, PropertySymbol):
+        if e is not target:
+            b.report(
+                "E0305",
+                target.span,
+                name=text_of(target),
+                hint="A property gives a copy: assign it as a whole.",
+            )
+            return False
+        if symbol.setter is None:
+            b.report("E0424", target.span, name=symbol.name, what="Set", verb="write")
+            return False
+        return True
+    hint = "Only a variable can be assigned."
+    if isinstance(symbol, EnumValueSymbol):
+        hint = "It is a value of an enumeration."
+    elif isinstance(symbol, (GvlSymbol, NamespaceSymbol)):
+        hint = f"Write {symbol.name}.<variable>."
+    elif isinstance(symbol, PouSymbol):
+        hint = "It is no variable."
+    b.report("E0305", target.span, name=text_of(target), hint=hint)
+    return False
+
+
+def _access_allowed(b: Body, e: ast.Member, symbol: VarSymbol) -> bool:
+    """Members of an instance can be written from outside only when they are inputs (LDEC-20, LDEC-22)."""
+    base = e.base
+    owner: object = None
+    if base.type.__class__ is t.FunctionBlock:
+        inner = base.base.__class__ if isinstance(base, ast.Deref) else None
+        if inner is ast.This or inner is ast.Super:
+            return True
+        owner = base.type.pou.symbol if base.type.pou is not None else None  # type: ignore[union-attr]
+    elif base.type is None and base.__class__ in (ast.Name, ast.Member):
+        owner = base.symbol  # type: ignore[attr-defined]
+        if not isinstance(owner, PouSymbol):
+            return True
+    else:
+        return True
+    if symbol.section == "VAR_INPUT" or owner is b.block:
+        return True
+    if symbol.section in ("VAR", "VAR_OUTPUT", "VAR_INST"):
+        name = owner.name if isinstance(owner, PouSymbol) else str(base.type)
+        b.report("E0209", e.name_span, name=symbol.name, type=name, what=_WHAT[symbol.section])
+        return False
+    return True
+
+
+_WHAT = {"VAR": "a local variable", "VAR_OUTPUT": "an output", "VAR_INST": "a local variable"}

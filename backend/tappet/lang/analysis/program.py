@@ -1,0 +1,358 @@
+"""Checks of the whole program: recursion, interfaces, FB_Init arguments, VAR_CONFIG, address overlap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis import addresses
+from tappet.lang.analysis.calls import bind_arguments
+from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.context import Body, Session
+from tappet.lang.analysis.declarations import Declarations
+from tappet.lang.analysis.expressions import find_member
+from tappet.lang.analysis.heads import plain_body
+from tappet.lang.analysis.result import ConfiguredAddress
+from tappet.lang.source import Scope, Source, Span
+from tappet.lang.symbols import InterfaceSymbol, PouSymbol, Storage, VarSymbol
+from tappet.lang.types import Type
+
+_FB_INIT_FIXED = 2
+"""FB_Init begins with bInitRetains and bInCopyCode; the rest comes from the declaration (LDEC-102)."""
+
+
+def check(session: Session, found: Collected, declarations: Declarations) -> None:
+    """Runs all checks of the whole program."""
+    _recursion(session, found)
+    for pou, _ in found.pous:
+        _interfaces(session, pou)
+        _overrides(session, pou)
+    _configured_addresses(session, found, declarations)
+    _external_types(session, found, declarations)
+
+
+# -- recursion --------------------------------------------------------------------------------------
+
+
+def _recursion(session: Session, found: Collected) -> None:
+    """Reports every cycle of calls once, with the chain (POU-02)."""
+    finished: set[int] = set()
+    for pou, _ in found.pous:
+        for start in _callers(pou):
+            if id(start) not in finished:
+                _search(session, start, finished)
+
+
+def _callers(pou: PouSymbol) -> Iterable[PouSymbol]:
+    yield pou
+    yield from pou.methods.values()
+    yield from pou.actions.values()
+    for property_ in pou.properties.values():
+        if property_.getter is not None:
+            yield property_.getter
+        if property_.setter is not None:
+            yield property_.setter
+
+
+def _search(session: Session, start: PouSymbol, finished: set[int]) -> None:
+    path: list[PouSymbol] = [start]
+    on_path = {id(start): 0}
+    stack = [iter(session.calls.get(id(start), ()))]
+    while stack:
+        step = next(stack[-1], None)
+        if step is None:
+            stack.pop()
+            done = path.pop()
+            del on_path[id(done)]
+            finished.add(id(done))
+            continue
+        target, _, span = step
+        if id(target) in on_path:
+            _report_recursion(session, path, path[on_path[id(target)] :], span)
+        elif id(target) not in finished:
+            path.append(target)
+            on_path[id(target)] = len(path) - 1
+            stack.append(iter(session.calls.get(id(target), ())))
+
+
+def _report_recursion(session: Session, path: list[PouSymbol], cycle: list[PouSymbol], span: Span) -> None:
+    caller = path[-1]
+    if caller.source is None:
+        return
+    chain = " -> ".join(p.qualified_name for p in [*cycle, cycle[0]])
+    strict = any(p.kind in ("FUNCTION", "PROGRAM") for p in cycle)
+    session.report("E0515" if strict else "W1117", caller.source.uri, span, chain=chain)
+
+
+# -- interfaces and overriding ----------------------------------------------------------------------
+
+
+def _interfaces(session: Session, pou: PouSymbol) -> None:
+    node, source = pou.pou, pou.source
+    if node is None or source is None or "ABSTRACT" in node.modifiers:
+        return
+    for interface in pou.interfaces:
+        for key, head in interface.methods.items():
+            if key.startswith(("__GET", "__SET")) and key[5:] in interface.properties:
+                continue
+            own = find_member(pou, key)
+            if not isinstance(own, PouSymbol):
+                _missing(session, source, node, interface, "method", head.name)
+            else:
+                _compare(session, own, head, interface.name)
+        for key, property_ in interface.properties.items():
+            if find_member(pou, key) is None:
+                _missing(session, source, node, interface, "property", property_.name)
+
+
+def _missing(
+    session: Session, source: Source, node: ast.Pou, interface: InterfaceSymbol, what: str, member: str
+) -> None:
+    session.report(
+        "E0418",
+        source.uri,
+        node.name_span,
+        name=node.name,
+        what=what,
+        member=member,
+        interface=interface.name,
+    )
+
+
+def _overrides(session: Session, pou: PouSymbol) -> None:
+    if pou.base is None:
+        return
+    for key, method in pou.methods.items():
+        if key in ("FB_INIT", "FB_EXIT", "FB_REINIT"):
+            continue
+        base = find_member(pou.base, key)
+        if isinstance(base, PouSymbol):
+            owner = base.owner.name if base.owner is not None else base.name
+            _compare(session, method, base, owner)
+
+
+def _compare(session: Session, own: PouSymbol, base: PouSymbol, base_name: str) -> None:
+    """A method that overrides or implements another one has its parameters and result."""
+    reason = ""
+    if own.return_type != base.return_type:
+        reason = f"it returns '{own.return_type}' instead of '{base.return_type}'"
+    elif len(own.parameters) != len(base.parameters):
+        reason = f"it has {len(own.parameters)} parameters instead of {len(base.parameters)}"
+    else:
+        for mine, other in zip(own.parameters, base.parameters, strict=True):
+            if mine.name.upper() != other.name.upper() or mine.section != other.section:
+                reason = f"parameter '{mine.name}' is '{other.name}' there"
+            elif mine.type != other.type:
+                reason = f"parameter '{mine.name}' is '{mine.type}' instead of '{other.type}'"
+            else:
+                continue
+            break
+    if reason and own.source is not None and own.span is not None:
+        session.report(
+            "E0419", own.source.uri, own.span, what="Method", name=own.name, base=base_name, reason=reason
+        )
+
+
+# -- declarations -----------------------------------------------------------------------------------
+
+
+def check_fb_init(body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Type) -> None:
+    """Arguments in the declaration of an instance are those of FB_Init behind the first two (LDEC-102)."""
+    ref: ast.TypeRef = decl.type_ref
+    while isinstance(ref, ast.ArrayType):
+        ref = ref.element
+    while isinstance(type_, t.Array):
+        type_ = type_.element
+    args = ref.args if isinstance(ref, ast.NamedType) else None
+    block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou is not None else None
+    if not isinstance(block, PouSymbol) or variable.section in ("VAR_IN_OUT", "VAR_EXTERNAL"):
+        if args:
+            body.report("E0503", ref.span, callee=str(type_), expected=0, actual=len(args), hint="")
+        return
+    init = find_member(block, "FB_INIT")
+    extra = init.parameters[_FB_INIT_FIXED:] if isinstance(init, PouSymbol) else []
+    if args:
+        bind_arguments(body, args, extra, f"{block.name}.FB_Init", ref.span, "FB_INIT")
+    given = {id(a.parameter) for a in args or ()}
+    for parameter in extra:
+        optional = parameter.decl is not None and parameter.decl.initial is not None
+        if parameter.section == "VAR_INPUT" and id(parameter) not in given and not optional:
+            body.report("E0421", decl.span, name=parameter.name, variable=variable.name, type=block.name)
+
+
+def _external_types(session: Session, found: Collected, declarations: Declarations) -> None:
+    """VAR_EXTERNAL must repeat the type of the global variable (LDEC-27)."""
+    for pou, _ in found.pous:
+        for entry in _callers(pou):
+            body = declarations.bodies[id(entry)]
+            for variable in found.own[id(entry)].externals:
+                target = entry.locals.get(variable.name.upper())
+                decl = variable.decl
+                if target is variable or target is None or decl is None:
+                    continue
+                type_ = declarations.type_of(body, decl.type_ref, variable.name)
+                if type_ is not None and target.type is not None and type_ != target.type:
+                    body.report(
+                        "E0212",
+                        decl.span,
+                        name=variable.name,
+                        type=type_,
+                        other=target.type,
+                        owner=target.owner,
+                    )
+
+
+# -- VAR_CONFIG -------------------------------------------------------------------------------------
+
+
+def _configured_addresses(session: Session, found: Collected, declarations: Declarations) -> None:
+    """Connects incomplete addresses `%I*` with the lines of VAR_CONFIG (LDEC-93, LDEC-94)."""
+    incomplete = _incomplete_paths(session, found)
+    seen: set[str] = set()
+    for decl, source in found.configured:
+        body = plain_body(session, source)
+        key = decl.name.upper()
+        if key in seen:
+            body.report("E0610", decl.span, path=decl.name)
+            continue
+        seen.add(key)
+        entry = incomplete.get(key)
+        if entry is None:
+            body.report("E0606", decl.name_span, path=decl.name, hint=_path_hint(key, incomplete))
+            continue
+        _connect(session, body, decl, entry, declarations)
+    for key, (variable, _, _, path) in incomplete.items():
+        if key not in seen and variable.source is not None and variable.span is not None:
+            session.report("E0605", variable.source.uri, variable.span, path=path)
+
+
+def _path_hint(key: str, incomplete: dict[str, tuple[VarSymbol, str, int, str]]) -> str:
+    tail = key.rpartition(".")[2]
+    known = [path for k, (_, _, _, path) in incomplete.items() if k.endswith(f".{tail}")]
+    return f"Paths with an incomplete address are: {', '.join(known[:3])}." if known else ""
+
+
+def _connect(
+    session: Session,
+    body: Body,
+    decl: ast.VarDecl,
+    entry: tuple[VarSymbol, str, int, str],
+    declarations: Declarations,
+) -> None:
+    variable, owner, offset, _ = entry
+    if decl.address is None:
+        body.report("E0601", decl.span, address="")
+        return
+    place = addresses.locate(body, decl.address, decl.span)
+    if isinstance(place, addresses.IncompleteAddress):
+        body.report("E0608", decl.span)
+        return
+    type_ = declarations.type_of(body, decl.type_ref, decl.name)
+    if place is None or type_ is None or variable.type is None:
+        return
+    if place.area != variable.area or type_ != variable.type:
+        body.report(
+            "E0607",
+            decl.span,
+            path=decl.name,
+            declared=f"%{variable.area}* : {variable.type}",
+            configured=f"{decl.address} : {type_}",
+        )
+        return
+    session.analysis.configured.append(
+        ConfiguredAddress(decl.name, owner.upper(), offset, type_, place.area, place.offset, place.bit)
+    )
+
+
+def _incomplete_paths(session: Session, found: Collected) -> dict[str, tuple[VarSymbol, str, int, str]]:
+    """Every variable with an incomplete address: upper-case path to variable, data object, offset, path."""
+    paths: dict[str, tuple[VarSymbol, str, int, str]] = {}
+    concerned: dict[int, bool] = {}
+    for program in session.analysis.programs.values():
+        if program.source is not None and program.source.scope is Scope.LIBRARY:
+            continue
+        for variable in program.locals.values():
+            _walk(
+                paths,
+                concerned,
+                variable,
+                variable.type,
+                program.qualified_name,
+                variable.offset,
+                program.name,
+            )
+    for gvl, _ in found.gvls:
+        for variable in gvl.members.values():
+            _walk(paths, concerned, variable, variable.type, gvl.name, variable.offset, gvl.name)
+    return paths
+
+
+def _is_incomplete(variable: VarSymbol) -> bool:
+    return variable.area is not None and variable.home is not Storage.DIRECT
+
+
+def _walk(
+    paths: dict[str, tuple[VarSymbol, str, int, str]],
+    concerned: dict[int, bool],
+    variable: VarSymbol,
+    type_: Type | None,
+    owner: str,
+    offset: int,
+    prefix: str,
+) -> None:
+    path = f"{prefix}.{variable.name}"
+    if _is_incomplete(variable):
+        paths[path.upper()] = (variable, owner, offset, path)
+        return
+    if variable.section in ("VAR_IN_OUT", "VAR_TEMP"):
+        return
+    _walk_type(paths, concerned, type_, owner, offset, path)
+
+
+def _walk_type(
+    paths: dict[str, tuple[VarSymbol, str, int, str]],
+    concerned: dict[int, bool],
+    type_: Type | None,
+    owner: str,
+    offset: int,
+    path: str,
+) -> None:
+    if isinstance(type_, t.FunctionBlock):
+        if not _concerns(concerned, type_):
+            return
+        block = type_.pou.symbol if type_.pou is not None else None
+        if isinstance(block, PouSymbol):
+            for variable in block.locals.values():
+                if variable.home is Storage.INSTANCE and variable.owner is not None:
+                    _walk(paths, concerned, variable, variable.type, owner, offset + variable.offset, path)
+    elif isinstance(type_, t.Array) and len(type_.bounds) == 1:
+        if isinstance(type_.element, t.FunctionBlock) and _concerns(concerned, type_.element):
+            low, high = type_.bounds[0]
+            for index in range(low, high + 1):
+                start = offset + (index - low) * type_.element.size
+                _walk_type(paths, concerned, type_.element, owner, start, f"{path}[{index}]")
+
+
+def _concerns(concerned: dict[int, bool], type_: t.FunctionBlock) -> bool:
+    """Whether a block, or one inside it, has an incomplete address; most have none."""
+    known = concerned.get(id(type_))
+    if known is not None:
+        return known
+    concerned[id(type_)] = False
+    block = type_.pou.symbol if type_.pou is not None else None
+    result = False
+    if isinstance(block, PouSymbol):
+        for variable in block.locals.values():
+            if _is_incomplete(variable):
+                result = True
+                break
+            inner: Type | None = variable.type
+            while isinstance(inner, t.Array):
+                inner = inner.element
+            if isinstance(inner, t.FunctionBlock) and variable.section != "VAR_IN_OUT":
+                if _concerns(concerned, inner):
+                    result = True
+                    break
+    concerned[id(type_)] = result
+    return result

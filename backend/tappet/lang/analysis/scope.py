@@ -1,0 +1,194 @@
+"""Which names a text sees: its own object's, the application's, the POUs view's, the libraries' (CON-06..CON-09)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from tappet.lang.source import Scope, Source
+from tappet.lang.symbols import (
+    EnumValueSymbol,
+    GvlSymbol,
+    NamespaceSymbol,
+    PouSymbol,
+    Symbol,
+    TypeSymbol,
+    VarSymbol,
+)
+
+
+@dataclass(eq=False, slots=True)
+class AmbiguousSymbol(Symbol):
+    """A name that several lists, enumerations or libraries declare; it must be qualified."""
+
+    choices: list[str] = field(default_factory=list)
+
+
+@dataclass(eq=False, slots=True)
+class QualifiedSymbol(Symbol):
+    """A name that exists but, by attribute 'qualified_only', only behind its list or type."""
+
+    choice: str = ""
+
+
+@dataclass(slots=True)
+class Level:
+    """Objects of one place: the application, the POUs view, or one library."""
+
+    label: str
+    """'' for application and POUs view, the namespace of a library."""
+    objects: dict[str, Symbol] = field(default_factory=dict)
+    gvls: list[GvlSymbol] = field(default_factory=list)
+    enum_values: list[tuple[str, bool, EnumValueSymbol]] = field(default_factory=list)
+    """(type name, qualified_only, value)"""
+
+    def names(self) -> dict[str, Symbol]:
+        """Everything visible by its plain name: objects hide global variables and enumeration values."""
+        found: dict[str, Symbol] = {}
+        origin: dict[str, str] = {}
+        for gvl in self.gvls:
+            for key, member in gvl.members.items():
+                self._add(found, origin, key, member, gvl.name, gvl.qualified_only)
+        for type_name, qualified, value in self.enum_values:
+            self._add(found, origin, value.name.upper(), value, type_name, qualified)
+        found.update(self.objects)
+        return found
+
+    @staticmethod
+    def _add(
+        found: dict[str, Symbol],
+        origin: dict[str, str],
+        key: str,
+        symbol: Symbol,
+        where: str,
+        qualified: bool,
+    ) -> None:
+        old = found.get(key)
+        if qualified:
+            if old is None:
+                found[key] = QualifiedSymbol(symbol.name, choice=f"{where}.{symbol.name}")
+        elif old is None or isinstance(old, QualifiedSymbol):
+            found[key] = symbol
+            origin[key] = where
+        elif isinstance(old, AmbiguousSymbol):
+            old.choices.append(f"{where}.{symbol.name}")
+        else:
+            choices = [f"{origin[key]}.{symbol.name}", f"{where}.{symbol.name}"]
+            found[key] = AmbiguousSymbol(symbol.name, choices=choices)
+
+
+@dataclass(slots=True)
+class Levels:
+    """All levels of one analysis and the look-up tables made of them."""
+
+    application: Level = field(default_factory=lambda: Level(""))
+    pous: Level = field(default_factory=lambda: Level(""))
+    libraries: dict[str, Level] = field(default_factory=dict)
+    system: dict[str, Symbol] = field(default_factory=dict)
+    """Names every text sees last, such as `__SYSTEM`."""
+    _tables: dict[str, dict[str, Symbol]] = field(default_factory=dict)
+
+    def of(self, source: Source) -> Level:
+        """The level the objects of a source belong to."""
+        if source.scope is Scope.APPLICATION:
+            return self.application
+        if source.scope is Scope.POUS:
+            return self.pous
+        label = source.namespace or source.library or "Library"
+        return self.libraries.setdefault(label.upper(), Level(label))
+
+    def seen_by(self, source: Source) -> dict[str, Symbol]:
+        """What a text of this source sees by plain name, own locals excepted. Valid once all is collected."""
+        if source.scope is Scope.LIBRARY:
+            key = f"L {(source.namespace or source.library or 'Library').upper()}"
+        else:
+            key = source.scope.value
+        table = self._tables.get(key)
+        if table is None:
+            table = dict(self._library_names())
+            if source.scope is Scope.LIBRARY:
+                table.update(self.of(source).names())
+            else:
+                table.update(self.pous.names())
+                if source.scope is Scope.APPLICATION:
+                    table.update(_without_qualified(self.application.names(), table))
+            self._tables[key] = table
+        return table
+
+    def _library_names(self) -> dict[str, Symbol]:
+        table = self._tables.get("libraries")
+        if table is None:
+            table = dict(self.system)
+            for level in self.libraries.values():
+                names = level.names()
+                table.setdefault(level.label.upper(), NamespaceSymbol(level.label, members=names))
+            for level in self.libraries.values():
+                for key, symbol in level.names().items():
+                    old = table.get(key)
+                    if old is None or isinstance(old, (NamespaceSymbol, QualifiedSymbol)):
+                        table[key] = symbol
+                    elif isinstance(symbol, QualifiedSymbol):
+                        continue
+                    else:
+                        choice = f"{level.label}.{symbol.name}"
+                        choices = old.choices if isinstance(old, AmbiguousSymbol) else [_qualified(old)]
+                        table[key] = AmbiguousSymbol(symbol.name, choices=[*choices, choice])
+            self._tables["libraries"] = table
+        return table
+
+
+def _without_qualified(names: dict[str, Symbol], outer: dict[str, Symbol]) -> dict[str, Symbol]:
+    """A name that needs qualification does not hide one of an outer level that needs none."""
+    return {k: s for k, s in names.items() if not (isinstance(s, QualifiedSymbol) and k in outer)}
+
+
+def _qualified(symbol: Symbol) -> str:
+    source = symbol.source
+    prefix = (source.namespace or source.library) if source else None
+    return f"{prefix}.{symbol.name}" if prefix else symbol.name
+
+
+def place_of(symbol: Symbol) -> str:
+    """Where a symbol is declared, for a suggestion: `GVL_Drive`, a library, or what kind of object it is."""
+    if isinstance(symbol, VarSymbol):
+        return symbol.owner or symbol.section
+    if isinstance(symbol, EnumValueSymbol):
+        return str(symbol.type)
+    if isinstance(symbol, PouSymbol):
+        return symbol.kind.lower().replace("_", " ")
+    return describe(symbol)
+
+
+def describe(symbol: Symbol) -> str:
+    """What a symbol is, in words."""
+    if isinstance(symbol, VarSymbol):
+        return "constant" if "CONSTANT" in symbol.flags else "variable"
+    if isinstance(symbol, PouSymbol):
+        return symbol.kind.lower().replace("_", " ")
+    if isinstance(symbol, TypeSymbol):
+        return "data type"
+    if isinstance(symbol, GvlSymbol):
+        return "global variable list"
+    if isinstance(symbol, EnumValueSymbol):
+        return "enumeration value"
+    if isinstance(symbol, NamespaceSymbol):
+        return "namespace"
+    return type(symbol).__name__.removesuffix("Symbol").lower()
+
+
+def suggestion(name: str, *tables: Iterable[tuple[str, Symbol]]) -> str:
+    """`Did you mean 'Speed' (GVL_Drive)?` for the closest known name, '' when none is close."""
+    known: dict[str, Symbol] = {}
+    for table in tables:
+        for key, symbol in table:
+            known.setdefault(key, symbol)
+    close = get_close_matches(name.upper(), known, n=1, cutoff=0.6)
+    if not close:
+        return ""
+    symbol = known[close[0]]
+    if isinstance(symbol, QualifiedSymbol):
+        return f"Did you mean '{symbol.choice}'?"
+    if isinstance(symbol, AmbiguousSymbol):
+        return f"Did you mean '{symbol.choices[0]}'?"
+    return f"Did you mean '{symbol.name}' ({place_of(symbol)})?"

@@ -1,0 +1,315 @@
+"""Statements: one function per node class, found by `STATEMENTS` (spec language_st.md section 2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis import conversion
+from tappet.lang.analysis.adaptation import require, retype
+from tappet.lang.analysis.calls import bind_reference
+from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
+from tappet.lang.analysis.places import writable
+from tappet.lang.rules import STATEMENT_RULES
+from tappet.lang.symbols import PropertySymbol, VarSymbol
+from tappet.lang.types import Elementary, Kind, Type
+
+STATEMENTS: dict[type, Callable[[Body, Any], None]] = {}
+_AGGREGATES = (ast.ArrayInit, ast.StructInit)
+
+
+def statements(b: Body, body: list[ast.Stmt]) -> None:
+    """Resolves a list of statements."""
+    table = STATEMENTS
+    rules = STATEMENT_RULES
+    for s in body:
+        kind = s.__class__
+        if s.label is not None:
+            _label(b, s)
+        handler = table.get(kind)
+        if handler is not None:
+            handler(b, s)
+        checks = rules.get(kind)
+        if checks is not None:
+            for check in checks:
+                check(b, s)
+
+
+def _label(b: Body, s: ast.Stmt) -> None:
+    assert s.label is not None
+    key = s.label.upper()
+    if key in b.labels:
+        b.report("E0803", s.span, name=s.label)
+    b.labels[key] = s.span
+
+
+def _assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
+    target, content = s.target, s.value
+    if s.op != ":=":
+        _special_assign(b, s)
+        return
+    type_ = evaluate(b, target)
+    b.assigned = content
+    if content.__class__ in _AGGREGATES:
+        b.report("E0333", content.span, what=_aggregate_name(content))
+    elif value(b, content) is not None and type_ is not None:
+        require(b, content, type_)
+    b.assigned = None
+    if target.__class__ is ast.Name and target.symbol.__class__ is VarSymbol:  # type: ignore[attr-defined]
+        symbol = target.symbol  # type: ignore[attr-defined]
+        if "CONSTANT" not in symbol.flags and symbol.area != "I":
+            b.session.written.add(id(symbol))
+            if b.loop_variables and symbol in b.loop_variables:
+                b.loop_writes.append((symbol, target.span))
+            return
+    writable(b, target)
+
+
+def _aggregate_name(e: ast.Expr) -> str:
+    return "An array initialiser" if isinstance(e, ast.ArrayInit) else "A structure initialiser"
+
+
+def _special_assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
+    """`REF=`, `S=`, `R=`."""
+    target, content = s.target, s.value
+    type_ = value(b, target)
+    if s.op == "REF=":
+        own = value(b, content)
+        symbol = getattr(target, "symbol", None)
+        declared = symbol.type if isinstance(symbol, (VarSymbol, PropertySymbol)) else None
+        if type_ is None:
+            return
+        if not isinstance(declared, t.Reference):
+            b.report("E0320", target.span, name=text_of(target), type=type_)
+        elif own is not None:
+            writable(b, target)
+            bind_reference(b, content, declared)
+        return
+    own = value(b, content)
+    if type_ is None or own is None:
+        return
+    for side, found in ((target, type_), (content, own)):
+        if side.untyped:
+            retype(side, t.BOOL)
+            found = side.type or found
+        if t.value_type(found) is not t.BOOL:
+            b.report("E0322", side.span, op=s.op, type=found)
+            return
+    writable(b, target)
+
+
+def _assign_expr(b: Body, e: ast.AssignExpr) -> None:
+    e.type = e.constant = None
+    e.is_constant = e.untyped = False
+    outer = b.assigned
+    _assign(b, e)
+    b.assigned = outer
+    e.type = e.target.type
+
+
+def _call_stmt(b: Body, s: ast.CallStmt) -> None:
+    handler = EXPRESSIONS.get(s.call.__class__)
+    if handler is not None:
+        handler(b, s.call)
+
+
+def _expr_stmt(b: Body, s: ast.ExprStmt) -> None:
+    evaluate(b, s.expr)
+
+
+def condition(b: Body, e: ast.Expr) -> None:
+    """Resolves an expression that decides: it must be BOOL."""
+    type_ = value(b, e)
+    if type_ is None or type_ is t.BOOL:
+        return
+    if e.untyped and retype(e, t.BOOL):
+        return
+    if t.value_type(type_) is not t.BOOL:
+        b.report("E0307", e.span, source=type_)
+
+
+def _if(b: Body, s: ast.If) -> None:
+    for test, body in s.branches:
+        condition(b, test)
+        statements(b, body)
+    if s.otherwise is not None:
+        statements(b, s.otherwise)
+
+
+def _while(b: Body, s: ast.While) -> None:
+    condition(b, s.condition)
+    b.loops += 1
+    statements(b, s.body)
+    b.loops -= 1
+
+
+def _repeat(b: Body, s: ast.RepeatUntil) -> None:
+    b.loops += 1
+    statements(b, s.body)
+    b.loops -= 1
+    condition(b, s.condition)
+
+
+def _for(b: Body, s: ast.For) -> None:
+    type_ = value(b, s.variable)
+    base = t.value_type(type_) if type_ is not None else None
+    for bound in (s.start, s.stop):
+        if value(b, bound) is not None and isinstance(base, Elementary) and base.is_integer:
+            _bound(b, bound, type_, base)
+    if (
+        s.step is not None
+        and value(b, s.step) is not None
+        and isinstance(base, Elementary)
+        and base.is_integer
+    ):
+        _step(b, s.step, base)
+    if type_ is not None:
+        if not isinstance(base, Elementary) or not base.is_integer:
+            b.report("E0807", s.variable.span, type=type_)
+        else:
+            writable(b, s.variable)
+    symbol = getattr(s.variable, "symbol", None)
+    b.loops += 1
+    if symbol is not None:
+        b.loop_variables.append(symbol)
+    statements(b, s.body)
+    if symbol is not None:
+        b.loop_variables.pop()
+    b.loops -= 1
+
+
+def _bound(b: Body, bound: ast.Expr, type_: Type | None, base: Elementary) -> None:
+    """A bound of a loop must fit its variable; other integers of a wider type convert with the usual message."""
+    assert type_ is not None
+    if bound.untyped:
+        if retype(bound, base):
+            return
+        b.report("E0808", bound.span, source=bound.type, target=type_)
+        return
+    require(b, bound, base)
+
+
+def _step(b: Body, step: ast.Expr, base: Elementary) -> None:
+    if step.is_constant and step.constant == 0:
+        b.report("E0809", step.span)
+        return
+    if step.untyped:
+        signed = (
+            conversion.smallest_integer(-(1 << (8 * base.size - 1))) if base.kind is not Kind.SIGNED else base
+        )
+        number = step.constant
+        fitting = signed if isinstance(number, int) and number < 0 and signed is not None else base
+        if not retype(step, fitting):
+            b.report("E0808", step.span, source=step.type, target=base)
+        return
+    require(b, step, base)
+
+
+def _case(b: Body, s: ast.Case) -> None:
+    type_ = value(b, s.selector)
+    base = t.value_type(type_) if type_ is not None else None
+    if type_ is not None and (not isinstance(base, Elementary) or not base.is_integer):
+        b.report("E0806", s.selector.span, type=type_)
+        type_ = base = None
+    if s.selector.untyped and isinstance(base, Elementary):
+        retype(s.selector, base)
+    ranges: list[tuple[int, int, ast.CaseRange]] = []
+    for branch in s.branches:
+        for selector in branch.selectors:
+            low = _case_label(b, selector.low, type_)
+            high = low if selector.high is None else _case_label(b, selector.high, type_)
+            if low is None or high is None:
+                continue
+            if low > high:
+                b.report("E0810", selector.span, low=low, high=high)
+            else:
+                ranges.append((low, high, selector))
+        statements(b, branch.body)
+    if s.otherwise is not None:
+        statements(b, s.otherwise)
+    if len(ranges) > 1:
+        _check_overlap(b, ranges)
+
+
+def _case_label(b: Body, e: ast.Expr, type_: Type | None) -> int | None:
+    if value(b, e) is None:
+        return None
+    if not e.is_constant:
+        b.report("E0805", e.span)
+        return None
+    if type_ is not None and not require(b, e, type_):
+        return None
+    number = e.constant
+    return int(number) if isinstance(number, int) else None
+
+
+def _check_overlap(b: Body, ranges: list[tuple[int, int, ast.CaseRange]]) -> None:
+    order = {id(entry[2]): number for number, entry in enumerate(ranges)}
+    reach: tuple[int, int, ast.CaseRange] | None = None
+    for entry in sorted(ranges, key=lambda r: (r[0], r[1])):
+        if reach is not None and entry[0] <= reach[1]:
+            later, earlier = (entry, reach) if order[id(entry[2])] > order[id(reach[2])] else (reach, entry)
+            if later[0] == later[1]:
+                b.report("E0811", later[2].span, value=later[0])
+            else:
+                b.report(
+                    "E0804",
+                    later[2].span,
+                    range=f"{later[0]} .. {later[1]}",
+                    other=f"{earlier[0]} .. {earlier[1]}",
+                )
+        if reach is None or entry[1] > reach[1]:
+            reach = entry
+
+
+def _exit(b: Body, s: ast.Exit | ast.Continue) -> None:
+    if not b.loops:
+        b.report("E0801", s.span, name="EXIT" if isinstance(s, ast.Exit) else "CONTINUE")
+
+
+def _jump(b: Body, s: ast.Jump) -> None:
+    b.jumps.append(s)
+
+
+def _try(b: Body, s: ast.Try) -> None:
+    statements(b, s.body)
+    if s.exception is not None:
+        value(b, s.exception)
+    statements(b, s.handler)
+    statements(b, s.final)
+
+
+def check_jumps(b: Body) -> None:
+    """Reports jumps to labels that the body does not have; call it after the whole body."""
+    targets = set()
+    for jump in b.jumps:
+        key = jump.target.upper()
+        targets.add(key)
+        if key not in b.labels:
+            known = ", ".join(sorted(b.labels))
+            b.report("E0802", jump.span, name=jump.target, hint=f"Labels here are: {known}." if known else "")
+    for key, span in b.labels.items():
+        if key not in targets:
+            b.report("W1115", span, name=key)
+
+
+EXPRESSIONS[ast.AssignExpr] = _assign_expr
+STATEMENTS.update(
+    {
+        ast.Assign: _assign,
+        ast.CallStmt: _call_stmt,
+        ast.ExprStmt: _expr_stmt,
+        ast.If: _if,
+        ast.While: _while,
+        ast.RepeatUntil: _repeat,
+        ast.For: _for,
+        ast.Case: _case,
+        ast.Exit: _exit,
+        ast.Continue: _exit,
+        ast.Jump: _jump,
+        ast.Try: _try,
+    }
+)
