@@ -1,0 +1,339 @@
+"""One loaded application: its image, linked code and tasks, and what may change while they run."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
+from tappet.runtime.contexts import FAULTED, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
+from tappet.runtime.executive.loader import Executive
+from tappet.runtime.executive.records import Block
+from tappet.runtime.faults import RawFault
+from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
+from tappet.runtime.image import Image
+from tappet.runtime.link import LinkedCode
+from tappet.runtime.places import Place
+from tappet.runtime.recorder import Recorder, RecorderList, RecorderSpec
+from tappet.runtime.retain import LIVE, Kept, KeptValue, Remanent, RetainFile, matching
+from tappet.runtime.task_group import TaskError, TaskGroup
+from tappet.runtime.tasks import TaskOwnership, TaskStatistics, read_statistics
+from tappet.runtime.threads import NORMAL, Scheduling
+
+QUEUE_LENGTH = 256
+_READ_TRIES = 50
+
+
+class LoadedApplication:
+    """A code package in memory. Its owner serialises the calls; the tasks run beside them."""
+
+    def __init__(
+        self,
+        executive: Executive,
+        package: CodePackage,
+        *,
+        virtual: bool = False,
+        scheduling: Scheduling = NORMAL,
+        stuck_limit_s: float = STUCK_LIMIT_S,
+    ) -> None:
+        self.executive = executive
+        self.package = package
+        self.virtual = virtual
+        self.stuck_limit_s = stuck_limit_s
+        self.image = Image(package.image_size)
+        try:
+            self.code = self.link(package)
+        except BaseException:
+            self.image.close()
+            raise
+        self.contexts = Contexts(
+            executive, package, self.image.address, virtual=virtual, stuck_limit_s=stuck_limit_s
+        )
+        self.tasks = TaskGroup(executive, self.contexts, scheduling)
+        self.ownership = TaskOwnership(package)
+        self.forces = ForceTable()
+        self.recorders: dict[int, list[Recorder]] = {}
+        self.retain_file: RetainFile | None = None
+        self.buffers = IoBuffers(Block(self.area("I")[1]), Block(self.area("Q")[1]), Block(8))
+        self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
+        self.connect_code(self.code)
+        self.connect_io()
+
+    def area(self, name: str) -> tuple[int, int]:
+        """Offset and size of the area I, Q or M; (0, 0) when the application has none."""
+        place = self.package.data_objects.get(f"tappet.area.{name}")
+        return (place.offset, place.size) if place else (0, 0)
+
+    def link(self, package: CodePackage) -> LinkedCode:
+        """Link a package against this image; LinkError names what is missing."""
+        base = self.image.address
+        imports = dict(self.executive.services)
+        imports |= {symbol: base + place.offset for symbol, place in package.data_objects.items()}
+        wanted = {INIT_SYMBOL, *(t.symbol for t in package.tasks), *package.exports}
+        return self.executive.linker.link(package.objects, sorted(wanted), imports)
+
+    def connect_code(self, code: LinkedCode) -> None:
+        """From its next cycle on every task runs `code`."""
+        self.code = code
+        for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):
+            self.executive.store(task.place("pCode"), code[spec.symbol])
+
+    def connect_io(self) -> None:
+        """The bus cycle task moves both areas between the image and the drivers' buffers."""
+        bus = self.ownership.bus
+        if bus is None:
+            return
+        areas = {name: self.area(name) for name in "IQ"}
+        block = self.contexts.io_list(self.image.address, areas, self.buffers)
+        self.tasks.publish(self.contexts.tasks[bus].place("pIo"), block.address, block)
+
+    # -- initial values ----------------------------------------------------------------------------------
+
+    def initialise(self, kept: Kept, *, keep_no_init: bool = False) -> RawFault | None:
+        """Initial image, initialisers, then the kept values; only while no task runs.
+
+        Returns the fault when an initialiser raised one; the application is then in the state FAULTED.
+        """
+        saved = [(o, self.image.read(o, n)) for o, n in self.package.no_init] if keep_no_init else []
+        self.image.write(0, self.package.initial_image)
+        for i, task in enumerate(self.contexts.tasks):
+            task["started"] = 0
+            task["eventLast"] = 0
+            task["pending"] = 0
+            self.contexts.watchdog(task)["overruns"] = 0
+            self.reset_statistics(i)
+        self.contexts.application["pFaulted"] = 0
+        if self.virtual:
+            self.contexts.application["virtualNow"] = 0
+            self.contexts.application["nextScan"] = 0
+            for task in self.contexts.tasks:
+                task["due"] = 0
+        else:
+            self.contexts.application["startNs"] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
+        fault = self.tasks.call(self.code[INIT_SYMBOL])
+        for offset, data in saved:
+            self.image.write(offset, data)
+        for variable, data in matching(kept, self.remanent())[0]:
+            self.image.write(variable.offset, data)
+        if fault is not None:
+            self.mark_faulted()
+        return fault
+
+    def mark_faulted(self) -> None:
+        """State FAULTED because of code that belongs to no task."""
+        self.contexts.application["pFaulted"] = self.contexts.service.address
+        self.tasks.set_state(FAULTED)
+
+    def run_exit(self) -> RawFault | None:
+        """FB_Exit of all instances (LDEC-105); only while no task runs."""
+        if EXIT_SYMBOL not in self.package.exports:
+            return None
+        return self.tasks.call(self.code[EXIT_SYMBOL])
+
+    # -- remanence ---------------------------------------------------------------------------------------
+
+    def remanent(self) -> list[Remanent]:
+        """All RETAIN and PERSISTENT variables."""
+        return [Remanent(r, False) for r in self.package.retain] + [
+            Remanent(r, True) for r in self.package.persistent
+        ]
+
+    def kept_values(self, *, retain: bool, persistent: bool) -> Kept:
+        """Present values of the remanent variables; only while no task runs."""
+        return {
+            r.variable.path.upper(): KeptValue(
+                r.variable.type_signature, self.image.read(r.variable.offset, r.variable.size), r.persistent
+            )
+            for r in self.remanent()
+            if (persistent if r.persistent else retain)
+        }
+
+    def open_retain_file(self, folder: Path) -> None:
+        """Let the tasks keep their remanent variables in `folder`; only while no task runs."""
+        self.close_retain_file()
+        variables = self.remanent()
+        if not variables:
+            return
+        groups: dict[int | None, list[Remanent]] = {}
+        for r in variables:
+            groups.setdefault(self.ownership.of(r.variable.offset), []).append(r)
+        file = RetainFile(self.executive, folder / LIVE, list(groups.values()), self.image.address)
+        self.retain_file = file
+        for task, group in zip(groups, file.groups, strict=True):
+            if task is not None:
+                self.executive.store(self.contexts.tasks[task].place("pRetain"), group.address)
+
+    def close_retain_file(self) -> None:
+        """Save nothing any more; only while no task runs."""
+        for task in self.contexts.tasks:
+            self.executive.store(task.place("pRetain"), 0)
+        if self.retain_file is not None:
+            self.retain_file.close()
+            self.retain_file = None
+
+    def save_retain(self) -> None:
+        """Everything remanent to disk, complete; only while no task runs."""
+        if self.retain_file is not None:
+            for group in self.retain_file.groups:
+                self.executive.save_retain(group.address)
+            self.retain_file.save()
+
+    # -- values ------------------------------------------------------------------------------------------
+
+    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes of the image, all of them between two cycles of the task that owns the first, if it pauses."""
+        for offset, size in places:
+            self.image.check(offset, size)
+        owner = self.ownership.of(places[0][0]) if places else None
+        if owner is None:
+            return [self.image.read(*place) for place in places]
+        cell = self.contexts.tasks[owner].place("sequence")
+        values: list[bytes] = []
+        for _ in range(_READ_TRIES):
+            before = self.executive.load(cell)
+            values = [self.image.read(*place) for place in places]
+            if before % 2 == 0 and self.executive.load(cell) == before:
+                break
+            time.sleep(0)
+        return values
+
+    def write(self, values: Sequence[PlacedValue]) -> list[tuple[int, int]]:
+        """Queue values for the begin of a cycle of the task that owns them; all of one call for one task are stored
+        together. Returns tickets for `written`. TaskError when the queue of a task is full."""
+        by_task: dict[int | None, list[PlacedValue]] = {}
+        for value in values:
+            self._check(value.place)
+            by_task.setdefault(self.ownership.regular(value.place.offset), []).append(value)
+        if len(by_task) > 1 and None not in by_task:
+            # one task's cycle is one moment for all of them: the bus cycle task takes the batch
+            by_task = {self.ownership.bus: list(values)}
+        tickets = []
+        for task, batch in by_task.items():
+            values_list = ValueList(self.executive.layouts, self.image.address, batch)
+            if task is None or self.virtual:
+                with self.tasks.standing():
+                    self.executive.apply_values(values_list.address)
+            else:
+                tickets.append((task, self._queue(task, values_list)))
+        return tickets
+
+    def _queue(self, task: int, batch: ValueList) -> int:
+        queue = self.contexts.queues[task]
+        taken = self.executive.load(queue.place("taken"))
+        self._batches[task] = [b for b in self._batches[task] if b[0] >= taken]
+        number = queue["written"]
+        if number - taken >= QUEUE_LENGTH:
+            name = self.package.tasks[task].name
+            raise TaskError(
+                f"{QUEUE_LENGTH} writes wait for a cycle of task {name}; it does not run often enough"
+            )
+        self._batches[task].append((number, batch))
+        self.executive.store(queue_slot(queue, number), batch.address)
+        self.executive.store(queue.place("written"), number + 1)
+        return number
+
+    def written(self, tickets: Iterable[tuple[int, int]]) -> bool:
+        """Whether the writes behind these tickets have been stored."""
+        return all(self.executive.load(self.contexts.queues[t].place("taken")) > n for t, n in tickets)
+
+    def _check(self, place: Place) -> None:
+        self.image.check(place.offset, place.size)
+
+    # -- forces ------------------------------------------------------------------------------------------
+
+    def force(self, values: Sequence[PlacedValue]) -> None:
+        """Hold variables at values, at begin and end of every cycle, until released."""
+        for value in values:
+            self._check(value.place)
+        for value in values:
+            self.forces.set(value, self._present(value.place))
+        self.publish_forces()
+
+    def _present(self, place: Place) -> bytes:
+        data = self.image.read(place.offset, place.size)
+        return data if place.bit is None else bytes([data[0] >> place.bit & 1])
+
+    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> list[Force]:
+        """Release forces, all with None; with `restore` the variables get back what they held before (WAT-09)."""
+        released = self.forces.release(keys)
+        self.publish_forces()
+        if restore and released:
+            self.write([PlacedValue(f.value.place, f.before) for f in released])
+        return released
+
+    def publish_forces(self) -> None:
+        """Hand the table to the tasks; without tasks the values are stored once."""
+        cell = self.contexts.application.place("pForces")
+        if not len(self.forces):
+            self.tasks.publish(cell, 0, None)
+            return
+        values = ValueList(self.executive.layouts, self.image.address, self.forces.values)
+        self.tasks.publish(cell, values.address, values)
+        if not self.contexts.tasks:
+            self.executive.apply_values(values.address)
+
+    # -- recorders ---------------------------------------------------------------------------------------
+
+    def record(self, spec: RecorderSpec) -> Recorder:
+        """Start a recorder at a task; ValueError when the task or a place does not exist."""
+        if not 0 <= spec.task < len(self.contexts.tasks):
+            raise ValueError(f"the application has no task number {spec.task}")
+        for offset, size in spec.items:
+            self.image.check(offset, size)
+        recorder = Recorder(self.executive, spec, self.image.address)
+        self._publish_recorders(spec.task, [*self.recorders.get(spec.task, []), recorder])
+        return recorder
+
+    def end_record(self, recorder: Recorder) -> None:
+        """Stop a recorder; what it has sampled can still be taken."""
+        task = recorder.spec.task
+        rest = [r for r in self.recorders.get(task, []) if r is not recorder]
+        self._publish_recorders(task, rest)
+
+    def _publish_recorders(self, task: int, recorders: list[Recorder]) -> None:
+        cell = self.contexts.tasks[task].place("pRecorders")
+        listed = RecorderList(self.executive, recorders)
+        self.recorders[task] = recorders
+        self.tasks.publish(cell, listed.address if recorders else 0, listed)
+
+    def task_number(self, name: str | None) -> int:
+        """Index of a task; the bus cycle task for None. ValueError when there is none."""
+        if name is None:
+            if self.ownership.bus is None:
+                raise ValueError("the application has no task that could sample values")
+            return self.ownership.bus
+        for i, spec in enumerate(self.package.tasks):
+            if spec.name.upper() == name.upper():
+                return i
+        known = ", ".join(t.name for t in self.package.tasks)
+        raise ValueError(f"the application has no task '{name}'; it has {known or 'none'}")
+
+    # -- monitoring --------------------------------------------------------------------------------------
+
+    def statistics(self) -> list[TaskStatistics]:
+        """Task monitoring (TASK-50 .. TASK-59)."""
+        faulted = self.contexts.faulted_task()
+        rows = []
+        for i, (spec, task) in enumerate(zip(self.package.tasks, self.contexts.tasks, strict=True)):
+            status = "valid" if task["started"] else "created"
+            if spec.kind in ("event", "status") and not task["started"]:
+                status = "not created"
+            if faulted == i:
+                status = "exception"
+            rows.append(read_statistics(spec, task, self.contexts.statistics(task), status))
+        return rows
+
+    def reset_statistics(self, task: int) -> None:
+        """Values of the task back to 0 at its next cycle (TASK-59)."""
+        self.executive.store_flag(self.contexts.tasks[task].place("resetStatistics"), 1)
+
+    # -- end ---------------------------------------------------------------------------------------------
+
+    def close(self) -> None:
+        """End the threads and release everything."""
+        self.tasks.halt()
+        self.close_retain_file()
+        self.code.close()
+        self.tasks.close()
+        self.image.close()

@@ -1,0 +1,190 @@
+"""Builds the executive from its ST sources, links it once per process and installs its signal handlers."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import json
+import os
+import threading
+from collections.abc import Mapping
+from importlib import metadata
+from pathlib import Path
+
+from tappet.codegen.optimise import ObjectCache, OptimiseOptions, compile_text
+from tappet.lang.source import Scope, Source
+from tappet.runtime import posix
+from tappet.runtime.executive.records import Block, Layout, MemberPlace, Record
+from tappet.runtime.link import LinkedCode, Linker
+
+FOLDER = Path(__file__).parent
+
+STRUCTURES = (
+    "VALUE_ITEM", "VALUE_LIST", "WRITE_QUEUE", "IO_RANGE", "IO_LIST", "MEMORY_RANGE", "RECORDER", "RECORDER_LIST",
+    "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD", "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT",
+    "APPLICATION_CONTEXT", "THREAD_ENTRY", "EXECUTIVE_REGISTRY",
+)  # fmt: skip
+"""Structures of types.st that Python fills or reads."""
+
+ENTRIES = (
+    "tappet_task_thread", "tappet_scheduler_thread", "tappet_virtual_thread", "tappet_call_thread", "tappet_signal",
+    "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag", "tappet_load",
+)  # fmt: skip
+"""What Python starts or calls."""
+
+SERVICES = (
+    "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
+    "tappet_watchdog_disable", "tappet_watchdog_enable",
+)  # fmt: skip
+"""What compiled applications and libraries may call."""
+
+HOST_FUNCTIONS = (
+    "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self", "pthread_getspecific",
+    "pthread_setspecific", "pthread_sigmask", "sigaltstack", "signal", "prctl", "sem_post", "sem_wait", "abort",
+    "_setjmp", "longjmp", "_longjmp",
+)  # fmt: skip
+"""What the executive itself takes from the C library."""
+
+_REGISTRY_TEXT = """
+define i64 @tappet_registry() "frame-pointer"="all" {{
+  ret i64 {address}
+}}
+"""
+
+
+def sources() -> list[Source]:
+    """The ST texts of the executive."""
+    files = sorted(FOLDER.glob("*.st"))
+    return [Source(f"executive/{f.name}", f.read_text(encoding="utf-8"), scope=Scope.LIBRARY) for f in files]
+
+
+def _cache_folder() -> Path | None:
+    base = os.environ.get("XDG_CACHE_HOME")
+    home = Path(base) if base else Path.home() / ".cache"
+    return home / "tappet" / "executive"
+
+
+def build_executive() -> tuple[bytes, dict[str, Layout]]:
+    """Object code and structure layouts; compiled once per version and kept in the user's cache."""
+    texts = sources()
+    digest = hashlib.blake2b(digest_size=20)
+    digest.update(f"{metadata.version('llvmlite')}|{_compiler_stamp()}|".encode())
+    for source in texts:
+        digest.update(source.text.encode())
+    cache = ObjectCache(_cache_folder())
+    name = digest.hexdigest()
+    code, table = cache.read(name), cache.read(name + "-layout")
+    if code is not None and table is not None:
+        return code, _layouts_from_table(json.loads(table))
+    from tappet.codegen import build  # the compiler is needed only when the cache is empty
+
+    system = build.build_system(texts)
+    rows = {n: [system.size_of(n), system.members_of(n)] for n in STRUCTURES}
+    cache.write(name, system.object)
+    cache.write(name + "-layout", json.dumps(rows).encode())
+    return system.object, _layouts_from_table(rows)
+
+
+def _compiler_stamp() -> str:
+    """Changes with the compiler's own files, so that a new compiler builds the executive anew."""
+    stamp = hashlib.blake2b(digest_size=8)
+    root = FOLDER.parent.parent
+    for room in ("lang", "core", "codegen"):
+        for file in sorted((root / room).rglob("*.py")):
+            status = file.stat()
+            stamp.update(f"{file.name}:{status.st_size}:{status.st_mtime_ns};".encode())
+    return stamp.hexdigest()
+
+
+def _layouts_from_table(table: Mapping[str, list[object]]) -> dict[str, Layout]:
+    layouts = {}
+    for name, (size, members) in table.items():
+        assert isinstance(size, int)
+        assert isinstance(members, dict)
+        layouts[name] = Layout(name, size, {k: MemberPlace(*place) for k, place in members.items()})
+    return layouts
+
+
+class Executive:
+    """The linked executive. One per process, because signal handlers belong to the process."""
+
+    _instance: Executive | None = None
+    _creation = threading.Lock()
+
+    @classmethod
+    def shared(cls) -> Executive:
+        """The executive of this process, built and linked at the first call."""
+        with cls._creation:
+            if cls._instance is None:
+                cls._instance = cls()
+            return cls._instance
+
+    def __init__(self) -> None:
+        code, self.layouts = build_executive()
+        self.linker = Linker()
+        self._registry_block = Block(self.layouts["EXECUTIVE_REGISTRY"].size)
+        self.registry = Record(self.layouts["EXECUTIVE_REGISTRY"], self._registry_block.address)
+        self._fill_registry()
+        self._anchor = self._link_anchor()
+        imports = {name: posix.symbol_address(name) for name in HOST_FUNCTIONS}
+        imports["tappet_registry"] = self._anchor["tappet_registry"]
+        self._code: LinkedCode = self.linker.link([code], (*ENTRIES, *SERVICES), imports)
+        self.services = {name: self._code[name] for name in SERVICES}
+        self.entries = {name: self._code[name] for name in ENTRIES}
+        prototype = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64, ctypes.c_uint64)
+        self._store = prototype(self.entries["tappet_store"])
+        self._store_flag = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64, ctypes.c_int32)(
+            self.entries["tappet_store_flag"]
+        )
+        self._load = ctypes.CFUNCTYPE(ctypes.c_uint64, ctypes.c_uint64)(self.entries["tappet_load"])
+        self._apply = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64)(self.entries["tappet_apply_values"])
+        self._save = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64)(self.entries["tappet_save_retain"])
+        self._install_handlers()
+
+    def _fill_registry(self) -> None:
+        places = posix.register_places()
+        registry = self.registry
+        registry["key"] = posix.create_thread_key()
+        registry["watchdogSignal"] = posix.WATCHDOG_SIGNAL
+        registry["offsetPc"] = places.pc
+        registry["offsetFp"] = places.frame
+        registry["offsetSp"] = places.stack
+        registry["offsetAddress"] = posix.SIGNAL_ADDRESS_OFFSET
+        mask = (1 << 64) - 1
+        for signal in (*posix.FAULT_SIGNALS, posix.WATCHDOG_SIGNAL):
+            mask &= ~(1 << signal - 1)
+        blocked = mask.to_bytes(8, "little") + b"\xff" * 120
+        posix.write_memory(registry.place("signalMask"), blocked)
+
+    def _link_anchor(self) -> LinkedCode:
+        """The one function that cannot be ST: it returns the address of the registry of this process."""
+        text = _REGISTRY_TEXT.format(address=self.registry.address)
+        return self.linker.link([compile_text(text, OptimiseOptions())], ["tappet_registry"], {})
+
+    def _install_handlers(self) -> None:
+        handler = self.entries["tappet_signal"]
+        previous = self.registry.place("previous")
+        for signal in (*posix.FAULT_SIGNALS, posix.WATCHDOG_SIGNAL):
+            posix.install_handler(signal, handler, previous + signal * 160)
+
+    # -- what Python does to memory that tasks read -----------------------------------------------------
+
+    def store(self, address: int, value: int) -> None:
+        """Store a pointer or word so that every task sees it, and all that was written before, from now on."""
+        self._store(address, value)
+
+    def store_flag(self, address: int, value: int) -> None:
+        """Store a 32-bit flag with the same guarantee."""
+        self._store_flag(address, value)
+
+    def load(self, address: int) -> int:
+        """Read a word behind a full barrier."""
+        return int(self._load(address))
+
+    def apply_values(self, address: int) -> None:
+        """Store a list of values now; only while no task runs."""
+        self._apply(address)
+
+    def save_retain(self, address: int) -> None:
+        """Copy a retain group into its file now; only while its task does not run."""
+        self._save(address)

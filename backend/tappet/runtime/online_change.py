@@ -1,0 +1,135 @@
+"""Online change: a running application becomes another one without stopping (LDEC-47, LDEC-106).
+
+When only code changed, code pointers are exchanged beside the running tasks. When data moved, all tasks stand at
+their cycle boundary while the image is rearranged.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage
+from tappet.runtime.application import LoadedApplication
+from tappet.runtime.faults import RawFault
+from tappet.runtime.places import Place, find_again
+from tappet.runtime.tasks import TaskOwnership
+
+
+class OnlineChangeError(RuntimeError):
+    """The running application cannot become this one; a download is needed."""
+
+
+@dataclass(frozen=True, slots=True)
+class ChangeResult:
+    """What happened to forces and to the code that the change itself ran."""
+
+    fault: RawFault | None
+    lost_forces: tuple[Place, ...] = ()
+    paused: bool = False
+
+
+def check_change(running: CodePackage, package: CodePackage) -> None:
+    """OnlineChangeError saying why `package` cannot follow `running`."""
+    change = package.online_change
+    if change is None:
+        raise OnlineChangeError("the package was not built as an online change; download it")
+    if change.base_code_id != running.code_id or change.base_data_id != running.data_id:
+        raise OnlineChangeError(
+            "the package was built against another application than the one that is running; build again or download"
+        )
+    before = [(t.name, t.kind, t.priority) for t in running.tasks]
+    after = [(t.name, t.kind, t.priority) for t in package.tasks]
+    if before != after:
+        raise OnlineChangeError(
+            "tasks were added, removed or changed in kind or priority; download the application"
+        )
+    for name in ("tappet.area.I", "tappet.area.Q"):
+        old, new = running.data_objects.get(name), package.data_objects.get(name)
+        if (old.size if old else 0) != (new.size if new else 0):
+            raise OnlineChangeError("the size of the input or output area changed; download the application")
+
+
+def apply_change(
+    application: LoadedApplication, package: CodePackage, retain_folder: Path | None
+) -> ChangeResult:
+    """Make `application` run `package`. Nothing has changed when it raises OnlineChangeError, ImageError or LinkError."""
+    running = application.package
+    check_change(running, package)
+    change = package.online_change
+    assert change is not None
+    if package.image_size > application.image.capacity:
+        application.image.resize(package.image_size)  # raises, and says how large it may be
+    code = application.link(package)
+    only_code = (
+        not change.moves
+        and not change.initialise
+        and package.data_id == running.data_id
+        and package.tasks == running.tasks
+        and ONLINE_CHANGE_SYMBOL not in package.exports
+    )
+    old_code = application.code
+    if only_code:
+        application.package = package
+        application.connect_code(code)
+        application.tasks.retire(old_code, old_code.close)
+        return ChangeResult(None)
+    with application.tasks.standing():
+        _rearrange(application, package)
+        application.package = package
+        application.connect_code(code)
+        lost = _relocate(application, running, package)
+        remanence = (running.retain, running.persistent) != (package.retain, package.persistent)
+        if remanence and retain_folder is not None:
+            application.open_retain_file(retain_folder)
+        fault = None
+        if ONLINE_CHANGE_SYMBOL in package.exports:
+            fault = application.tasks.call(code[ONLINE_CHANGE_SYMBOL])
+            if fault is not None:
+                application.mark_faulted()
+        old_code.close()
+    return ChangeResult(fault, tuple(lost), paused=True)
+
+
+def _rearrange(application: LoadedApplication, package: CodePackage) -> None:
+    """Old values to their new places, new variables to their initial values."""
+    change = package.online_change
+    assert change is not None
+    image = application.image
+    old = image.read(0, image.size)
+    new = bytearray(package.image_size)
+    shared = min(len(old), len(new))
+    new[:shared] = old[:shared]
+    for source, target, size in change.moves:
+        new[target : target + size] = old[source : source + size]
+    for offset, size in change.initialise:
+        new[offset : offset + size] = package.initial_image[offset : offset + size]
+    image.resize(package.image_size)
+    image.write(0, bytes(new))
+
+
+def _relocate(application: LoadedApplication, before: CodePackage, after: CodePackage) -> list[Place]:
+    """Find tasks' event variables, forces and recorders again; returns the places of forces that are gone."""
+    contexts, image = application.contexts, application.image.address
+    application.ownership = TaskOwnership(after)
+    for spec, task in zip(after.tasks, contexts.tasks, strict=True):
+        contexts.fill_task(spec, task, image, application.stuck_limit_s)
+    application.connect_io()
+    moved = {v.place: find_again(before.symbols, after.symbols, v.place) for v in application.forces.values}
+    lost = application.forces.move(moved)
+    application.publish_forces()
+    for recorders in application.recorders.values():
+        for recorder in recorders:
+            places = [
+                find_again(before.symbols, after.symbols, Place(offset, size))
+                for offset, size in recorder.located
+            ]
+            # a variable that is gone keeps its old place, so that the frame keeps its form
+            recorder.locate(
+                [
+                    (place.offset, place.size) if place is not None else old
+                    for place, old in zip(places, recorder.located, strict=True)
+                ],
+                image,
+            )
+    return lost

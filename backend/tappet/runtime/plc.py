@@ -1,0 +1,518 @@
+"""The soft PLC: one application at a time and its life cycle (start, stop, resets, download, online change).
+
+States: empty (no application), stop, run, exception. All methods may be called from any thread.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+import uuid
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Literal, get_args
+
+from tappet.codegen.package import CodePackage, PackageError
+from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.runtime.application import LoadedApplication
+from tappet.runtime.boot import BootError, load_boot, remove_boot, store_boot
+from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
+from tappet.runtime.executive.loader import Executive
+from tappet.runtime.faults import CallFrame, ExceptionReport, Locator, RawFault, describe, fault_name
+from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.image import ImageError
+from tappet.runtime.link import LinkError
+from tappet.runtime.logbook import Logbook
+from tappet.runtime.online_change import OnlineChangeError, apply_change
+from tappet.runtime.places import path_at
+from tappet.runtime.recorder import Recorder, RecorderSpec
+from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
+from tappet.runtime.task_group import TaskError
+from tappet.runtime.tasks import TaskStatistics
+from tappet.runtime.threads import NORMAL, Scheduling
+
+State = Literal["empty", "stop", "run", "exception"]
+ResetKind = Literal["warm", "cold", "origin"]
+_STATES: dict[int, State] = {STOPPED: "stop", RUNNING: "run", FAULTED: "exception"}
+_MOST_VALUES = 200
+"""Variables listed in an exception report."""
+
+
+class PlcError(RuntimeError):
+    """The PLC cannot do that in its present state; the message says what would be right."""
+
+
+@dataclass(frozen=True, slots=True)
+class RuntimeInfo:
+    """Who a runtime is and what it runs."""
+
+    version: str
+    instance_id: str
+    state: State
+    application: str | None
+    code_id: str | None
+    data_id: str | None
+    scheduling: tuple[str, ...]
+    """What has to be known about real-time behaviour on this host, one sentence each."""
+    cycle_ns: int = 0
+    """Interval of the bus cycle task."""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something clients are told at once: kind `state`, `exception`, `application` or `forces`."""
+
+    kind: str
+    state: State
+
+
+class SoftPlc:
+    """Life cycle, values, forces, recorders and remanence of one PLC."""
+
+    def __init__(
+        self,
+        folder: Path | None,
+        *,
+        virtual: bool = False,
+        scheduling: Scheduling = NORMAL,
+        stuck_limit_s: float = STUCK_LIMIT_S,
+        logbook: Logbook | None = None,
+    ) -> None:
+        self.executive = Executive.shared()
+        self.folder = folder
+        self.virtual = virtual
+        self.scheduling = scheduling
+        self.stuck_limit_s = stuck_limit_s
+        self.log = logbook or Logbook()
+        self.instance_id = uuid.uuid4().hex
+        self.application: LoadedApplication | None = None
+        self.on_event: Callable[[Event], None] | None = None
+        self._lock = threading.RLock()
+        self._report: ExceptionReport | None = None
+        self._seen_state: State = "empty"
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        for note in scheduling.notes:
+            self.log.add("info", "scheduler", note)
+
+    # -- state -------------------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> State:
+        """Present state."""
+        application = self.application
+        return "empty" if application is None else _STATES[application.tasks.state]
+
+    def info(self) -> RuntimeInfo:
+        """Identity, state and application."""
+        with self._lock:
+            application = self.application
+            package = application.package if application else None
+            cycle = 0
+            if application is not None and application.ownership.bus is not None:
+                cycle = application.package.tasks[application.ownership.bus].interval_ns
+            return RuntimeInfo(
+                metadata.version("tappet"),
+                self.instance_id,
+                self.state,
+                package.application if package else None,
+                package.code_id if package else None,
+                package.data_id if package else None,
+                self._notes(),
+                cycle,
+            )
+
+    def _notes(self) -> tuple[str, ...]:
+        notes = list(self.scheduling.notes)
+        if self.application is not None and not (
+            self.application.image.low and self.application.contexts.low
+        ):
+            notes.append("application data lie above 4 GiB: code that keeps pointers in DWORD will fail")
+        return tuple(notes)
+
+    def poll(self) -> None:
+        """Look for a change that came from the tasks, tell listeners, release what is no longer used.
+
+        A service calls this some 20 times a second.
+        """
+        with self._lock:
+            if self.application is not None:
+                self.application.tasks.collect()
+            state = self.state
+            if state == "exception" and self._report is None:
+                self._report = self._build_report()
+                self.log.add("exception", "application", _summary(self._report))
+            if state != self._seen_state:
+                entered = state == "exception"
+                self._seen_state = state
+                self._tell("exception" if entered else "state")
+
+    def _tell(self, kind: str) -> None:
+        self._seen_state = self.state
+        if self.on_event is not None:
+            self.on_event(Event(kind, self.state))
+
+    def _need(self) -> LoadedApplication:
+        if self.application is None:
+            raise PlcError("no application is loaded; download one first")
+        return self.application
+
+    def start(self) -> None:
+        """Run the programs from the next cycle on. PlcError in the state exception: reset first."""
+        with self._lock:
+            application = self._need()
+            if application.tasks.state == FAULTED:
+                raise PlcError(
+                    "the application is in the state exception; reset it (warm or cold) before starting"
+                )
+            if application.tasks.state != RUNNING:
+                application.tasks.set_state(RUNNING)
+                self.log.add("info", "application", f"{application.package.application} started")
+                self._tell("state")
+
+    def stop(self) -> None:
+        """Complete the running cycles, then call no program; values stay."""
+        with self._lock:
+            application = self._need()
+            was_running = application.tasks.state == RUNNING
+            application.tasks.stop()
+            self._save_retain()
+            if was_running:
+                self.log.add("info", "application", f"{application.package.application} stopped")
+                self._tell("state")
+
+    def reset(self, kind: ResetKind) -> None:
+        """Back to initial values as the table of remanent variables says (PERS-02); the application is stopped.
+
+        Origin also removes the application, its boot copy and everything remanent.
+        """
+        if kind not in get_args(ResetKind):
+            raise PlcError(f"unknown reset '{kind}'; known are warm, cold and origin")
+        with self._lock:
+            application = self._need()
+            if kind == "origin":
+                self._reset_origin(application)
+                return
+            if application.tasks.state == RUNNING:
+                application.tasks.set_state(STOPPED)
+            with application.tasks.standing():
+                kept = application.kept_values(retain=kind == "warm", persistent=True)
+                application.tasks.set_state(STOPPED)
+                self._report = None
+                fault = application.initialise(kept, keep_no_init=True)
+            self._save_retain()
+            self.log.add("info", "application", f"{application.package.application} reset {kind}")
+            self._after_initialise(fault)
+
+    def _reset_origin(self, application: LoadedApplication) -> None:
+        self._unload(application, leave=True)
+        if self.folder is not None:
+            remove_boot(self.folder)
+            remove_retain(self.folder)
+        self.log.add("info", "application", f"{application.package.application} reset origin: removed")
+        self._tell("application")
+
+    def _after_initialise(self, fault: RawFault | None) -> None:
+        if fault is not None:
+            self.poll()
+        self._tell("exception" if self.state == "exception" else "state")
+
+    # -- download ----------------------------------------------------------------------------------------
+
+    def download(self, data: bytes, mode: Literal["download", "online_change"] = "download") -> None:
+        """Load a package; it is stopped afterwards (download) or goes on running (online change).
+
+        Raises PlcError; with a refused package the old application stays as it was.
+        """
+        try:
+            package = CodePackage.from_bytes(data)
+        except PackageError as error:
+            raise PlcError(f"the package was refused: {error}") from error
+        with self._lock:
+            if mode == "online_change":
+                self._change(package)
+            elif mode == "download":
+                self._load(package, None)
+            else:
+                raise PlcError(f"unknown mode '{mode}'; known are download and online_change")
+            if self.folder is not None:
+                try:
+                    store_boot(self.folder, data)
+                except BootError as error:
+                    self.log.add("error", "boot", str(error))
+            self._tell("application")
+
+    def load(self, package: CodePackage) -> None:
+        """Load a package that is at hand as an object, without storing it as boot application."""
+        with self._lock:
+            self._load(package, None)
+            self._tell("application")
+
+    def _load(self, package: CodePackage, kept: Kept | None) -> None:
+        """Replace the application. Values to keep come from the running one (persistent only) or from `kept`."""
+        try:
+            application = LoadedApplication(
+                self.executive,
+                package,
+                virtual=self.virtual,
+                scheduling=self.scheduling,
+                stuck_limit_s=self.stuck_limit_s,
+            )
+        except (LinkError, ImageError, OSError) as error:
+            raise PlcError(f"the package was refused: {error}") from error
+        old = self.application
+        if kept is None:
+            kept = self._persistent_of(old, package)
+        if old is not None:
+            self._unload(old, leave=True)
+        self.application = application
+        self._report = None
+        fault = application.initialise(kept)
+        lost = [path for path in matching(kept, application.remanent())[1] if kept[path].persistent]
+        if lost:
+            names = ", ".join(lost[:5]) + (" ..." if len(lost) > 5 else "")
+            self.log.add(
+                "warning", "retain", f"persistent variables without a place in the application: {names}"
+            )
+        if self.folder is not None:
+            try:
+                application.open_retain_file(self.folder)
+            except OSError as error:
+                self.log.add("error", "retain", f"remanent variables are not kept: {error}")
+        if not self.virtual:
+            for note in application.tasks.launch(package.tasks):
+                self.log.add("info", "scheduler", note)
+        for note in self._notes()[len(self.scheduling.notes) :]:
+            self.log.add("warning", "image", note)
+        self.log.add("info", "application", f"{package.application} loaded ({package.code_id[:12]})")
+        if fault is not None:
+            self.poll()
+
+    def _persistent_of(self, old: LoadedApplication | None, package: CodePackage) -> Kept:
+        """Persistent values survive a download of the application of the same name (PERS-05)."""
+        if old is not None:
+            if old.package.application != package.application:
+                return {}
+            old.tasks.stop()
+            return old.kept_values(retain=False, persistent=True)
+        if self.folder is None:
+            return {}
+        kept, _ = load_retain(self.folder)  # left by a boot application that could not be loaded
+        return {path: value for path, value in kept.items() if value.persistent}
+
+    def _unload(self, application: LoadedApplication, *, leave: bool) -> None:
+        """End an application; with `leave` its FB_Exit methods are called."""
+        application.tasks.stop()
+        if leave and application.tasks.state != FAULTED:
+            with application.tasks.standing():
+                fault = application.run_exit()
+            if fault is not None:
+                self.log.add("error", "application", f"FB_Exit ended by an exception: {describe(fault)[0]}")
+        self.application = None
+        self._report = None
+        application.close()
+
+    def _change(self, package: CodePackage) -> None:
+        application = self._need()
+        begun = time.monotonic()
+        try:
+            result = apply_change(application, package, self.folder)
+        except (OnlineChangeError, ImageError, LinkError, TaskError) as error:
+            raise PlcError(f"online change refused: {error}") from error
+        took = (time.monotonic() - begun) * 1000
+        how = "tasks paused" if result.paused else "code exchanged while running"
+        self.log.add("info", "application", f"{package.application} changed online in {took:.0f} ms, {how}")
+        if result.lost_forces:
+            self.log.add(
+                "warning", "forces", f"{len(result.lost_forces)} forces released: their variables are gone"
+            )
+            self._tell("forces")
+        if result.fault is not None:
+            self._report = None
+            self.poll()
+
+    def boot(self) -> bool:
+        """Load and start the boot application with its remanent values; False when there is none or it fails."""
+        if self.folder is None:
+            return False
+        with self._lock:
+            try:
+                package = load_boot(self.folder)
+                if package is None:
+                    return False
+                kept, problems = load_retain(self.folder)
+                for problem in problems:
+                    self.log.add("error", "retain", problem)
+                self._load(package, kept)
+                if self.state == "stop":
+                    self.start()
+            except (BootError, PlcError) as error:
+                self.log.add("error", "boot", str(error))
+                return False
+            self._tell("application")
+            return True
+
+    # -- values ------------------------------------------------------------------------------------------
+
+    def symbols(self) -> SymbolMap:
+        """Symbol map of the loaded application."""
+        return self._need().package.symbols
+
+    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes at (offset, size) places of the image."""
+        with self._lock:
+            return self._need().read(places)
+
+    def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
+        """Store values together at a cycle begin; the result tells, when called, whether that has happened."""
+        with self._lock:
+            application = self._need()
+            try:
+                tickets = application.write(values)
+            except TaskError as error:
+                raise PlcError(str(error)) from error
+
+        def done() -> bool:
+            with self._lock:
+                return self.application is not application or application.written(tickets)
+
+        return done
+
+    def force(self, values: Sequence[PlacedValue]) -> None:
+        """Hold variables at values until released."""
+        with self._lock:
+            self._need().force(values)
+            self._tell("forces")
+
+    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
+        """Release forces, all with None; returns how many."""
+        with self._lock:
+            released = self._need().unforce(keys, restore=restore)
+            if released:
+                self._tell("forces")
+            return len(released)
+
+    def forces(self) -> list[tuple[Force, str | None]]:
+        """Forced variables and their paths."""
+        with self._lock:
+            application = self._need()
+            symbols = application.package.symbols
+            return [(f, path_at(symbols, f.value.place)) for f in application.forces]
+
+    def record(
+        self,
+        items: Sequence[tuple[int, int]],
+        task: str | None,
+        divider: int,
+        min_interval_ns: int,
+        frames: int = 0,
+    ) -> Recorder:
+        """Start a recorder at a task, the bus cycle task for None."""
+        with self._lock:
+            application = self._need()
+            number = application.task_number(task)
+            return application.record(RecorderSpec(tuple(items), number, divider, min_interval_ns, frames))
+
+    def end_record(self, recorder: Recorder) -> None:
+        """Stop a recorder; nothing happens when its application is gone."""
+        with self._lock:
+            application = self.application
+            if application is not None and any(recorder in r for r in application.recorders.values()):
+                application.end_record(recorder)
+
+    # -- monitoring --------------------------------------------------------------------------------------
+
+    def tasks(self) -> list[TaskStatistics]:
+        """Task monitoring."""
+        with self._lock:
+            return self._need().statistics()
+
+    def reset_statistics(self, task: str | None) -> None:
+        """Statistics of a task back to 0, of all tasks with None."""
+        with self._lock:
+            application = self._need()
+            if task is None:
+                for number in range(len(application.contexts.tasks)):
+                    application.reset_statistics(number)
+            else:
+                application.reset_statistics(application.task_number(task))
+
+    def exception(self) -> ExceptionReport | None:
+        """Why the application is in the state exception; None when it is not."""
+        with self._lock:
+            self.poll()
+            return self._report
+
+    def _build_report(self) -> ExceptionReport:
+        application = self._need()
+        number = application.contexts.faulted_task()
+        is_task = number is not None and number >= 0
+        task = application.contexts.tasks[number] if is_task else application.contexts.service  # type: ignore[index]
+        name = application.package.tasks[number].name if is_task else "initialisation"  # type: ignore[index]
+        raw = application.contexts.fault(task)
+        message, values = describe(raw)
+        stack = Locator(application.code).call_stack(raw)
+        here = stack[0] if stack else CallFrame("", "", 0)
+        values |= self._values_of(application, [frame.pou for frame in stack])
+        return ExceptionReport(
+            raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
+            time.time_ns(), tuple(stack), values,
+        )  # fmt: skip
+
+    def _values_of(self, application: LoadedApplication, pous: Iterable[str]) -> dict[str, str]:
+        """Simple variables of the programs in a call stack, as IEC literals."""
+        symbols = application.package.symbols
+        values: dict[str, str] = {}
+        for pou in dict.fromkeys(p.upper() for p in pous):
+            root = symbols.roots.get(pou)
+            if root is None:
+                continue
+            for child in symbols.children(root.name):
+                if not child.leaf or len(values) >= _MOST_VALUES:
+                    continue
+                try:
+                    ref = symbols.resolve(child.path)
+                    data = application.image.read(ref.offset, ref.size)
+                    values[ref.path] = symbols.format_literal(ref, symbols.decode(ref, data))
+                except (SymbolError, ValueError):
+                    continue
+        return values
+
+    # -- end ---------------------------------------------------------------------------------------------
+
+    def sync_retain(self) -> None:
+        """Bring the live retain file to the disk; blocks, so a service thread calls it every second or so."""
+        application = self.application
+        file = application.retain_file if application else None
+        if file is not None:
+            with contextlib.suppress(FileNotFoundError):
+                file.sync()
+
+    def _save_retain(self) -> None:
+        application = self.application
+        if application is None or application.retain_file is None:
+            return
+        try:
+            with application.tasks.standing():
+                application.save_retain()
+        except OSError as error:
+            self.log.add("error", "retain", f"remanent variables could not be saved: {error}")
+
+    def close(self) -> None:
+        """Stop the application, save its remanent values and release everything."""
+        with self._lock:
+            application = self.application
+            if application is None:
+                return
+            application.tasks.stop()
+            self._save_retain()
+            self._unload(application, leave=False)
+
+
+def _summary(report: ExceptionReport) -> str:
+    place = f" in {report.pou}" if report.pou else ""
+    line = f", line {report.line}" if report.line else ""
+    return f"task {report.task}: {report.message}{place}{line}"

@@ -1,0 +1,146 @@
+"""Native threads of tasks: own stacks below 4 GiB with guard pages, real-time priority where permitted."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tappet.runtime.executive.records import Record
+from tappet.runtime.posix import (
+    PAGE,
+    WATCHDOG_SIGNAL,
+    Mapping,
+    ThreadOptions,
+    create_thread,
+    join_thread,
+    map_memory,
+    signal_thread,
+    symbol_address,
+)
+
+STACK_SIZE = 1 << 20
+GUARD_SIZE = 1 << 20
+"""Large, because a function with a big frame may jump over a single guard page."""
+SIGNAL_STACK_SIZE = 64 << 10
+PRIORITY_LEVELS = 32
+"""Task priorities 0 (highest) to 31 (TASK-11)."""
+
+
+class TaskStack:
+    """Stack of one native thread, guard pages below it, and the stack its signal handler runs on."""
+
+    def __init__(self, size: int = STACK_SIZE) -> None:
+        self.mapping: Mapping = map_memory(GUARD_SIZE + size, low=True)
+        self.mapping.protect(0, GUARD_SIZE, accessible=False)
+        self.signal_stack: Mapping = map_memory(SIGNAL_STACK_SIZE)
+
+    @property
+    def low(self) -> bool:
+        """Whether the stack lies below 4 GiB."""
+        return self.mapping.low
+
+    def describe(self, task: Record) -> None:
+        """Tell a task context where its stack is."""
+        task["guardLow"] = self.mapping.address
+        task["stackLow"] = self.mapping.address + GUARD_SIZE
+        task["stackHigh"] = self.mapping.address + self.mapping.size
+        task["pSignalStack"] = self.signal_stack.address
+        task["signalStackSize"] = self.signal_stack.size
+
+    def close(self) -> None:
+        """Release it; the thread must have ended."""
+        self.mapping.close()
+        self.signal_stack.close()
+
+
+@dataclass(frozen=True, slots=True)
+class Scheduling:
+    """How the threads of the runtime are scheduled, and what has to be said about it in the log."""
+
+    realtime: bool
+    cpus: frozenset[int] | None = None
+    notes: tuple[str, ...] = ()
+
+    def task_options(self, name: str, priority: int, *, freewheeling: bool) -> ThreadOptions:
+        """Priority 0 becomes SCHED_FIFO 80, 31 becomes 49. A freewheeling task never pauses, so at real-time
+        priority it would take its processor from everything else; it always runs at normal priority."""
+        if not self.realtime or freewheeling:
+            return ThreadOptions(name)
+        return ThreadOptions(name, 80 - priority, self.cpus)
+
+    def scheduler_options(self) -> ThreadOptions:
+        """The thread of events and watchdogs stands above all tasks."""
+        return ThreadOptions("scheduler", 81 if self.realtime else None)
+
+
+NORMAL = Scheduling(False)
+"""Without real-time priority: virtual time, tests, previews."""
+
+
+def real_time_scheduling(*, pin: bool = True) -> Scheduling:
+    """Real-time scheduling as far as this host permits it.
+
+    With `pin` all tasks share one processor: then exactly one runs at a time, the one of highest priority, as
+    TASK-41 to TASK-44 demand, and the services of the process have the other processors.
+    """
+    stack = TaskStack()
+    try:
+        # a thread that ends at once tells whether the priority is permitted
+        thread = create_thread(
+            symbol_address("sched_yield"), 0, stack.mapping, GUARD_SIZE, ThreadOptions("probe", 49)
+        )
+        join_thread(thread, 5)
+    except PermissionError:
+        return Scheduling(
+            False,
+            notes=(
+                "tasks run at normal priority: this host does not permit SCHED_FIFO (grant CAP_SYS_NICE or an "
+                "rtprio limit of 81)",
+            ),
+        )
+    finally:
+        stack.close()
+    available = sorted(os.sched_getaffinity(0))
+    if not pin or len(available) < 2:
+        return Scheduling(True, notes=("tasks run at SCHED_FIFO 80 (priority 0) to 49 (priority 31)",))
+    cpu = available[-1]
+    return Scheduling(
+        True,
+        frozenset((cpu,)),
+        (f"tasks run at SCHED_FIFO 80 (priority 0) to 49 (priority 31) on processor {cpu}",),
+    )
+
+
+class NativeThread:
+    """A running native thread; it must be joined before its stack is released."""
+
+    def __init__(self, entry: int, argument: int, stack: TaskStack, options: ThreadOptions) -> None:
+        self.options = options
+        self._handle = create_thread(entry, argument, stack.mapping, GUARD_SIZE, options)
+        self._joined = False
+
+    @property
+    def alive(self) -> bool:
+        """Whether it has not been joined yet."""
+        return not self._joined
+
+    def wake(self) -> None:
+        """Interrupt a sleep of the thread (the watchdog signal does nothing else outside programs)."""
+        if not self._joined:
+            signal_thread(self._handle, WATCHDOG_SIGNAL)
+
+    def join(self, timeout_s: float, *, waker: Callable[[], None] | None = None) -> bool:
+        """Wait for its end, waking it again and again; False when it still runs after `timeout_s`."""
+        step = 0.01
+        waited = 0.0
+        while not self._joined:
+            self._joined = join_thread(self._handle, step)
+            if self._joined or waited >= timeout_s:
+                break
+            waited += step
+            (waker or self.wake)()
+        return self._joined
+
+
+assert GUARD_SIZE % PAGE == 0
