@@ -40,13 +40,35 @@ const ADDRESS = /%[IQMiqm](?:\*|[XBWDLxbwdl]?[0-9]+(?:\.[0-9]+)*)/y;
 
 const TIME_PREFIXES = new Set(['T', 'TIME', 'LT', 'LTIME']);
 const DATE_PREFIXES = new Set([
-  "D", "DATE", "LD", "LDATE",
-  "TOD", "TIME_OF_DAY", "LTOD", "LTIME_OF_DAY",
-  "DT", "DATE_AND_TIME", "LDT", "LDATE_AND_TIME",
+  'D',
+  'DATE',
+  'LD',
+  'LDATE',
+  'TOD',
+  'TIME_OF_DAY',
+  'LTOD',
+  'LTIME_OF_DAY',
+  'DT',
+  'DATE_AND_TIME',
+  'LDT',
+  'LDATE_AND_TIME',
 ]);
 const NUMERIC_PREFIXES = new Set([
-  "BOOL", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT",
-  "USINT", "UINT", "UDINT", "ULINT", "REAL", "LREAL",
+  'BOOL',
+  'BYTE',
+  'WORD',
+  'DWORD',
+  'LWORD',
+  'SINT',
+  'INT',
+  'DINT',
+  'LINT',
+  'USINT',
+  'UINT',
+  'UDINT',
+  'ULINT',
+  'REAL',
+  'LREAL',
 ]);
 
 /** End of the match of a sticky expression at `at`, or -1. */
