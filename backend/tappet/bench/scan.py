@@ -1,0 +1,102 @@
+"""Scan speed: ten workloads in ST, checks on, beside the same algorithm in C compiled by gcc -O2.
+
+Final values are compared, so a fast wrong answer does not count; the time of an empty call is taken off both.
+Bar: DESIGN section 4.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+
+from tappet.bench.native import CProgram, NativeLoop, gcc_version, scratch_directory
+from tappet.bench.report import Report, Row
+from tappet.codegen.build import build_application
+from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.package import TaskSpec
+from tappet.lang.source import Source
+
+WORKLOADS = Path(__file__).resolve().parent / "workloads"
+ROUNDS = 9
+"""Rounds in which both are timed alternately; the median of the ratios' parts is shown."""
+TARGET_SECONDS = 0.03
+"""Length of one timed run."""
+BAR = "at most 1.25 x C"
+
+
+class WrongResultError(Exception):
+    """The ST and the C version disagree on the result."""
+
+
+def names() -> list[str]:
+    """Workloads in alphabetical order."""
+    return sorted(path.stem for path in WORKLOADS.glob("*.st"))
+
+
+def load(name: str) -> LoadedApplication:
+    """The compiled and started ST version of a workload; its program is `Main`."""
+    path = WORKLOADS / f"{name}.st"
+    source = Source(uri=path.name, text=path.read_text(encoding="utf-8"), name=name)
+    result = build_application([source], [TaskSpec("Task", programs=("Main",))])
+    if result.package is None:
+        raise ValueError("\n".join(f"{d.uri}:{d.span.line + 1}: {d.code} {d.message}" for d in result.diagnostics))
+    application = LoadedApplication(result.package)
+    application.start()
+    return application
+
+
+def compare(name: str, cycles: int, directory: Path) -> tuple[float, float]:
+    """Results of both versions after the same number of cycles; raises WrongResultError when they differ."""
+    application = load(name)
+    loop = NativeLoop()
+    try:
+        loop.seconds(application.symbol_address(application.package.tasks[0].symbol), cycles)
+        ours = float(str(application.read("Main.result")))
+    finally:
+        application.close()
+    program = CProgram(WORKLOADS / f"{name}.c", directory)
+    loop.seconds(program.cycle, cycles)
+    if not math.isclose(ours, program.result, rel_tol=1e-12, abs_tol=1e-12):
+        raise WrongResultError(f"{name}: ST gives {ours!r}, C gives {program.result!r} after {cycles} cycles")
+    return ours, program.result
+
+
+def measure(name: str, directory: Path | None) -> Row:
+    """Microseconds per cycle of one workload, beside C when there is a directory to compile it in."""
+    loop = NativeLoop()
+    application = load(name)
+    try:
+        ours_at = application.symbol_address(application.package.tasks[0].symbol)
+        program = None
+        if directory is not None:
+            compare(name, 100, directory)
+            program = CProgram(WORKLOADS / f"{name}.c", directory)
+        cycles = _calibrate(loop, ours_at)
+        ours: list[float] = []
+        base: list[float] = []
+        for _ in range(ROUNDS):
+            ours.append(loop.seconds(ours_at, cycles) / cycles * 1e6)
+            if program is not None:
+                base.append(loop.seconds(program.cycle, cycles) / cycles * 1e6)
+    finally:
+        application.close()
+    return Row(name, median(ours), median(base) if base else None, "us/cycle")
+
+
+def _calibrate(loop: NativeLoop, function: int) -> int:
+    cycles = 64
+    while (seconds := loop.seconds(function, cycles)) < TARGET_SECONDS / 2 and cycles < 1 << 24:
+        cycles = int(cycles * min(max(TARGET_SECONDS / max(seconds, 1e-6), 2.0), 16.0))
+    return cycles
+
+
+def run(only: Sequence[str] = ()) -> Report:
+    """All workloads, or those named."""
+    compiler = gcc_version()
+    with scratch_directory() as scratch:
+        directory = Path(scratch) if compiler else None
+        rows = [measure(name, directory) for name in names() if not only or name in only]
+    remark = () if compiler else ("gcc is not installed: no baseline",)
+    return Report("scan", f"{compiler} -O2" if compiler else "none", rows, BAR, remark)
