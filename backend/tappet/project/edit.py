@@ -160,13 +160,49 @@ def delete_object(project: Project, object_id: str) -> Project:
     return _dense(replace(project, objects=kept), item.parent_id)
 
 
+def give_content(project: Project, then: ProjectObject) -> Project:
+    """Give the object with the id of `then` its name and data; its place stays. Raises NameTakenError."""
+    item = project.get(then.id)
+    if then.name != item.name:
+        check_name(project, item.kind, then.name, item.parent_id, own=item.id)
+    return _with(project, [changed_object(item, name=then.name, data=then.data)])
+
+
+def restore_objects(
+    project: Project, top: ProjectObject, below: Iterable[ProjectObject], index: int
+) -> Project:
+    """Bring a deleted object back at `index`, with those of `below` that were under it.
+
+    A name that is taken by now counts on. Raises NotPlaceableError when its parent is gone too, or the like
+    of it has taken its place.
+    """
+    if top.parent_id is not None and top.parent_id not in project.objects:
+        raise NotPlaceableError(f"What '{top.name}' was in has been deleted too; restore that first")
+    if top.kind in RULES:
+        check_place(project, top.kind, top.parent_id)
+    name = _free_name(project, top, top.parent_id)
+    restored = [top if name == top.name else _renamed(top, name)]
+    found = {top.id}
+    waiting = list(below)
+    while True:
+        now = [item for item in waiting if item.parent_id in found]
+        if not now:
+            break
+        restored += now
+        found.update(item.id for item in now)
+        waiting = [item for item in waiting if item.id not in found]
+    end = len(project.children(top.parent_id))
+    restored[0] = changed_object(restored[0], index=end)
+    return _ordered(_with(project, restored), top.id, index)
+
+
 def _with(project: Project, items: Iterable[ProjectObject]) -> Project:
     return replace(project, objects={**project.objects, **{item.id: item for item in items}})
 
 
 def _in_order(project: Project, siblings: list[ProjectObject]) -> Project:
     """The project with these siblings numbered from 0 in this order."""
-    moved = [changed_object(item, index=i) for i, item in enumerate(siblings) if item.index != i]
+    moved = [item.model_copy(update={"index": i}) for i, item in enumerate(siblings) if item.index != i]
     return _with(project, moved) if moved else project
 
 

@@ -5,6 +5,7 @@ Everything here is a frozen value. `edit` makes changed projects from it; `place
 
 from __future__ import annotations
 
+import json
 import uuid
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -186,6 +187,17 @@ class UnknownData(BaseModel):
     """Data of a kind whose plug-in is missing: kept as they are (CON-03)."""
 
     model_config = ConfigDict(frozen=True, extra="allow")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_json(cls, value: object) -> object:
+        try:
+            json.dumps(value, allow_nan=False).encode()
+        except (TypeError, ValueError, RecursionError) as error:
+            if isinstance(value, UnknownData):
+                return value
+            raise ValueError(f"the data of a plug-in must be JSON ({error})") from None
+        return value
 
 
 class ObjectHead(BaseModel):

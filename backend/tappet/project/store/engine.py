@@ -19,9 +19,6 @@ from sqlalchemy.pool import ConnectionPoolEntry
 
 from tappet.project.errors import ProjectError
 
-WRITES = "tappet_writes"
-"""Execution option of connections that will write: SQLite then takes its lock at BEGIN, not at first use."""
-
 BUSY_TIMEOUT_MS = 15_000
 """How long a connection waits for SQLite's lock before it gives up."""
 
@@ -57,6 +54,17 @@ def open_engine(url: str) -> Engine:
     return engine
 
 
+def reading(engine: Engine) -> Engine:
+    """The same engine for transactions that only read, each seeing one state of the database.
+
+    Other transactions take SQLite's write lock when they begin: taking it later, after a read, would fail
+    whenever somebody else has written in between.
+    """
+    if engine.dialect.name == "sqlite":
+        return engine.execution_options(tappet_reads_only=True)
+    return engine.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)
+
+
 def migrate(engine: Engine) -> None:
     """Bring the schema to the newest revision; safe when several processes start at once.
 
@@ -67,8 +75,7 @@ def migrate(engine: Engine) -> None:
         _use_write_ahead_log(engine)
     with (
         _ONE_AT_A_TIME,
-        engine.connect().execution_options(**{WRITES: True}) as connection,
-        connection.begin(),
+        engine.begin() as connection,
     ):
         if engine.dialect.name == "postgresql":
             connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": _MIGRATION_LOCK})
@@ -124,5 +131,5 @@ def _prepare_sqlite(connection: DBAPIConnection, _entry: ConnectionPoolEntry) ->
 
 
 def _begin_sqlite(connection: Connection) -> None:
-    immediate = connection.get_execution_options().get(WRITES, False)
-    connection.exec_driver_sql("BEGIN IMMEDIATE" if immediate else "BEGIN")
+    reads_only = connection.get_execution_options().get("tappet_reads_only", False)
+    connection.exec_driver_sql("BEGIN" if reads_only else "BEGIN IMMEDIATE")

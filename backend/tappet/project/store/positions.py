@@ -1,0 +1,69 @@
+"""Positions of siblings: numbers with gaps, so that moving one object does not touch the others."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
+
+GAP = 1 << 20
+"""Distance of neighbours that are appended; twenty objects fit between two before a renumbering."""
+
+
+def new_positions(order: Sequence[str], current: Mapping[str, int]) -> dict[str, int]:
+    """The positions to change so that sorting by position gives `order`: as few as possible.
+
+    `current` holds the positions of the ids that have one already; an id without one always gets one.
+    """
+    kept = _longest_rising(order, current)
+    changed: dict[str, int] = {}
+    left: int | None = None
+    waiting: list[str] = []
+    for object_id in (*order, None):
+        if object_id is not None and object_id not in kept:
+            waiting.append(object_id)
+            continue
+        right = None if object_id is None else current[object_id]
+        placed = _between(left, right, len(waiting))
+        if placed is None:
+            return _renumbered(order, current)
+        changed.update(zip(waiting, placed, strict=True))
+        waiting = []
+        left = right
+    return changed
+
+
+def _longest_rising(order: Sequence[str], current: Mapping[str, int]) -> set[str]:
+    """The longest run of ids whose present positions rise already: those that need not move."""
+    tails: list[int] = []
+    tail_ids: list[str] = []
+    before: dict[str, str | None] = {}
+    for object_id in order:
+        if object_id not in current:
+            continue
+        place = bisect_left(tails, current[object_id])
+        before[object_id] = tail_ids[place - 1] if place else None
+        tails[place : place + 1] = [current[object_id]]
+        tail_ids[place : place + 1] = [object_id]
+    kept: set[str] = set()
+    last = tail_ids[-1] if tail_ids else None
+    while last is not None:
+        kept.add(last)
+        last = before[last]
+    return kept
+
+
+def _between(left: int | None, right: int | None, count: int) -> list[int] | None:
+    """`count` rising positions between two neighbours, None when the gap is too small."""
+    if right is None:
+        start = 0 if left is None else left
+        return [start + GAP * (i + 1) for i in range(count)]
+    if left is None:
+        return [right - GAP * (count - i) for i in range(count)]
+    if right - left <= count:
+        return None
+    return [left + (right - left) * (i + 1) // (count + 1) for i in range(count)]
+
+
+def _renumbered(order: Sequence[str], current: Mapping[str, int]) -> dict[str, int]:
+    places = {object_id: GAP * (i + 1) for i, object_id in enumerate(order)}
+    return {object_id: place for object_id, place in places.items() if current.get(object_id) != place}

@@ -1,0 +1,215 @@
+"""Saving one object: optimistic locking, and autosaves that replace each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+from sqlalchemy import Connection, and_, delete, insert, select, update
+
+from tappet.project.errors import UnknownObjectError
+from tappet.project.model import ProjectObject, changed_object, make_object
+from tappet.project.store.changes import revision_row, write_change
+from tappet.project.store.history import object_revisions
+from tappet.project.store.records import (
+    ChangeEvent,
+    ObjectChange,
+    ProjectInfo,
+    StaleRevision,
+    UnknownRevisionError,
+)
+from tappet.project.store.rows import data_of, read_summaries, summary_of
+from tappet.project.store.tables import changes, objects, revisions
+
+AUTOSAVE_WINDOW = timedelta(seconds=60)
+"""Autosaves of one author that follow each other within this time leave one revision."""
+
+
+@dataclass(frozen=True, slots=True)
+class StoredObject:
+    """An object as it is in its row; its index is not known here and 0."""
+
+    item: ProjectObject
+    position: int
+
+
+def read_object(connection: Connection, project_id: str, object_id: str) -> StoredObject:
+    """One object. Raises UnknownObjectError."""
+    row = connection.execute(
+        select(objects).where(objects.c.project_id == project_id, objects.c.id == object_id)
+    ).one_or_none()
+    if row is None:
+        raise UnknownObjectError(f"The project has no object with the id {object_id}")
+    item = make_object(
+        id=row.id,
+        parent_id=row.parent_id,
+        kind=row.kind,
+        name=row.name,
+        revision=row.revision,
+        data=row.data,
+    )
+    return StoredObject(item, row.position)
+
+
+def with_index(connection: Connection, project_id: str, item: ProjectObject) -> ProjectObject:
+    """The object with its place among its siblings."""
+    index = next(one.index for one in read_summaries(connection, project_id) if one.id == item.id)
+    return changed_object(item, index=index)
+
+
+def check_base(
+    connection: Connection, project_id: str, object_id: str, base_revision: int, yours: Mapping[str, Any]
+) -> StoredObject:
+    """The object as it is, provided its content is that of `base_revision`: a mere move disturbs nobody.
+
+    Raises StaleRevision when somebody else changed or deleted it, UnknownObjectError when it never was.
+    """
+    try:
+        stored = read_object(connection, project_id, object_id)
+    except UnknownObjectError:
+        raise _deleted(connection, project_id, object_id, base_revision, yours) from None
+    if stored.item.revision == base_revision:
+        return stored
+    base = connection.execute(
+        select(revisions.c.name, revisions.c.data).where(
+            revisions.c.project_id == project_id,
+            revisions.c.object_id == object_id,
+            revisions.c.revision == base_revision,
+        )
+    ).one_or_none()
+    if base is not None and (base.name, base.data) == (stored.item.name, data_of(stored.item)):
+        return stored
+    author = object_revisions(connection, project_id, object_id)[0].author
+    current = with_index(connection, project_id, stored.item)
+    raise StaleRevision(object_id, base_revision, current, yours, author)
+
+
+def save_data(
+    connection: Connection,
+    info: ProjectInfo,
+    object_id: str,
+    base_revision: int,
+    data: Any,
+    author: str,
+    comment: str,
+    autosave: bool,
+) -> tuple[ProjectObject, ChangeEvent | None]:
+    """Give an object of a locked project other data. The event is None when they were the same already.
+
+    Raises StaleRevision, InvalidDataError, UnknownObjectError.
+    """
+    try:
+        before = read_object(connection, info.id, object_id)
+    except UnknownObjectError:
+        raise _deleted(connection, info.id, object_id, base_revision, {"data": data}) from None
+    wanted = changed_object(before.item, data=data)
+    if wanted.data == before.item.data:
+        if not autosave:
+            _keep_autosave(connection, info, before.item, comment)
+        return with_index(connection, info.id, before.item), None
+    check_base(connection, info.id, object_id, base_revision, {"data": data_of(wanted)})
+    saved = changed_object(wanted, revision=before.item.revision + 1)
+    updated = connection.execute(
+        update(objects)
+        .where(
+            objects.c.project_id == info.id,
+            objects.c.id == object_id,
+            objects.c.revision == before.item.revision,
+        )
+        .values(data=data_of(saved), subkind=saved.subkind, revision=saved.revision)
+    )
+    assert updated.rowcount == 1, "the project is locked, so nobody else can have saved"
+    replaced = _replaceable(connection, info, before.item, author) if autosave else None
+    number = write_change(connection, info, "save", author, comment, autosave=autosave)
+    row = revision_row(info.id, saved, before.position, number)
+    if replaced is None:
+        connection.execute(insert(revisions).values(row))
+    else:
+        _replace(connection, info, before.item, row, replaced)
+    result = with_index(connection, info.id, saved)
+    event = ChangeEvent(info.id, number, "save", author, (ObjectChange("updated", summary_of(result)),))
+    return result, event
+
+
+def _deleted(
+    connection: Connection, project_id: str, object_id: str, base_revision: int, yours: Mapping[str, Any]
+) -> StaleRevision | UnknownObjectError:
+    try:
+        last = object_revisions(connection, project_id, object_id)[0]
+    except UnknownRevisionError:
+        return UnknownObjectError(f"The project has no object with the id {object_id}")
+    return StaleRevision(object_id, base_revision, None, yours, last.author)
+
+
+def _last_change(connection: Connection, info: ProjectInfo, item: ProjectObject) -> Any:
+    """The change that made the present revision of an object."""
+    return connection.execute(
+        select(changes.c.revision, changes.c.author, changes.c.at, changes.c.autosave)
+        .join(
+            revisions,
+            and_(changes.c.project_id == revisions.c.project_id, changes.c.revision == revisions.c.change),
+        )
+        .where(
+            revisions.c.project_id == info.id,
+            revisions.c.object_id == item.id,
+            revisions.c.revision == item.revision,
+        )
+    ).one()
+
+
+def _replaceable(connection: Connection, info: ProjectInfo, item: ProjectObject, author: str) -> Any:
+    """The autosave that the next one may take the place of, or None.
+
+    Not when an explicit change of the project came after it: going back to that one must find the object as
+    it was then.
+    """
+    last = _last_change(connection, info, item)
+    if not last.autosave or last.author != author or datetime.now(UTC) - last.at > AUTOSAVE_WINDOW:
+        return None
+    explicit = connection.execute(
+        select(changes.c.revision)
+        .where(
+            changes.c.project_id == info.id,
+            changes.c.revision > last.revision,
+            changes.c.autosave.is_(False),
+        )
+        .limit(1)
+    ).first()
+    return last if explicit is None else None
+
+
+def _replace(
+    connection: Connection, info: ProjectInfo, before: ProjectObject, row: dict[str, Any], replaced: Any
+) -> None:
+    """Put a revision in the place of an autosave; the time stays that of the first of them."""
+    number = row["change"]
+    connection.execute(
+        update(changes)
+        .where(changes.c.project_id == info.id, changes.c.revision == number)
+        .values(at=replaced.at)
+    )
+    connection.execute(
+        update(revisions)
+        .where(
+            revisions.c.project_id == info.id,
+            revisions.c.object_id == before.id,
+            revisions.c.revision == before.revision,
+        )
+        .values(row)
+    )
+    connection.execute(
+        delete(changes).where(changes.c.project_id == info.id, changes.c.revision == replaced.revision)
+    )
+
+
+def _keep_autosave(connection: Connection, info: ProjectInfo, item: ProjectObject, comment: str) -> None:
+    """An explicit save of what an autosave holds already makes that one explicit."""
+    last = _last_change(connection, info, item)
+    if last.autosave:
+        connection.execute(
+            update(changes)
+            .where(changes.c.project_id == info.id, changes.c.revision == last.revision)
+            .values(autosave=False, comment=comment)
+        )

@@ -1,0 +1,443 @@
+"""The store: projects and objects, every revision of them, and who is told about changes."""
+
+from __future__ import annotations
+
+import logging
+import uuid
+from collections.abc import Callable, Mapping
+from datetime import UTC, datetime
+from typing import Any, TypeVar
+
+from sqlalchemy import Engine, insert, select, update
+from sqlalchemy.exc import IntegrityError
+
+from tappet.project import edit
+from tappet.project.errors import NameTakenError
+from tappet.project.model import ObjectHead, Project, ProjectObject
+from tappet.project.naming import check_free_name, name_key, normal_name, unique_name
+from tappet.project.placement import check_project
+from tappet.project.store import history
+from tappet.project.store.changes import apply_project
+from tappet.project.store.engine import migrate, open_engine, reading
+from tappet.project.store.records import (
+    ChangeEvent,
+    ObjectRevision,
+    ObjectSummary,
+    ProjectInfo,
+    ProjectRevision,
+    UnknownProjectError,
+)
+from tappet.project.store.rows import (
+    PROJECT_COLUMNS,
+    StoredProject,
+    read_files,
+    read_info,
+    read_project,
+    read_summaries,
+)
+from tappet.project.store.saving import check_base, read_object, save_data, with_index
+from tappet.project.store.tables import files, projects
+from tappet.project.templates import new_project
+
+Listener = Callable[[ChangeEvent], None]
+T = TypeVar("T")
+log = logging.getLogger(__name__)
+
+
+class Store:
+    """Projects in a database. All methods block for it; call them from threads, several at once if needed.
+
+    Every change of a project locks its row, so that changes of one project follow each other.
+    """
+
+    def __init__(self, database: str | Engine) -> None:
+        """Open `sqlite:///file` or `postgresql://...` and bring its schema up to date. Raises StoreError."""
+        self.engine = open_engine(database) if isinstance(database, str) else database
+        migrate(self.engine)
+        self._reading = reading(self.engine)
+        self._listeners: list[Listener] = []
+
+    def close(self) -> None:
+        """Close all connections."""
+        self.engine.dispose()
+
+    def listen(self, listener: Listener) -> Callable[[], None]:
+        """Call `listener` after each stored change, in the thread that made it; returns how to stop that."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    # -- projects -----------------------------------------------------------------------------------
+
+    def projects(self, *, deleted: bool = False) -> list[ProjectInfo]:
+        """All projects by name; with `deleted` those that were deleted instead."""
+        condition = projects.c.deleted_at.is_not(None) if deleted else projects.c.deleted_at.is_(None)
+        with self._reading.begin() as connection:
+            rows = connection.execute(
+                select(*PROJECT_COLUMNS).where(condition).order_by(projects.c.name_key, projects.c.id)
+            )
+            return [ProjectInfo(*row) for row in rows]
+
+    def project(self, project_id: str) -> ProjectInfo:
+        """One project. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            return read_info(connection, project_id)
+
+    def create_project(
+        self,
+        name: str,
+        author: str,
+        *,
+        description: str = "",
+        content: Project | None = None,
+        comment: str = "",
+        free_name: bool = False,
+    ) -> ProjectInfo:
+        """Make a project, from `content` or with a soft PLC and PLC_PRG.
+
+        `free_name` counts the name on instead of refusing one that is taken. Raises NameTakenError,
+        InvalidNameError, and what check_project finds in the content.
+        """
+        name = normal_name(name)
+        check_free_name(name)
+        action = "create" if content is None else "import"
+        content = content if content is not None else new_project(name, description)
+        check_project(content)
+        while True:
+            wanted = unique_name(name, (info.name for info in self.projects())) if free_name else name
+            try:
+                return self._insert_project(wanted, description, content, action, author, comment)
+            except NameTakenError:
+                if not free_name:
+                    raise
+
+    def _insert_project(
+        self, name: str, description: str, content: Project, action: str, author: str, comment: str
+    ) -> ProjectInfo:
+        now = datetime.now(UTC)
+        info = ProjectInfo(uuid.uuid4().hex, name, description, 0, now, author, now, author, None)
+        try:
+            with self.engine.begin() as connection:
+                connection.execute(
+                    insert(projects).values(
+                        id=info.id,
+                        name=name,
+                        name_key=name_key(name),
+                        description=description,
+                        revision=0,
+                        created_at=now,
+                        created_by=author,
+                        changed_at=now,
+                        changed_by=author,
+                    )
+                )
+                for path, content_bytes in content.extra_files.items():
+                    connection.execute(
+                        insert(files).values(project_id=info.id, path=path, content=content_bytes)
+                    )
+                empty = StoredProject(info, Project(name, description), {})
+                _, event = apply_project(connection, empty, content, action, author, comment)
+                stored = read_info(connection, info.id)
+        except IntegrityError as error:
+            raise NameTakenError(f"There is a project named '{name}' already") from error
+        self._tell(event)
+        return stored
+
+    def change_project(
+        self, project_id: str, author: str, *, name: str | None = None, description: str | None = None
+    ) -> ProjectInfo:
+        """Rename or describe a project. Raises UnknownProjectError, NameTakenError, InvalidNameError."""
+        values: dict[str, Any] = {"changed_at": datetime.now(UTC), "changed_by": author}
+        if name is not None:
+            name = normal_name(name)
+            check_free_name(name)
+            values |= {"name": name, "name_key": name_key(name)}
+        if description is not None:
+            values["description"] = description
+        try:
+            with self.engine.begin() as connection:
+                read_info(connection, project_id, lock=True)
+                connection.execute(update(projects).where(projects.c.id == project_id).values(values))
+                return read_info(connection, project_id)
+        except IntegrityError as error:
+            raise NameTakenError(f"There is a project named '{name}' already") from error
+
+    def delete_project(self, project_id: str, author: str) -> None:
+        """Put a project away; `restore_project` brings it back. Raises UnknownProjectError."""
+        now = datetime.now(UTC)
+        with self.engine.begin() as connection:
+            read_info(connection, project_id, lock=True)
+            connection.execute(
+                update(projects)
+                .where(projects.c.id == project_id)
+                .values(deleted_at=now, changed_at=now, changed_by=author)
+            )
+
+    def restore_project(self, project_id: str, author: str) -> ProjectInfo:
+        """Bring a deleted project back, under a free name. Raises UnknownProjectError."""
+        with self.engine.begin() as connection:
+            row = connection.execute(
+                select(*PROJECT_COLUMNS)
+                .where(projects.c.id == project_id, projects.c.deleted_at.is_not(None))
+                .with_for_update()
+            ).one_or_none()
+            if row is None:
+                raise UnknownProjectError(f"There is no deleted project with the id {project_id}")
+            taken = connection.scalars(select(projects.c.name).where(projects.c.deleted_at.is_(None)))
+            name = unique_name(row.name, taken)
+            connection.execute(
+                update(projects)
+                .where(projects.c.id == project_id)
+                .values(
+                    deleted_at=None,
+                    name=name,
+                    name_key=name_key(name),
+                    changed_at=datetime.now(UTC),
+                    changed_by=author,
+                )
+            )
+            return read_info(connection, project_id)
+
+    # -- objects ------------------------------------------------------------------------------------
+
+    def load(self, project_id: str, *, with_files: bool = False) -> Project:
+        """A whole project as it is. Raises UnknownProjectError."""
+        return self.snapshot(project_id, with_files=with_files)[1]
+
+    def snapshot(self, project_id: str, *, with_files: bool = False) -> tuple[ProjectInfo, Project]:
+        """A whole project and the revision it has. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            stored = read_project(connection, read_info(connection, project_id), with_files=with_files)
+            return stored.info, stored.project
+
+    def tree(self, project_id: str) -> list[ObjectSummary]:
+        """All objects without their data. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return read_summaries(connection, project_id)
+
+    def get(self, project_id: str, object_id: str) -> ProjectObject:
+        """One object. Raises UnknownProjectError, UnknownObjectError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return with_index(connection, project_id, read_object(connection, project_id, object_id).item)
+
+    def save(
+        self,
+        project_id: str,
+        object_id: str,
+        base_revision: int,
+        data: Any,
+        author: str,
+        *,
+        comment: str = "",
+        autosave: bool = False,
+    ) -> ProjectObject:
+        """Store other data of an object that was read at `base_revision`.
+
+        Autosaves that follow each other shortly leave one revision, explicit saves are kept for ever.
+        Raises StaleRevision with both versions, InvalidDataError, UnknownObjectError, UnknownProjectError.
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            saved, event = save_data(
+                connection, info, object_id, base_revision, data, author, comment, autosave
+            )
+        self._tell(event)
+        return saved
+
+    def add(
+        self,
+        project_id: str,
+        author: str,
+        parent_id: str | None,
+        kind: str,
+        name: str | None = None,
+        *,
+        subkind: str | None = None,
+        data: Mapping[str, Any] | None = None,
+        index: int | None = None,
+        comment: str = "",
+    ) -> ProjectObject:
+        """Add an object; see `edit.add_object`."""
+        return self.edit(
+            project_id,
+            author,
+            "add",
+            lambda project: edit.add_object(
+                project, parent_id, kind, name, subkind=subkind, data=data, index=index
+            ),
+            comment,
+        )
+
+    def copy(
+        self,
+        project_id: str,
+        author: str,
+        object_id: str,
+        parent_id: str | None,
+        *,
+        index: int | None = None,
+        source_project_id: str | None = None,
+        comment: str = "",
+    ) -> ProjectObject:
+        """Copy an object with all below it, also from another project; see `edit.copy_object`."""
+        source = None
+        if source_project_id not in (None, project_id):
+            source = self.load(str(source_project_id))
+        return self.edit(
+            project_id,
+            author,
+            "copy",
+            lambda project: edit.copy_object(project, object_id, parent_id, index=index, source=source),
+            comment,
+        )
+
+    def arrange(
+        self,
+        project_id: str,
+        author: str,
+        object_id: str,
+        *,
+        name: str | None = None,
+        place: tuple[str | None, int | None] | None = None,
+        base_revision: int | None = None,
+        comment: str = "",
+    ) -> ProjectObject:
+        """Rename an object, or put it at `place` (parent, index or None for the end), or both.
+
+        Raises StaleRevision when `base_revision` is given and old, and what `edit` raises.
+        """
+
+        def arranged(project: Project) -> tuple[Project, ProjectObject]:
+            if name is not None:
+                project = edit.rename_object(project, object_id, name)
+            if place is not None:
+                project = edit.move_object(project, object_id, *place)
+            return project, project.get(object_id)
+
+        yours = {} if name is None else {"name": name}
+        base = None if base_revision is None else (object_id, base_revision, yours)
+        action = "rename" if name is not None else "move"
+        moved = object_id if place is not None else None
+        return self.edit(project_id, author, action, arranged, comment, base=base, moved=moved)
+
+    def delete(self, project_id: str, author: str, object_id: str, *, comment: str = "") -> None:
+        """Delete an object and all below it; their revisions stay. Raises UnknownObjectError."""
+        self.edit(
+            project_id,
+            author,
+            "delete",
+            lambda project: (edit.delete_object(project, object_id), None),
+            comment,
+        )
+
+    def edit(
+        self,
+        project_id: str,
+        author: str,
+        action: str,
+        change: Callable[[Project], tuple[Project, T]],
+        comment: str = "",
+        *,
+        base: tuple[str, int, Mapping[str, Any]] | None = None,
+        moved: str | None = None,
+    ) -> T:
+        """Make any change of a project as one revision: `change` gets it as it is and returns what shall be.
+
+        An object that `change` returns comes back with its stored revision. `base` is (object id, revision,
+        yours) to be checked first. Raises StaleRevision, UnknownProjectError, and whatever `change` raises.
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            if base is not None:
+                check_base(connection, project_id, *base)
+            stored = read_project(connection, info)
+            wanted, outcome = change(stored.project)
+            result, event = apply_project(connection, stored, wanted, action, author, comment, moved=moved)
+        self._tell(event)
+        known = result.objects.get(outcome.id) if isinstance(outcome, ObjectHead) else None
+        return outcome if known is None else known  # type: ignore[return-value]
+
+    # -- history ------------------------------------------------------------------------------------
+
+    def object_revisions(self, project_id: str, object_id: str) -> list[ObjectRevision]:
+        """The states of an object, newest first. Raises UnknownProjectError, UnknownRevisionError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return history.object_revisions(connection, project_id, object_id)
+
+    def object_at(self, project_id: str, object_id: str, revision: int) -> ProjectObject:
+        """An object as it was. Raises UnknownProjectError, UnknownRevisionError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return history.object_at(connection, project_id, object_id, revision)[0]
+
+    def project_revisions(
+        self, project_id: str, *, limit: int = 100, before: int | None = None
+    ) -> list[ProjectRevision]:
+        """The changes of a project, newest first. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return history.project_revisions(connection, project_id, limit, before)
+
+    def project_at(self, project_id: str, revision: int) -> Project:
+        """A project as it was after a change. Raises UnknownProjectError, UnknownRevisionError."""
+        with self._reading.begin() as connection:
+            return history.project_at(connection, read_info(connection, project_id), revision)
+
+    def revert_object(
+        self, project_id: str, object_id: str, revision: int, author: str, *, comment: str = ""
+    ) -> ProjectObject:
+        """Give an object the name and data of a revision again, as a new revision; its place stays.
+
+        A deleted object comes back where it was, with what was deleted below it in the same change.
+        Raises UnknownRevisionError, NameTakenError, NotPlaceableError (its parent is gone too).
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            stored = read_project(connection, info)
+            then, position = history.object_at(connection, project_id, object_id, revision)
+            if object_id in stored.project.objects:
+                wanted = edit.give_content(stored.project, then)
+            else:
+                last = history.object_revisions(connection, project_id, object_id)[0]
+                below = history.deleted_with(connection, project_id, last.project_revision)
+                siblings = stored.project.children(then.parent_id)
+                index = sum(stored.positions[item.id] < position for item in siblings)
+                wanted = edit.restore_objects(stored.project, then, below, index)
+            result, event = apply_project(connection, stored, wanted, "revert", author, comment)
+        self._tell(event)
+        return result.get(object_id)
+
+    def revert_project(
+        self, project_id: str, revision: int, author: str, *, comment: str = ""
+    ) -> ProjectInfo:
+        """Make a project what it was after a change, as a new change; deleted objects come back.
+
+        Raises UnknownProjectError, UnknownRevisionError.
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            stored = read_project(connection, info)
+            wanted = history.project_at(connection, info, revision)
+            _, event = apply_project(connection, stored, wanted, "revert", author, comment)
+            info = read_info(connection, project_id)
+        self._tell(event)
+        return info
+
+    def extra_files(self, project_id: str) -> dict[str, bytes]:
+        """Files of the imported folder that are no objects. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return read_files(connection, project_id)
+
+    def _tell(self, event: ChangeEvent | None) -> None:
+        if event is None:
+            return
+        for listener in tuple(self._listeners):
+            try:
+                listener(event)
+            except Exception:
+                log.exception(
+                    "a listener failed on change %d of project %s", event.revision, event.project_id
+                )
