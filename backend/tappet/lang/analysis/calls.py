@@ -12,10 +12,12 @@ from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.analysis.scope import describe
+from tappet.lang.rules import EXPRESSION_RULES
 from tappet.lang.source import Span
 from tappet.lang.symbols import PouSymbol, PropertySymbol, Storage, Symbol, TypeSymbol, VarSymbol
 from tappet.lang.types import Elementary, Type
 
+_CALL_RULES = EXPRESSION_RULES.get(ast.Call, ())
 _PASSED = frozenset({"VAR_INPUT", "VAR_IN_OUT"})
 
 
@@ -33,6 +35,8 @@ def call(b: Body, e: ast.Call) -> None:
                 callee.type = None
                 resolve(b, e, key)
                 callee.symbol = e.target  # type: ignore[attr-defined]
+                for check in _CALL_RULES:
+                    check(b, e)
                 return
         elif symbol.__class__ is VarSymbol and symbol.storage is Storage.RESULT:  # type: ignore[attr-defined]
             own = b.pou

@@ -11,6 +11,7 @@ from tappet.lang.analysis import addresses, conversion, folding, operators
 from tappet.lang.analysis.adaptation import require
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol, describe
+from tappet.lang.rules import EXPRESSION_RULES
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -109,6 +110,9 @@ def _literal(b: Body, e: ast.Literal) -> None:
     e.untyped = False
     e.is_constant = True
     content = e.constant = e.value
+    if content is None and e.kind != "null":
+        clear(e)  # not readable, which the lexer has reported
+        return
     if e.prefix is not None:
         _typed_literal(b, e, e.prefix)
         return
@@ -563,6 +567,8 @@ def _super(b: Body, e: ast.Super) -> None:
         e.type = t.Pointer(block.base.instance)
 
 
+_BINARY_RULES = EXPRESSION_RULES.get(ast.Binary, ())
+
 # -- operators --------------------------------------------------------------------------------------
 
 
@@ -583,10 +589,14 @@ def _binary(b: Body, e: ast.Binary) -> None:
         for node in reversed(spine):
             value(b, node.right)
             operators.binary(b, node)
+            for check in _BINARY_RULES:
+                check(b, node)
         return
     value(b, left)
     value(b, e.right)
     operators.binary(b, e)
+    for check in _BINARY_RULES:
+        check(b, e)
 
 
 def _aggregate(b: Body, e: ast.ArrayInit | ast.StructInit | ast.Repeat) -> None:

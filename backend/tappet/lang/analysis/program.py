@@ -14,6 +14,7 @@ from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.expressions import find_member
 from tappet.lang.analysis.heads import plain_body
 from tappet.lang.analysis.result import ConfiguredAddress
+from tappet.lang.rules import PROGRAM_RULES
 from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Type
@@ -30,6 +31,8 @@ def check(session: Session, found: Collected, declarations: Declarations) -> Non
         _overrides(session, pou)
     _configured_addresses(session, found, declarations)
     _external_types(session, found, declarations)
+    for rule in PROGRAM_RULES:
+        rule(session)
 
 
 # -- recursion --------------------------------------------------------------------------------------

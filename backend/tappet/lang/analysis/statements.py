@@ -13,7 +13,7 @@ from tappet.lang.analysis.calls import bind_reference
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
 from tappet.lang.analysis.places import writable
-from tappet.lang.rules import STATEMENT_RULES
+from tappet.lang.rules import LIST_RULES, STATEMENT_RULES
 from tappet.lang.symbols import PropertySymbol, VarSymbol
 from tappet.lang.types import Elementary, Kind, Type
 
@@ -36,6 +36,8 @@ def statements(b: Body, body: list[ast.Stmt]) -> None:
         if checks is not None:
             for check in checks:
                 check(b, s)
+    for check in LIST_RULES:
+        check(b, body)
 
 
 def _label(b: Body, s: ast.Stmt) -> None:

@@ -1,0 +1,57 @@
+"""A local variable is used.
+
+Inputs, outputs, and variables at an address belong to the interface of the POU or the machine and are left out.
+
+Source: spec LDEC-20.
+
+Passes:
+    VAR a : INT; END_VAR
+    a := 1;
+Fails:
+    VAR a, b : INT; END_VAR        (* W1103: b is never used *)
+    a := 1;
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tappet.lang.source import Scope
+from tappet.lang.symbols import PouSymbol
+from tappet.lang.types import FunctionBlock
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.context import Session
+
+CODES = ("W1103",)
+
+
+def check_program(session: Session) -> None:
+    """Reports VAR and VAR_TEMP variables that no code names."""
+    for pou in session.analysis.pous:
+        source = pou.source
+        if source is None or source.scope is Scope.LIBRARY or pou.pou is None:
+            continue
+        if pou.pou.body:
+            _check(session, pou)
+        for method in pou.methods.values():
+            if method.pou is not None and method.pou.body:
+                _check(session, method)
+
+
+def _check(session: Session, pou: PouSymbol) -> None:
+    assert pou.pou is not None and pou.source is not None
+    used = session.used
+    for block in pou.pou.blocks:
+        if block.section not in ("VAR", "VAR_TEMP", "VAR_STAT"):
+            continue
+        for decl in block.variables:
+            symbol = decl.symbol
+            if (
+                symbol is not None
+                and id(symbol) not in used
+                and decl.address is None
+                and not decl.attributes
+                and not isinstance(getattr(symbol, "type", None), FunctionBlock)
+            ):
+                session.report("W1103", pou.source.uri, decl.name_span, name=decl.name)
