@@ -23,7 +23,7 @@ _FLOAT_UNARY = {
     "trunc": "trunc",
     "round": "round",
 }
-_LIBM = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "log10", "pow", "fmod"}
+_LIBM = {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "log10", "pow"}
 
 
 def is_simple(expr: ir.Expr) -> bool:

@@ -99,6 +99,10 @@ class FunctionEmitter(ExpressionEmitter):
         condition = self.expr(s.condition)
         self.fault_if(condition, s.code, [self.expr(a) for a in s.args])
 
+    def _check_index(self, s: ir.CheckIndex) -> None:
+        if s.subscript.checked:
+            self.element_number(s.subscript)
+
     # -- branches ------------------------------------------------------------------------------------
 
     def condition(self, expr: ir.Expr, yes: str, no: str) -> None:
@@ -369,6 +373,7 @@ _HANDLERS: dict[type[ir.Stmt], Callable[[FunctionEmitter, Any], None]] = {
     ir.FillBytes: _F._fill_bytes,
     ir.Evaluate: _F._evaluate,
     ir.FaultIf: _F._fault,
+    ir.CheckIndex: _F._check_index,
     ir.If: _F._if_,
     ir.Switch: _F.switch,
     ir.For: _F._for_,

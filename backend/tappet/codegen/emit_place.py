@@ -182,6 +182,8 @@ class PlaceEmitter:
     def local(self, local: ir.Local) -> str:
         """Address of a local; allocated in the entry block on first use."""
         name = self.locals.get(local)
+        if name is None and local in self.function.aliases:
+            name = self.locals[local] = f"%a{self.function.aliases[local]}"
         if name is None:
             name = self.locals[local] = f"%l{len(self.locals)}"
             shape = memory_type(local.type) if local.type else f"[{max(local.size, 1)} x i8]"
@@ -221,14 +223,19 @@ class PlaceEmitter:
 
     def subscript(self, pointer: str, sub: ir.Subscript, inside: bool) -> str:
         """Pointer to one element."""
+        number = self.element_number(sub)
+        inbounds = "inbounds nuw " if inside else ""
+        return self.value(f"getelementptr {inbounds}[{sub.stride} x i8], ptr {pointer}, i64 {number}")
+
+    def element_number(self, sub: ir.Subscript) -> str:
+        """Index counted from 0, checked if need be."""
         index = self.index_operand(sub.index)
         wrapping = "" if sub.checked else "nsw "
         number = self.value(f"sub {wrapping}i64 {index}, {sub.low}") if sub.low else index
         if sub.checked:
             outside = self.value(f"icmp uge i64 {number}, {sub.high - sub.low + 1}")
             self.fault_if(outside, Fault.ARRAY_BOUNDS, [index, str(sub.low), str(sub.high)])
-        inbounds = "inbounds nuw " if inside else ""
-        return self.value(f"getelementptr {inbounds}[{sub.stride} x i8], ptr {pointer}, i64 {number}")
+        return number
 
     def index_operand(self, index: ir.Expr) -> str:
         """An index as i64."""

@@ -1,7 +1,7 @@
 """Link a code package into this process: for tests, tools and previews, not for real control.
 
-Faults come back as `ApplicationFault`; signals (null pointers, endless loops) are not caught here. The clock is
-virtual and moved by hand.
+Faults come back as `ApplicationFault`; signals (null pointers, endless loops) are not caught here. The clock
+is virtual and moved by hand.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ _MAP_32BIT = 0x40
 _numbers = itertools.count()
 
 
-class ApplicationFault(Exception):
+class ApplicationFault(Exception):  # noqa: N818 - a fault of the program, no error of this one
     """A fault raised by compiled code."""
 
     def __init__(self, code: int, a: int, b: int, c: int) -> None:

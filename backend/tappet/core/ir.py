@@ -81,8 +81,8 @@ class Indirect:
 
     pointer: Expr
     align: int = 1
-    readonly: bool = False
-    """Nothing the function does can change these bytes (an aggregate passed by value and not copied)."""
+    own: bool = False
+    """Memory that only this function reaches: the space for its result."""
 
 
 Base = Data | Self | Local | Indirect
@@ -442,6 +442,13 @@ class FaultIf(Stmt):
 
 
 @dataclass(eq=False, slots=True)
+class CheckIndex(Stmt):
+    """Raise ARRAY_BOUNDS when the index of a subscript is outside its bounds, without using it."""
+
+    subscript: Subscript
+
+
+@dataclass(eq=False, slots=True)
 class Promoted(Stmt):
     """A loop during which scalar variables live in locals; `promote` makes these.
 
@@ -494,6 +501,8 @@ class Function:
     """"", "never" or "always"."""
     subscripted: dict[Base, set[int]] = field(default_factory=dict)
     """Roots of places with subscripts, by base: what needs alias scopes."""
+    aliases: dict[Local, int] = field(default_factory=dict)
+    """Locals that are what a pointer parameter points to: aggregates passed by value, not changed."""
     self_type: str = ""
     """Upper-case name of the function block type `parameters[0]` points to, if any."""
     cold: bool = False

@@ -1,0 +1,435 @@
+"""Calls of functions, methods, actions, programs, function block instances and property accessors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from tappet.core import assign, ir, places
+from tappet.core.body import (
+    BUILTIN_PLACES,
+    BUILTIN_STATEMENTS,
+    BUILTIN_VALUES,
+    INITIALISERS,
+    PLACES,
+    TARGETS,
+    VALUES,
+    Body,
+)
+from tappet.core.program import attribute_value
+from tappet.core.scalars import NULL, require_scalar, scalar_of
+from tappet.core.values import member_value, variable_value
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.symbols import BuiltinSymbol, PouSymbol, PropertySymbol, VarSymbol
+
+
+@dataclass(slots=True)
+class Prepared:
+    """A call ready to be placed: what happens before it, the call, what happens after."""
+
+    before: list[ir.Stmt] = field(default_factory=list)
+    call: ir.Expr | None = None
+    after: list[ir.Stmt] = field(default_factory=list)
+    result: ir.Place | None = None
+    """Where an aggregate result is put."""
+
+    def statements(self) -> list[ir.Stmt]:
+        """The call for its effects."""
+        middle: list[ir.Stmt] = [] if self.call is None else [ir.Evaluate(self.call)]
+        return [*self.before, *middle, *self.after]
+
+
+def by_address(type_: t.Type | None) -> bool:
+    """Whether values of the type are passed by address."""
+    return scalar_of(type_) is None
+
+
+def has_self(pou: PouSymbol) -> bool:
+    """Whether the body works on an instance given as hidden first parameter."""
+    if pou.kind == "FUNCTION_BLOCK":
+        return True
+    if pou.kind in ("METHOD", "ACTION", "TRANSITION"):
+        return pou.owner is None or pou.owner.kind != "PROGRAM"
+    return False
+
+
+# -- entry points -----------------------------------------------------------------------------------
+
+
+def call_value(b: Body, e: ast.Call) -> ir.Expr:
+    """Value of a call with a simple result."""
+    if e.expansion is not None:
+        return b.value(e.expansion)
+    target = e.target
+    if isinstance(target, BuiltinSymbol):
+        return BUILTIN_VALUES[target.name](b, e, target)
+    assert isinstance(target, PouSymbol)
+    if isinstance(target.return_type, t.Reference):
+        assert e.type is not None
+        return ir.Load(require_scalar(e.type), call_place(b, e))
+    return as_value(b, prepare(b, e))
+
+
+def as_value(b: Body, prepared: Prepared) -> ir.Expr:
+    """The prepared call as one expression."""
+    call = prepared.call
+    assert call is not None
+    if not prepared.before and not prepared.after:
+        return call
+    if not prepared.after:
+        return ir.Sequence(call.type, prepared.before, call)
+    local = b.temp(call.type)
+    body = [*prepared.before, ir.Store(ir.Place(local), call), *prepared.after]
+    return ir.Sequence(call.type, body, ir.Load(call.type, ir.Place(local)))
+
+
+def call_place(b: Body, e: ast.Call) -> ir.Place:
+    """Memory with the result of a call: a reference's target, or a temporary with the aggregate."""
+    if e.expansion is not None:
+        return b.place(e.expansion)
+    target = e.target
+    if isinstance(target, BuiltinSymbol):
+        return BUILTIN_PLACES[target.name](b, e, target)
+    assert isinstance(target, PouSymbol)
+    prepared = prepare(b, e)
+    if isinstance(target.return_type, t.Reference):
+        return ir.Place(ir.Indirect(as_value(b, prepared)))
+    return as_place(b, prepared)
+
+
+def as_place(b: Body, prepared: Prepared) -> ir.Place:
+    """Memory with the result of a prepared call."""
+    if prepared.result is None:
+        value = as_value(b, prepared)
+        local = b.temp(value.type)
+        place = ir.Place(local)
+        fill: list[ir.Stmt] = [ir.Store(place, value)]
+    else:
+        place, fill = prepared.result, prepared.statements()
+    return ir.Place(ir.Indirect(ir.Sequence(ir.PTR, fill, ir.Address(ir.PTR, place))))
+
+
+def call_statement(b: Body, e: ast.Call) -> None:
+    """A call for its effects."""
+    if e.expansion is not None:
+        b.emit(ir.Evaluate(b.value(e.expansion)))
+        return
+    target = e.target
+    if isinstance(target, BuiltinSymbol):
+        statement = BUILTIN_STATEMENTS.get(target.name)
+        if statement is not None:
+            statement(b, e, target)
+        elif scalar_of(target.return_type) is None:
+            b.emit(ir.Evaluate(places.address_of(b.place(e))))
+        else:
+            b.emit(ir.Evaluate(b.value(e)))
+        return
+    b.out.extend(prepare(b, e).statements())
+
+
+# -- preparation ------------------------------------------------------------------------------------
+
+
+def prepare(b: Body, e: ast.Call) -> Prepared:
+    """Arguments, hidden parameters and the call."""
+    target = e.target
+    assert isinstance(target, PouSymbol)
+    b.foreign_writes = True
+    if target.kind == "FUNCTION_BLOCK":
+        return _block_call(b, e, target)
+    if target.kind == "PROGRAM":
+        return _instance_call(b, e, target, places.program_data(target), [])
+    prepared = Prepared()
+    own: ir.Expr | None = None
+    virtual = False
+    if has_self(target):
+        own, virtual = _instance_of(b, e.callee, target, prepared)
+    finish(b, prepared, target, e.args, own, virtual)
+    return prepared
+
+
+def _instance_of(b: Body, callee: ast.Expr, target: PouSymbol, prepared: Prepared) -> tuple[ir.Expr, bool]:
+    """Address of the instance a method or action is called on, and whether the call is virtual."""
+    if not isinstance(callee, ast.Member):
+        assert b.own_data is not None
+        return places.address_of(b.own_data), True
+    base = callee.base
+    if isinstance(base.type, t.Interface):
+        return b.value(base), True
+    if isinstance(base, ast.Deref) and isinstance(base.base, ast.Super):
+        assert b.own_data is not None
+        return places.address_of(b.own_data), False
+    if base.type is None:
+        # FB_Base.Method inside a derived block: static
+        assert b.own_data is not None
+        return places.address_of(b.own_data), False
+    place = b.place(base)
+    exact = not isinstance(base, ast.Deref) and not _through_reference(base)
+    return places.address_of(place), not exact
+
+
+def _through_reference(e: ast.Expr) -> bool:
+    """Whether the static type of an instance may be a base of the real one."""
+    symbol = getattr(e, "symbol", None)
+    if isinstance(symbol, VarSymbol):
+        return symbol.section == "VAR_IN_OUT" or isinstance(symbol.type, t.Reference)
+    return isinstance(e, ast.Call) or (isinstance(e, ast.Index) and isinstance(e.base.type, t.Pointer))
+
+
+def finish(
+    b: Body,
+    prepared: Prepared,
+    target: PouSymbol,
+    args: list[ast.Argument],
+    own: ir.Expr | None,
+    virtual: bool,
+) -> None:
+    """Complete a call of a function or method: result space, arguments, outputs."""
+    values: list[ir.Expr] = [] if own is None else [own]
+    if own is not None and virtual and not isinstance(own, ir.Argument):
+        local = b.temp(ir.PTR)
+        prepared.before.append(ir.Store(ir.Place(local), own))
+        values = [ir.Load(ir.PTR, ir.Place(local))]
+    result = target.return_type
+    scalar = ir.VOID
+    if result is not None:
+        if by_address(result):
+            space = b.space(result.size, result.align)
+            prepared.result = ir.Place(space)
+            values.append(ir.Address(ir.PTR, prepared.result))
+        else:
+            scalar = require_scalar(result)
+    given = {id(a.parameter): a for a in args if a.parameter is not None}
+    for parameter in target.parameters:
+        values.append(_argument(b, prepared, parameter, given.get(id(parameter))))
+    prepared.call = _call(b, target, scalar, values, own is not None and virtual)
+
+
+def _call(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr], virtual: bool) -> ir.Expr:
+    external = external_name(target)
+    if external is not None:
+        declare_external(b, target, external)
+        return ir.Call(scalar, external, values)
+    if virtual:
+        return dispatch(b, target, scalar, values)
+    return ir.Call(scalar, b.program.function(target), values)
+
+
+def dispatch(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr]) -> ir.Expr:
+    """Call through the method table of the instance; a direct call when nothing overrides the method."""
+    only = b.program.only_implementation(target)
+    if only is not None:
+        return ir.Call(scalar, b.program.function(only), values)
+    name = target.name.upper()
+    b.program.dispatched.setdefault(name)
+    code = ir.Intrinsic(ir.PTR, "dispatch", [values[0], ir.Const(ir.I64, 0)])
+    b.program.pending_slots.append((code, name))
+    return ir.CallPointer(scalar, code, values)
+
+
+def external_name(pou: PouSymbol) -> str | None:
+    """C symbol of a FUNCTION with attribute tappet_external."""
+    return attribute_value(pou.pou.attributes, "tappet_external") if pou.pou is not None else None
+
+
+def declare_external(b: Body, pou: PouSymbol, name: str) -> None:
+    """Import a C function with the VAR_INPUTs of `pou` as parameters."""
+    if name in b.program.module.externals:
+        return
+    parameters = [scalar_of(p.type) or ir.PTR for p in pou.parameters]
+    result = require_scalar(pou.return_type) if pou.return_type is not None else ir.VOID
+    b.program.module.externals[name] = ir.External(name, parameters, result)
+
+
+# -- arguments --------------------------------------------------------------------------------------
+
+
+def _argument(b: Body, prepared: Prepared, parameter: VarSymbol, given: ast.Argument | None) -> ir.Expr:
+    value = given.value if given is not None else None
+    if parameter.section == "VAR_IN_OUT":
+        return NULL if value is None else in_out_address(b, prepared.before, parameter, value)
+    type_ = parameter.type
+    assert type_ is not None
+    if parameter.section == "VAR_OUTPUT":
+        place = ir.Place(b.local(f"{parameter.name}.out", type_))
+        if value is not None:
+            with b.block_of() as after:
+                assign.assign_from_place(b, value, place, type_)
+            prepared.after += after
+        return ir.Address(ir.PTR, place)
+    if value is None:
+        decl = parameter.decl
+        value = decl.init if decl is not None else None
+    if isinstance(type_, t.Reference):
+        return NULL if value is None else assign.reference_value(b, value)
+    if not by_address(type_):
+        if value is None:
+            return ir.Const(require_scalar(type_), default_number(type_))
+        return b.value_as(value, type_)
+    return _aggregate_argument(b, prepared, type_, value)
+
+
+def default_number(type_: t.Type) -> int:
+    """What a simple variable without initial value starts with."""
+    return type_.default if isinstance(type_, t.Enum) else 0
+
+
+def _aggregate_argument(b: Body, prepared: Prepared, type_: t.Type, value: ast.Expr | None) -> ir.Expr:
+    """An input of string or aggregate type: the variable itself where it fits, else a copy."""
+    if value is not None and value.type is not None and places.is_place(value):
+        fits = value.type == type_
+        if isinstance(type_, t.String) and isinstance(value.type, t.String):
+            fits = value.type.length == type_.length
+        if fits or isinstance(type_, t.FunctionBlock):
+            return places.address_of(b.place(value))
+    local = b.space(type_.size, type_.align)
+    with b.block_of() as before:
+        if value is None:
+            INITIALISERS[0](b, ir.Place(local), type_, None)
+        else:
+            assign.copy_value(b, ir.Place(local), type_, value)
+    prepared.before += before
+    return ir.Address(ir.PTR, ir.Place(local))
+
+
+def in_out_address(b: Body, before: list[ir.Stmt], parameter: VarSymbol, value: ast.Expr) -> ir.Expr:
+    """Address of the variable handed to a VAR_IN_OUT; a descriptor for ARRAY[*]."""
+    if not places.is_place(value):
+        # constants and computed strings for VAR_IN_OUT CONSTANT
+        type_ = parameter.type
+        assert type_ is not None
+        local = b.local(f"{parameter.name}.in", type_)
+        with b.block_of() as fill:
+            assign.copy_value(b, ir.Place(local), type_, value)
+        before += fill
+        return ir.Address(ir.PTR, ir.Place(local))
+    place = b.place(value)
+    b.program.expose(place, value.type)
+    b.touch(place)
+    address = places.address_of(place)
+    wanted = parameter.type
+    if isinstance(wanted, t.Array) and wanted.open_dims and isinstance(value.type, t.Array):
+        if value.type.open_dims:
+            return address
+        return _descriptor(b, before, address, value.type)
+    return address
+
+
+def _descriptor(b: Body, before: list[ir.Stmt], address: ir.Expr, type_: t.Array) -> ir.Expr:
+    local = b.space(8 + 16 * len(type_.bounds), 8)
+    before.append(ir.Store(ir.Place(local), address))
+    for number, (low, high) in enumerate(type_.bounds):
+        before.append(ir.Store(ir.Place(local, 8 + 16 * number), ir.Const(ir.I64, low)))
+        before.append(ir.Store(ir.Place(local, 16 + 16 * number), ir.Const(ir.I64, high)))
+    return ir.Address(ir.PTR, ir.Place(local))
+
+
+# -- instances --------------------------------------------------------------------------------------
+
+
+def _block_call(b: Body, e: ast.Call, target: PouSymbol) -> Prepared:
+    """`inst(in := a, q => x)`: inputs are stored in the instance, the body runs, outputs are read."""
+    before: list[ir.Stmt] = []
+    callee = e.callee
+    if isinstance(callee, ast.Deref) and isinstance(callee.base, ast.Super):
+        assert b.own_data is not None
+        return _instance_call(b, e, target, b.own_data, before)
+    place = places.freeze(b, b.place(callee), before)
+    return _instance_call(b, e, target, place, before)
+
+
+def _instance_call(
+    b: Body, e: ast.Call, target: PouSymbol, instance: ir.Place, before: list[ir.Stmt]
+) -> Prepared:
+    prepared = Prepared(before)
+    for arg in e.args:
+        parameter, value = arg.parameter, arg.value
+        if not isinstance(parameter, VarSymbol) or value is None:
+            continue
+        slot = places.at(instance, parameter.offset, _root(instance, parameter.offset))
+        if parameter.section == "VAR_OUTPUT" or arg.output:
+            with b.block_of() as after:
+                assert parameter.type is not None
+                assign.assign_from_place(b, value, slot, parameter.type, parameter.bit)
+            prepared.after += after
+        elif parameter.section == "VAR_IN_OUT":
+            address = in_out_address(b, before, parameter, value)
+            before.append(ir.Store(slot, address))
+        else:
+            with b.block_of() as store:
+                assign.store_member(b, slot, parameter, value)
+            before += store
+    own = [places.address_of(instance)] if target.kind == "FUNCTION_BLOCK" else []
+    prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
+    return prepared
+
+
+def _root(instance: ir.Place, offset: int) -> int | None:
+    """Members of the data of a program are variables of their own; parts of an instance belong to it."""
+    return offset if instance.root < 0 and not instance.subscripts and not instance.offset else None
+
+
+# -- properties -------------------------------------------------------------------------------------
+
+
+def _property_call(
+    b: Body, e: ast.Name | ast.Member, accessor: PouSymbol
+) -> tuple[Prepared, ir.Expr | None, bool]:
+    prepared = Prepared()
+    own: ir.Expr | None = None
+    virtual = False
+    if has_self(accessor):
+        own, virtual = _instance_of(b, e, accessor, prepared)
+    return prepared, own, virtual
+
+
+def read_property(b: Body, e: ast.Name | ast.Member, symbol: PropertySymbol) -> Prepared:
+    """Call of the getter."""
+    if symbol.getter is None:
+        raise b.error(f"property '{symbol.name}' has no Get", e)
+    prepared, own, virtual = _property_call(b, e, symbol.getter)
+    b.foreign_writes = True
+    finish(b, prepared, symbol.getter, [], own, virtual)
+    return prepared
+
+
+def write_property(b: Body, e: ast.Name | ast.Member, symbol: PropertySymbol, value: ast.Expr) -> None:
+    """Call of the setter with `value`."""
+    if symbol.setter is None:
+        raise b.error(f"property '{symbol.name}' has no Set", e)
+    prepared, own, virtual = _property_call(b, e, symbol.setter)
+    b.foreign_writes = True
+    argument = ast.Argument(name=None, value=value, span=value.span)
+    if symbol.setter.parameters:
+        argument.parameter = symbol.setter.parameters[0]
+    finish(b, prepared, symbol.setter, [argument], own, virtual)
+    b.out.extend(prepared.statements())
+
+
+def _named_value(b: Body, e: ast.Name) -> ir.Expr:
+    if isinstance(e.symbol, PropertySymbol):
+        return as_value(b, read_property(b, e, e.symbol))
+    return variable_value(b, e)
+
+
+def _member_value(b: Body, e: ast.Member) -> ir.Expr:
+    if isinstance(e.symbol, PropertySymbol) and e.bit is None:
+        return as_value(b, read_property(b, e, e.symbol))
+    return member_value(b, e)
+
+
+def _named_place(b: Body, e: ast.Name) -> ir.Place:
+    if isinstance(e.symbol, PropertySymbol):
+        return as_place(b, read_property(b, e, e.symbol))
+    return places.place_of_name(b, e)
+
+
+def _member_place(b: Body, e: ast.Member) -> ir.Place:
+    if isinstance(e.symbol, PropertySymbol):
+        return as_place(b, read_property(b, e, e.symbol))
+    return places.place_of_member(b, e)
+
+
+VALUES.update({ast.Call: call_value, ast.Name: _named_value, ast.Member: _member_value})
+TARGETS[PropertySymbol] = write_property
+PLACES.update({ast.Call: call_place, ast.Name: _named_place, ast.Member: _member_place})

@@ -1,0 +1,498 @@
+"""Initial values: constant bytes for the memory image, and what has to run because it is no constant.
+
+`Template` holds both for one type or data object. Constants go into the bytes at build time; variables,
+function calls, addresses and FB_Init become dynamic steps, in order of declaration (LDEC-40..LDEC-47).
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+
+from tappet.core import assign, calls, ir, places
+from tappet.core.body import INITIALISERS, Body
+from tappet.core.program import Program
+from tappet.core.scalars import scalar_of
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
+
+VFTABLE = "__VFTABLE"
+_UNROLL = 4
+"""Arrays of more elements are initialised by a loop."""
+
+
+@dataclass(slots=True)
+class Step:
+    """One dynamic initialisation at `offset`."""
+
+    offset: int
+    type: t.Type
+    value: ast.Expr | None = None
+    """Assigned when not None; else the step constructs an FB instance."""
+    reference: bool = False
+    """Bind the address of `value` instead of copying it."""
+    args: list[ast.Argument] = field(default_factory=list)
+    """Arguments of FB_Init."""
+    count: int = 1
+    stride: int = 0
+    """Repeated for `count` elements of an array."""
+    inner: list[Step] = field(default_factory=list)
+    """Steps of each element, with offsets inside it."""
+
+
+@dataclass(slots=True)
+class Template:
+    """Initial state of an object."""
+
+    data: bytearray
+    steps: list[Step] = field(default_factory=list)
+
+
+class Initialiser:
+    """Builds templates; caches those of types."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.types: dict[int, Template] = {}
+
+    def of_type(self, type_: t.Type) -> Template:
+        """Template of a type without an initialiser of its own."""
+        found = self.types.get(id(type_))
+        if found is None:
+            found = Template(bytearray(type_.size))
+            if isinstance(type_, t.Struct | t.FunctionBlock):
+                self.types[id(type_)] = found
+                self._members(found, type_)
+            elif isinstance(type_, t.Array):
+                self._elements(found, 0, type_, None, [])
+            elif isinstance(type_, t.Enum) and type_.default:
+                found.data[:] = type_.default.to_bytes(type_.size, "little", signed=type_.default < 0)
+        return found
+
+    def _members(self, template: Template, type_: t.Struct | t.FunctionBlock) -> None:
+        if isinstance(type_, t.FunctionBlock) and not type_.program:
+            number = self.program.instantiate(type_)
+            table = type_.members.get(VFTABLE)
+            if table is not None:
+                struct.pack_into("<I", template.data, table.offset, number)
+        union = isinstance(type_, t.Struct) and type_.union
+        for key, member in type_.members.items():
+            if key == VFTABLE or member.section == "VAR_IN_OUT":
+                continue
+            decl = member.decl
+            if union and (decl is None or decl.init is None):
+                continue
+            self.variable(template, member.offset, member.type, decl, member.bit)
+
+    def variable(
+        self,
+        template: Template,
+        offset: int,
+        type_: t.Type,
+        decl: ast.VarDecl | None,
+        bit: int | None = None,
+    ) -> None:
+        """Add a declared variable at `offset`."""
+        init = decl.init if decl is not None else None
+        args = _init_arguments(decl)
+        if bit is not None:
+            if init is not None and init.constant:
+                template.data[offset] |= 1 << bit
+            return
+        if decl is not None and decl.initial_ref and init is not None:
+            if not (init.is_constant and not places.is_place(init)):
+                template.steps.append(Step(offset, type_, init, reference=True))
+            return
+        self.fill(template, offset, type_, init, args)
+
+    def fill(
+        self,
+        template: Template,
+        offset: int,
+        type_: t.Type,
+        init: ast.Expr | None,
+        args: list[ast.Argument] | None = None,
+    ) -> None:
+        """Add a value of `type_` at `offset`."""
+        if isinstance(type_, t.FunctionBlock):
+            self._instance(template, offset, type_, init, args or [])
+        elif isinstance(type_, t.Array) and (init is None or isinstance(init, ast.ArrayInit)):
+            self._elements(template, offset, type_, init, args or [])
+        elif isinstance(type_, t.Struct) and (init is None or isinstance(init, ast.StructInit)):
+            self._copy_in(template, offset, self.of_type(type_))
+            if isinstance(init, ast.StructInit):
+                self._fields(template, offset, init)
+        elif init is None:
+            if isinstance(type_, t.Enum) and type_.default:
+                self._copy_in(template, offset, self.of_type(type_))
+        else:
+            data = constant_bytes(type_, init)
+            if data is None:
+                template.steps.append(Step(offset, type_, init))
+            else:
+                template.data[offset : offset + len(data)] = data
+
+    def _copy_in(self, template: Template, offset: int, part: Template) -> None:
+        template.data[offset : offset + len(part.data)] = part.data
+        template.steps += [_moved(step, offset) for step in part.steps]
+
+    def _fields(self, template: Template, offset: int, init: ast.StructInit) -> None:
+        for item in init.fields:
+            member = item.parameter
+            if not isinstance(member, VarSymbol) or item.value is None or member.type is None:
+                continue
+            if member.bit is not None:
+                mask = 1 << member.bit
+                old = template.data[offset + member.offset]
+                template.data[offset + member.offset] = old | mask if item.value.constant else old & ~mask
+                continue
+            self.fill(template, offset + member.offset, member.type, item.value)
+
+    def _instance(
+        self,
+        template: Template,
+        offset: int,
+        type_: t.FunctionBlock,
+        init: ast.Expr | None,
+        args: list[ast.Argument],
+    ) -> None:
+        own = self.of_type(type_)
+        template.data[offset : offset + len(own.data)] = own.data
+        if self.constructed(type_):
+            template.steps.append(Step(offset, type_, args=args))
+            if isinstance(init, ast.StructInit):
+                # after FB_Init again (LDEC-46)
+                template.steps += self._field_steps(offset, init)
+        if isinstance(init, ast.StructInit):
+            self._fields(template, offset, init)
+        elif init is not None:
+            template.steps.append(Step(offset, type_, init))
+
+    def _field_steps(self, offset: int, init: ast.StructInit) -> list[Step]:
+        steps = []
+        for item in init.fields:
+            member = item.parameter
+            if isinstance(member, VarSymbol) and item.value is not None and member.type is not None:
+                steps.append(Step(offset + member.offset, member.type, item.value))
+        return steps
+
+    def _elements(
+        self,
+        template: Template,
+        offset: int,
+        type_: t.Array,
+        init: ast.ArrayInit | None,
+        args: list[ast.Argument],
+    ) -> None:
+        if init is not None:
+            _ArrayFiller(self, template, type_, offset).run(init)
+            return
+        element, count = type_.element, type_.count
+        part = Template(bytearray(element.size))
+        self.fill(part, 0, element, None, args)
+        if any(part.data):
+            template.data[offset : offset + type_.size] = bytes(part.data) * count
+        if part.steps:
+            template.steps.append(Step(offset, element, count=count, stride=element.size, inner=part.steps))
+
+    def constructed(self, type_: t.FunctionBlock) -> bool:
+        """Whether instances need code at start: dynamic initial values or FB_Init."""
+        return bool(self.of_type(type_).steps) or bool(init_methods(type_))
+
+
+class _ArrayFiller:
+    """Writes an array initialiser in storage order; nested arrays may be flat (LTYP-91)."""
+
+    def __init__(self, initialiser: Initialiser, template: Template, type_: t.Array, offset: int) -> None:
+        self.initialiser = initialiser
+        self.template = template
+        self.type = type_
+        self.offset = offset
+        self.next = 0
+
+    def run(self, init: ast.ArrayInit) -> None:
+        for element in init.elements:
+            self._put(element)
+        while self.next < self.type.count:
+            self._one(None)
+
+    def _put(self, element: ast.Expr) -> None:
+        if isinstance(element, ast.Repeat):
+            count = element.count.constant
+            assert isinstance(count, int)
+            for _ in range(min(count, self.type.count)):
+                for value in element.values or [None]:  # type: ignore[list-item]
+                    if value is None:
+                        self._one(None)
+                    else:
+                        self._put(value)
+        elif isinstance(element, ast.ArrayInit) and not isinstance(self.type.element, t.Array):
+            for inner in element.elements:
+                self._put(inner)
+        else:
+            self._one(element)
+
+    def _one(self, value: ast.Expr | None) -> None:
+        if self.next >= self.type.count:
+            return
+        element = self.type.element
+        self.initialiser.fill(self.template, self.offset + self.next * element.size, element, value)
+        self.next += 1
+
+
+def _moved(step: Step, offset: int) -> Step:
+    return Step(
+        step.offset + offset,
+        step.type,
+        step.value,
+        step.reference,
+        step.args,
+        step.count,
+        step.stride,
+        step.inner,
+    )
+
+
+def _init_arguments(decl: ast.VarDecl | None) -> list[ast.Argument]:
+    ref = decl.type_ref if decl is not None else None
+    while isinstance(ref, ast.ArrayType):
+        ref = ref.element
+    return ref.args or [] if isinstance(ref, ast.NamedType) else []
+
+
+def init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
+    """User-written FB_Init methods, base first (LDEC-107)."""
+    return life_cycle_methods(type_, "FB_INIT")
+
+
+def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
+    """FB_Init, FB_Exit or FB_Reinit of a type and its bases, base first."""
+    found: list[PouSymbol] = []
+    walk = type_.pou.symbol if type_.pou is not None else None
+    while isinstance(walk, PouSymbol):
+        method = walk.methods.get(name)
+        if method is not None:
+            found.insert(0, method)
+        walk = walk.base
+    return found
+
+
+# -- constants --------------------------------------------------------------------------------------
+
+
+def constant_bytes(type_: t.Type, init: ast.Expr) -> bytes | None:
+    """Bytes of a constant initialiser of a simple type or string, None when it is no constant."""
+    if not init.is_constant or init.constant is None:
+        return None
+    value = init.constant
+    if isinstance(type_, t.String):
+        return _string_bytes(type_, value)
+    scalar = scalar_of(type_)
+    if scalar is None or isinstance(value, str | bytes):
+        return None
+    return scalar_bytes(scalar, value)
+
+
+def _string_bytes(type_: t.String, value: ast.Constant) -> bytes | None:
+    if isinstance(value, str):
+        raw = value.encode("utf-16-le", "surrogatepass") if type_.wide else value.encode("latin-1", "replace")
+    elif isinstance(value, bytes):
+        raw = value
+    else:
+        return None
+    raw = raw[: type_.length * (2 if type_.wide else 1)]
+    return raw + bytes(type_.size - len(raw))
+
+
+def scalar_bytes(scalar: ir.Scalar, value: int | float) -> bytes:
+    """A number in memory."""
+    if scalar.floating:
+        try:
+            return struct.pack("<f" if scalar.bits == 32 else "<d", value)
+        except OverflowError:
+            return struct.pack("<f", float("inf") if value > 0 else float("-inf"))
+    bits = scalar.size * 8
+    return (int(value) & ((1 << bits) - 1)).to_bytes(scalar.size, "little")
+
+
+# -- code -------------------------------------------------------------------------------------------
+
+
+def initialise_place(b: Body, place: ir.Place, type_: t.Type, init: ast.Expr | None) -> None:
+    """Code that gives memory on the stack its initial value."""
+    template = Template(bytearray(type_.size))
+    initialiser_of(b.program).fill(template, 0, type_, init)
+    write_template(b, place, template, type_.align)
+
+
+def write_template(b: Body, place: ir.Place, template: Template, align: int) -> None:
+    """Store the bytes of a template, then run its steps."""
+    place = places.freeze(b, place, b.out)
+    size = len(template.data)
+    if not any(template.data):
+        b.emit(ir.Fill(place, size, 0, align))
+    else:
+        const = b.program.string_constant(bytes(template.data), max(align, 1))
+        b.emit(ir.Copy(place, ir.Place(ir.Data(const.symbol)), size, align))
+    run_steps(b, place, template.steps)
+
+
+def run_steps(b: Body, base: ir.Place, steps: list[Step]) -> None:
+    """Code of dynamic steps on the object at `base`."""
+    for step in steps:
+        if step.inner:
+            _run_elements(b, base, step)
+            continue
+        place = _step_place(base, step.offset)
+        if step.value is None:
+            assert isinstance(step.type, t.FunctionBlock)
+            construct(b, place, step.type, step.args)
+        elif step.reference or isinstance(step.type, t.Reference):
+            b.emit(ir.Store(place, assign.reference_value(b, step.value)))
+        else:
+            assign.copy_value(b, place, step.type, step.value)
+
+
+def _step_place(base: ir.Place, offset: int) -> ir.Place:
+    whole = base.root < 0 and not base.subscripts and not base.offset and not isinstance(base.base, ir.Local)
+    return places.at(base, offset, offset if whole else None)
+
+
+def _run_elements(b: Body, base: ir.Place, step: Step) -> None:
+    if step.count <= _UNROLL:
+        for number in range(step.count):
+            run_steps(b, _step_place(base, step.offset + number * step.stride), step.inner)
+        return
+    counter = b.temp(ir.I64)
+    index = ir.Load(ir.I64, ir.Place(counter))
+    sub = ir.Subscript(index, 0, step.count - 1, step.stride, checked=False)
+    start = _step_place(base, step.offset)
+    element = ir.Place(start.base, start.offset, (*start.subscripts, sub), start.root)
+    with b.block_of() as body:
+        run_steps(b, b.subscripted(element), step.inner)
+    last = ir.Const(ir.I64, step.count - 1)
+    b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
+
+
+def construct(b: Body, place: ir.Place, type_: t.FunctionBlock, args: list[ast.Argument]) -> None:
+    """Run the initialisers of an instance whose constant part is in place, then its FB_Init methods."""
+    frozen = places.freeze(b, place, b.out)
+    address = places.address_of(frozen)
+    if initialiser_of(b.program).of_type(type_).steps:
+        b.emit(ir.Evaluate(ir.Call(ir.VOID, initial_function(b.program, type_), [address])))
+    b.foreign_writes = True
+    for method in init_methods(type_):
+        prepared = calls.Prepared()
+        calls.finish(b, prepared, method, _init_call_arguments(method, args), address, False)
+        b.out.extend(prepared.statements())
+
+
+def _init_call_arguments(method: PouSymbol, args: list[ast.Argument]) -> list[ast.Argument]:
+    """bInitRetains := TRUE, bInCopyCode := FALSE, and the user's arguments by name (LDEC-110)."""
+    by_name = {}
+    for arg in args:
+        name = getattr(arg.parameter, "name", None) or arg.name
+        if name:
+            by_name[name.upper()] = arg
+    result = []
+    for parameter in method.parameters:
+        name = parameter.name.upper()
+        if name == "BINITRETAINS" or name == "BINCOPYCODE":
+            constant = ast.Literal(text="", kind="bool", type=t.BOOL, is_constant=True)
+            constant.constant = name == "BINITRETAINS"
+            result.append(ast.Argument(name=parameter.name, value=constant, parameter=parameter))
+        elif name in by_name:
+            given = by_name[name]
+            result.append(ast.Argument(name=parameter.name, value=given.value, parameter=parameter))
+    return result
+
+
+def destruct(b: Body, place: ir.Place, type_: t.FunctionBlock) -> None:
+    """Call FB_Exit of an instance, most derived first (LDEC-107)."""
+    frozen = places.freeze(b, place, b.out)
+    for method in reversed(life_cycle_methods(type_, "FB_EXIT")):
+        prepared = calls.Prepared()
+        calls.finish(b, prepared, method, [], places.address_of(frozen), False)
+        b.out.extend(prepared.statements())
+
+
+def destruct_all(b: Body, place: ir.Place, type_: t.Type) -> None:
+    """Call FB_Exit of all instances inside an object of any type."""
+    if not has_exit(type_, set()):
+        return
+    if isinstance(type_, t.FunctionBlock):
+        destruct(b, place, type_)
+    if isinstance(type_, t.FunctionBlock | t.Struct):
+        for member in type_.members.values():
+            if member.section != "VAR_IN_OUT":
+                destruct_all(b, places.at(place, member.offset), member.type)
+    elif isinstance(type_, t.Array):
+        counter = b.temp(ir.I64)
+        sub = ir.Subscript(
+            ir.Load(ir.I64, ir.Place(counter)), 0, type_.count - 1, type_.element.size, checked=False
+        )
+        element = ir.Place(place.base, place.offset, (*place.subscripts, sub), place.root)
+        with b.block_of() as body:
+            destruct_all(b, element, type_.element)
+        last = ir.Const(ir.I64, type_.count - 1)
+        b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
+
+
+def has_exit(type_: t.Type, seen: set[int]) -> bool:
+    """Whether an object of a type contains an instance with FB_Exit."""
+    if isinstance(type_, t.Array):
+        return has_exit(type_.element, seen)
+    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
+        return False
+    seen.add(id(type_))
+    if isinstance(type_, t.FunctionBlock) and life_cycle_methods(type_, "FB_EXIT"):
+        return True
+    return any(has_exit(m.type, seen) for m in type_.members.values() if m.section != "VAR_IN_OUT")
+
+
+def initialiser_of(program: Program) -> Initialiser:
+    """The initialiser of an application."""
+    if program.initialiser is None:
+        program.initialiser = Initialiser(program)
+    assert isinstance(program.initialiser, Initialiser)
+    return program.initialiser
+
+
+def initial_function(program: Program, type_: t.FunctionBlock) -> str:
+    """Name of the function that runs the dynamic steps of a block's members."""
+    name = program.initial_functions.get(id(type_))
+    if name is None:
+        pou = type_.pou.symbol if type_.pou is not None else None
+        name = program.unique(f"{program.block_name(type_)}.__INIT")
+        program.initial_functions[id(type_)] = name
+
+        def lower() -> None:
+            assert name is not None
+            source = pou.source if isinstance(pou, PouSymbol) else None
+            function = ir.Function(
+                name,
+                [ir.Parameter("self", ir.PTR, readable=type_.size)],
+                uri=source.uri if source else "",
+                self_type=program.block_name(type_),
+                cold=True,
+            )
+            b = Body(program, function, source)
+            b.block = type_
+            b.own_data = ir.Place(ir.Self(function.self_type))
+            b.pou = pou if isinstance(pou, PouSymbol) else None
+            run_steps(b, b.own_data, initialiser_of(program).of_type(type_).steps)
+            function.body = [*b.entry, *b.out]
+            program.module.functions[name] = function
+
+        program.queue.append(lower)
+    return name
+
+
+def stored(variable: VarSymbol) -> bool:
+    """Whether a variable has a place of its own in its data object."""
+    storage = variable.home if variable.storage is Storage.CONSTANT else variable.storage
+    return storage in (Storage.GLOBAL, Storage.PROGRAM)
+
+
+INITIALISERS.append(initialise_place)

@@ -1,0 +1,421 @@
+"""A checked program to a core module: bodies reached from the tasks, initialisers, task entries.
+
+Only what the tasks reach is lowered; libraries may be large. Tasks put programs on the work list, bodies put
+what they call there, and virtual calls add the methods of every block that has instances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from tappet.core import assign, builtins, calls, conversions, initial, ir, places
+from tappet.core.body import Body
+from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, data_symbol, export_name
+from tappet.core.scalars import scalar_of
+from tappet.core.statements import lower_statements
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis.conversion import implements
+from tappet.lang.analysis.result import Analysis, ConfiguredAddress
+from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
+
+INIT = "tappet.init"
+EXIT = "tappet.exit"
+TASK_PREFIX = "tappet.task."
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A task as lowering needs it."""
+
+    name: str
+    programs: tuple[str, ...]
+
+    @property
+    def symbol(self) -> str:
+        """Exported function that runs one cycle."""
+        return TASK_PREFIX + self.name
+
+
+@dataclass(slots=True)
+class DataObject:
+    """A program or list with its initial bytes."""
+
+    symbol: str
+    size: int
+    template: initial.Template
+    owner: GvlSymbol | PouSymbol
+
+
+@dataclass(slots=True)
+class Lowered:
+    """Result: code, data objects in order of initialisation, numbers of block types."""
+
+    module: ir.Module
+    data: list[DataObject] = field(default_factory=list)
+    type_ids: dict[str, int] = field(default_factory=dict)
+    program: Program | None = None
+
+
+def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, int] | None = None) -> Lowered:
+    """Lower an application; raises LoweringError for what has no code."""
+    program = Program(analysis, type_ids=dict(type_ids or {}))
+    program.lower_pou = lambda pou: lower_pou(program, pou)
+    data = data_objects(program)
+    for task in tasks:
+        _task_function(program, task, tasks)
+    _export_functions(program)
+    if tasks:
+        _init_function(program, data)
+        _exit_function(program, data)
+    work_off(program)
+    _dispatch_tables(program)
+    return Lowered(program.module, data, program.type_ids, program)
+
+
+def work_off(program: Program) -> None:
+    """Lower everything on the work list, and methods that virtual calls of instantiated blocks can reach."""
+    seen: set[tuple[str, str]] = set()
+    while True:
+        while program.queue:
+            program.queue.pop()()
+        for name in list(program.dispatched):
+            for block_name, block in list(program.blocks.items()):
+                if (block_name, name) in seen:
+                    continue
+                seen.add((block_name, name))
+                symbol = block.pou.symbol if block.pou is not None else None
+                method = symbol.vtable.get(name) if isinstance(symbol, PouSymbol) else None
+                if method is not None:
+                    program.function(method)
+        if not program.queue:
+            return
+
+
+# -- data -------------------------------------------------------------------------------------------
+
+
+def data_objects(program: Program) -> list[DataObject]:
+    """All lists and programs: lists first (LDEC-43)."""
+    found: list[DataObject] = []
+    initialiser = initial.initialiser_of(program)
+    for gvl in program.analysis.gvls:
+        template = initial.Template(bytearray(gvl.size))
+        for member in gvl.members.values():
+            _variable(initialiser, template, member)
+        found.append(DataObject(data_symbol(gvl), gvl.size, template, gvl))
+    for pou in program.analysis.pous:
+        if pou.kind == "PROGRAM" and pou.instance is not None:
+            template = initialiser.of_type(pou.instance)
+            found.append(DataObject(data_symbol(pou), pou.instance.size, template, pou))
+    for item in found:
+        program.module.data[item.symbol] = (max(item.size, 1), OBJECT_ALIGN)
+    for area, size in program.analysis.options.area_limits.items():
+        program.module.data[AREA_PREFIX + area] = (size, OBJECT_ALIGN)
+    return found
+
+
+def _variable(initialiser: initial.Initialiser, template: initial.Template, member: VarSymbol) -> None:
+    storage = member.home if member.storage is Storage.CONSTANT else member.storage
+    if storage is Storage.GLOBAL and member.type is not None:
+        initialiser.variable(template, member.offset, member.type, member.decl, member.bit)
+
+
+def _init_function(program: Program, data: list[DataObject]) -> None:
+    """`tappet.init`: dynamic initial values of every data object, then methods marked call_after_init."""
+    entry = ir.Function(INIT, exported=True, uri="", cold=True)
+    program.taken.add(INIT)
+    program.module.functions[INIT] = entry
+    for item in data:
+        if not item.template.steps:
+            continue
+        name = program.unique(f"{item.owner.name}.__INIT")
+        source = item.owner.source
+        function = ir.Function(name, uri=source.uri if source else "", cold=True)
+        b = Body(program, function, source)
+        base = ir.Place(ir.Data(item.symbol))
+        if isinstance(item.owner, PouSymbol):
+            b.pou, b.own_data = item.owner, base
+        initial.run_steps(b, base, item.template.steps)
+        function.body = [*b.entry, *b.out]
+        program.module.functions[name] = function
+        entry.body.append(ir.Evaluate(ir.Call(ir.VOID, name, [])))
+
+
+def _exit_function(program: Program, data: list[DataObject]) -> None:
+    """`tappet.exit`: FB_Exit of every instance; only there when some block has one."""
+    function = ir.Function(EXIT, exported=True, uri="", cold=True)
+    b = Body(program, function, None)
+    for item in data:
+        base = ir.Place(ir.Data(item.symbol))
+        for member in _instances(item.owner):
+            initial.destruct_all(b, places.at(base, member[0]), member[1])
+    if b.out:
+        function.body = [*b.entry, *b.out]
+        program.module.functions[EXIT] = function
+
+
+def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
+    if isinstance(owner, GvlSymbol):
+        return [(m.offset, m.type) for m in owner.members.values() if m.type and m.storage is Storage.GLOBAL]
+    if owner.instance is None:
+        return []
+    return [(m.offset, m.type) for m in owner.instance.members.values() if m.section != "VAR_IN_OUT"]
+
+
+# -- tasks ------------------------------------------------------------------------------------------
+
+
+def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
+    function = ir.Function(task.symbol, exported=True, uri="", inline="never")
+    program.taken.add(task.symbol)
+    configured = [c for c in program.analysis.configured if _task_of(c, tasks) is task]
+    for item in configured:
+        if item.area == "I":
+            function.body.append(_transfer(item, to_area=False))
+    for name in task.programs:
+        pou = program.analysis.programs.get(name.upper())
+        if pou is not None:
+            function.body.append(ir.Evaluate(ir.Call(ir.VOID, program.function(pou), [])))
+    for item in configured:
+        if item.area != "I":
+            function.body.append(_transfer(item, to_area=True))
+    program.module.functions[task.symbol] = function
+
+
+def _task_of(item: ConfiguredAddress, tasks: Sequence[Task]) -> Task:
+    """The task that runs the program a configured variable is in; the first one for lists."""
+    for task in tasks:
+        if item.owner.upper() in (p.upper() for p in task.programs):
+            return task
+    return tasks[0]
+
+
+def _transfer(item: ConfiguredAddress, to_area: bool) -> ir.Stmt:
+    """Copy a VAR_CONFIG variable from or to its address (LDEC-93)."""
+    variable = ir.Place(ir.Data("tappet.data." + item.owner.upper()), item.offset)
+    area = ir.Place(ir.Data(AREA_PREFIX + item.area), item.address)
+    if item.bit is None:
+        return ir.Copy(area, variable, item.type.size) if to_area else ir.Copy(variable, area, item.type.size)
+    shift = ir.Const(ir.U32, item.bit)
+    byte = ir.Load(ir.U8, area)
+    if not to_area:
+        return ir.Store(variable, ir.Convert(ir.BOOL, ir.Binary(ir.U8, "shr", byte, shift)))
+    cleared = ir.Binary(ir.U8, "and", byte, ir.Const(ir.U8, ~(1 << item.bit)))
+    value = ir.Binary(ir.U8, "shl", ir.Convert(ir.U8, ir.Load(ir.BOOL, variable)), shift)
+    return ir.Store(area, ir.Binary(ir.U8, "or", cleared, value))
+
+
+def _export_functions(program: Program) -> None:
+    """Functions with attribute tappet_export are roots too."""
+    for pou in program.analysis.pous:
+        if pou.kind == "FUNCTION" and export_name(pou) is not None:
+            program.function(pou)
+
+
+# -- bodies -----------------------------------------------------------------------------------------
+
+
+def lower_pou(program: Program, pou: PouSymbol) -> None:
+    """Lower the body of a POU, method, action or accessor."""
+    name = program.functions[id(pou)]
+    source = pou.source
+    exported = pou.kind == "FUNCTION" and export_name(pou) is not None
+    function = ir.Function(
+        name,
+        uri=source.uri if source else "",
+        line=(pou.span[0] if pou.span else 0) + 1,
+        exported=exported,
+    )
+    b = Body(program, function, source)
+    b.pou = pou
+    _own_instance(b, pou)
+    _result(b, pou)
+    _parameters(b, pou)
+    _locals(b, pou)
+    assert pou.pou is not None
+    lower_statements(b, pou.pou.body)
+    copies = _input_copies(b)
+    function.body = [*copies, *b.entry, *b.out]
+    program.module.functions[function.name] = function
+
+
+def _own_instance(b: Body, pou: PouSymbol) -> None:
+    if calls.has_self(pou):
+        block = pou.instance
+        if block is None and pou.owner is not None:
+            block = pou.owner.instance
+        assert block is not None
+        b.block = block
+        b.function.self_type = b.program.block_name(block)
+        b.function.parameters.append(ir.Parameter("self", ir.PTR, readable=block.size))
+        b.own_data = ir.Place(ir.Self(b.function.self_type))
+    elif pou.kind == "PROGRAM":
+        b.own_data = ir.Place(ir.Data(data_symbol(pou)))
+    elif pou.owner is not None and pou.owner.kind == "PROGRAM":
+        b.own_data = ir.Place(ir.Data(data_symbol(pou.owner)))
+
+
+def _result(b: Body, pou: PouSymbol) -> None:
+    type_ = pou.return_type
+    if type_ is None:
+        return
+    scalar = scalar_of(type_)
+    if scalar is None:
+        number = len(b.function.parameters)
+        b.function.parameters.append(ir.Parameter("result", ir.PTR, readable=type_.size, alone=True))
+        place = ir.Place(ir.Indirect(ir.Argument(ir.PTR, number), own=True))
+        if pou.result is not None:
+            b.places[id(pou.result)] = place
+        if isinstance(type_, t.String):
+            b.emit(ir.Store(place, ir.Const(ir.U16 if type_.wide else ir.U8, 0)))
+        else:
+            initial.initialise_place(b, place, type_, None)
+        return
+    b.function.result = scalar
+    local = b.function.result_local = b.local(pou.name, type_)
+    if pou.result is not None:
+        b.places[id(pou.result)] = ir.Place(local)
+    start = calls.default_number(type_)
+    if pou.result is not None and pou.result.decl is not None and pou.result.decl.init is not None:
+        b.emit(ir.Store(ir.Place(local), b.value_as(pou.result.decl.init, type_)))
+    else:
+        b.emit(ir.Store(ir.Place(local), ir.Const(scalar, start)))
+
+
+def _parameters(b: Body, pou: PouSymbol) -> None:
+    if pou.kind in ("PROGRAM", "FUNCTION_BLOCK", "ACTION"):
+        return
+    for parameter in pou.parameters:
+        type_ = parameter.type
+        assert type_ is not None
+        number = len(b.function.parameters)
+        scalar = scalar_of(type_)
+        if parameter.section in ("VAR_IN_OUT", "VAR_OUTPUT"):
+            b.function.parameters.append(ir.Parameter(parameter.name, ir.PTR, readable=type_.size))
+            place = ir.Place(ir.Indirect(ir.Argument(ir.PTR, number)))
+            b.places[id(parameter)] = place
+            if parameter.section == "VAR_OUTPUT":
+                init = parameter.decl.init if parameter.decl is not None else None
+                _initialise(b, place, type_, init)
+        elif scalar is not None:
+            b.function.parameters.append(ir.Parameter(parameter.name, scalar))
+            local = b.local(parameter.name, type_)
+            b.places[id(parameter)] = ir.Place(local)
+            b.emit(ir.Store(ir.Place(local), ir.Argument(scalar, number)))
+        else:
+            b.function.parameters.append(
+                ir.Parameter(parameter.name, ir.PTR, readable=type_.size, writable=False)
+            )
+            local = b.local(parameter.name, type_)
+            b.places[id(parameter)] = ir.Place(local)
+            b.aggregate_inputs.append((local, number, type_.size))
+
+
+def _input_copies(b: Body) -> list[ir.Stmt]:
+    """Aggregates passed by address are copied, unless nothing can change them while the body runs."""
+    copies: list[ir.Stmt] = []
+    for local, number, size in b.aggregate_inputs:
+        source = ir.Argument(ir.PTR, number)
+        if local in b.changed or b.foreign_writes:
+            copies.append(ir.Copy(ir.Place(local), ir.Place(ir.Indirect(source)), size, local.align))
+        else:
+            b.function.aliases[local] = number
+    return copies
+
+
+def _locals(b: Body, pou: PouSymbol) -> None:
+    """Variables on the stack: all of functions and methods, VAR_TEMP of the others."""
+    assert pou.pou is not None
+    for block in pou.pou.blocks:
+        for decl in block.variables:
+            variable = decl.symbol
+            if not isinstance(variable, VarSymbol) or id(variable) in b.places:
+                continue
+            storage = variable.home if variable.storage is Storage.CONSTANT else variable.storage
+            if storage is not Storage.LOCAL or variable.type is None:
+                continue
+            local = b.local(variable.name, variable.type)
+            b.places[id(variable)] = ir.Place(local)
+            b.line(decl)
+            if decl.initial_ref and decl.init is not None:
+                b.emit(ir.Store(ir.Place(local), assign.reference_value(b, decl.init)))
+            else:
+                _initialise(b, ir.Place(local), variable.type, decl.init, decl)
+
+
+def _initialise(
+    b: Body, place: ir.Place, type_: t.Type, init: ast.Expr | None, decl: ast.VarDecl | None = None
+) -> None:
+    scalar = scalar_of(type_)
+    if scalar is not None:
+        if init is not None:
+            b.emit(ir.Store(place, b.value_as(init, type_)))
+        else:
+            b.emit(ir.Store(place, ir.Const(scalar, calls.default_number(type_))))
+        return
+    if isinstance(type_, t.String) and (init is None or init.is_constant):
+        text = init.constant if init is not None else b""
+        if not text:
+            b.emit(ir.Store(place, ir.Const(ir.U16 if type_.wide else ir.U8, 0)))
+            return
+    template = initial.Template(bytearray(type_.size))
+    initialiser = initial.initialiser_of(b.program)
+    if decl is not None:
+        initialiser.variable(template, 0, type_, decl)
+    else:
+        initialiser.fill(template, 0, type_, init)
+    initial.write_template(b, place, template, type_.align)
+
+
+# -- virtual calls ----------------------------------------------------------------------------------
+
+
+def _dispatch_tables(program: Program) -> None:
+    """Slots for the names that are called virtually, and a table per block type with instances.
+
+    Two names share a slot when no block type has both.
+    """
+    slots: dict[str, int] = {}
+    taken: dict[str, set[int]] = {name: set() for name in program.blocks}
+    users: dict[str, list[str]] = {}
+    for block_name, block in program.blocks.items():
+        symbol = block.pou.symbol if block.pou is not None else None
+        if isinstance(symbol, PouSymbol):
+            for name in symbol.vtable:
+                if name in program.dispatched:
+                    users.setdefault(name, []).append(block_name)
+    for name in program.dispatched:
+        having = users.get(name, [])
+        slot = 0
+        while any(slot in taken[owner] for owner in having):
+            slot += 1
+        slots[name] = slot
+        for owner in having:
+            taken[owner].add(slot)
+    for code, name in program.pending_slots:
+        code.args[1] = ir.Const(ir.I64, slots.get(name, 0))
+    for block_name, block in program.blocks.items():
+        symbol = block.pou.symbol if block.pou is not None else None
+        methods = {}
+        if isinstance(symbol, PouSymbol):
+            for name, method in symbol.vtable.items():
+                if name in slots:
+                    methods[slots[name]] = program.functions[id(method)]
+        program.module.dispatch.append(ir.DispatchTable(program.type_ids[block_name], methods))
+    _fill_queries(program)
+
+
+def _fill_queries(program: Program) -> None:
+    highest = max(program.type_ids.values(), default=0)
+    for symbol, interface in program.queried.items():
+        table = bytearray(highest + 1)
+        for name, block in program.blocks.items():
+            if implements(block, interface):
+                table[program.type_ids[name]] = 1
+        program.module.constants[symbol].data = bytes(table)
+
+
+OPERATORS = (builtins, conversions)
+"""Modules that register the lowering of operators when they are imported."""

@@ -1,0 +1,227 @@
+"""State of lowering a whole application: names, work list, data objects, constants, block types."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from tappet.core import ir
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis.result import Analysis
+from tappet.lang.source import Scope
+from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
+
+DATA_PREFIX = "tappet.data."
+AREA_PREFIX = "tappet.area."
+CONVERSION_LIBRARY = "Conversion"
+"""Library in ST that turns values into text and back; part of every build."""
+OBJECT_ALIGN = 64
+"""Data objects begin on a cache line, so that tasks do not disturb each other."""
+
+
+class LoweringError(Exception):
+    """A construct that analysis accepts and code generation does not; names the place."""
+
+    def __init__(self, message: str, uri: str = "", span: object = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.uri = uri
+        self.span = span
+
+
+@dataclass(slots=True)
+class Program:
+    """Everything the bodies share while they are lowered."""
+
+    analysis: Analysis
+    module: ir.Module = field(default_factory=ir.Module)
+    type_ids: dict[str, int] = field(default_factory=dict)
+    """Numbers of function block types by qualified name; those of a running application are kept."""
+    functions: dict[int, str] = field(default_factory=dict)
+    """id(PouSymbol) to linkage name, for everything reached so far."""
+    taken: set[str] = field(default_factory=set)
+    queue: list[Callable[[], None]] = field(default_factory=list)
+    """Bodies still to be lowered."""
+    homes: dict[int, str] = field(default_factory=dict)
+    """id(VarSymbol) to data symbol, for members of lists and programs."""
+    strings: dict[tuple[bytes, int], ir.Constant] = field(default_factory=dict)
+    blocks: dict[str, t.FunctionBlock] = field(default_factory=dict)
+    """Function block types that have instances, by unique name."""
+    block_names: dict[int, str] = field(default_factory=dict)
+    dispatched: dict[str, None] = field(default_factory=dict)
+    """Upper-case names of methods that are called virtually."""
+    lower_pou: Callable[[PouSymbol], None] = lambda pou: None
+    """Set by `lower`: lowers one body."""
+    pending_slots: list[tuple[ir.Intrinsic, str]] = field(default_factory=list)
+    """Dispatch operations whose slot number is known at the end, with the method's upper-case name."""
+    implementations: dict[str, dict[int, PouSymbol]] = field(default_factory=dict)
+    """What a virtual call of a name can reach, over all function blocks."""
+    library: dict[str, PouSymbol] = field(default_factory=dict)
+    """Functions of the conversion library by upper-case name."""
+    queried: dict[str, t.Interface] = field(default_factory=dict)
+    """Constants of `implementers`, filled at the end."""
+    initialiser: object = None
+    """`initial.Initialiser`, made on first use."""
+    initial_functions: dict[int, str] = field(default_factory=dict)
+    """id(FunctionBlock) to the function that runs the dynamic initial values of its members."""
+    check_names: dict[str, PouSymbol | None] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for gvl in self.analysis.gvls:
+            symbol = data_symbol(gvl)
+            for member in gvl.members.values():
+                self.homes[id(member)] = symbol
+        for pou in self.analysis.pous:
+            if pou.kind == "PROGRAM":
+                self._claim(pou)
+            for name, method in pou.vtable.items():
+                self.implementations.setdefault(name, {})[id(method)] = method
+
+    def _claim(self, pou: PouSymbol) -> None:
+        symbol = data_symbol(pou)
+        for variable in pou.locals.values():
+            self.homes.setdefault(id(variable), symbol)
+
+    def home(self, variable: VarSymbol) -> str:
+        """Data symbol of a variable of a list or program."""
+        found = self.homes.get(id(variable))
+        return found if found is not None else DATA_PREFIX + (variable.owner or "").upper()
+
+    # -- functions -----------------------------------------------------------------------------------
+
+    def function(self, pou: PouSymbol) -> str:
+        """Linkage name of a body; puts it on the work list when it is new."""
+        name = self.functions.get(id(pou))
+        if name is None:
+            export = export_name(pou) if pou.kind == "FUNCTION" else None
+            name = self.unique(export or qualified_name(pou))
+            self.functions[id(pou)] = name
+            self.queue.append(lambda: self.lower_pou(pou))
+        return name
+
+    def unique(self, name: str) -> str:
+        """`name`, or a variant of it that no function has."""
+        candidate, number = name, 2
+        while candidate in self.taken:
+            candidate, number = f"{name}#{number}", number + 1
+        self.taken.add(candidate)
+        return candidate
+
+    def only_implementation(self, method: PouSymbol) -> PouSymbol | None:
+        """The body that every call of a method or its head reaches, None if the instance decides."""
+        found = self.implementations.get(method.name.upper(), {})
+        if len(found) == 1:
+            return next(iter(found.values()))
+        return method if not found and method.pou is not None else None
+
+    def library_function(self, name: str) -> PouSymbol | None:
+        """A function of the conversion library that every application is built with."""
+        if not self.library:
+            for pou in self.analysis.pous:
+                if pou.source is not None and pou.source.library == CONVERSION_LIBRARY:
+                    self.library[pou.name.upper()] = pou
+        return self.library.get(name)
+
+    def check(self, name: str) -> PouSymbol | None:
+        """The implicit check function `name` of the application, if it has one (LTYP-150)."""
+        if name not in self.check_names:
+            found = self.analysis.function(name)
+            usable = found is not None and found.pou is not None and len(found.parameters) > 0
+            self.check_names[name] = found if usable else None
+        return self.check_names[name]
+
+    # -- data ----------------------------------------------------------------------------------------
+
+    def string_constant(self, data: bytes, align: int) -> ir.Constant:
+        """Read-only bytes, shared by equal ones."""
+        found = self.strings.get((data, align))
+        if found is None:
+            symbol = f"tappet.const.{len(self.strings)}"
+            found = self.strings[(data, align)] = ir.Constant(symbol, data, align)
+            self.module.constants[symbol] = found
+        return found
+
+    # -- function blocks -----------------------------------------------------------------------------
+
+    def block_name(self, block: t.FunctionBlock) -> str:
+        """Unique upper-case name of a function block type."""
+        name = self.block_names.get(id(block))
+        if name is None:
+            symbol = block.pou.symbol if block.pou is not None else None
+            name = (qualified_name(symbol) if isinstance(symbol, PouSymbol) else block.name).upper()
+            self.block_names[id(block)] = name
+        return name
+
+    def instantiate(self, block: t.FunctionBlock) -> int:
+        """Note that there are instances of `block`; its type number."""
+        name = self.block_name(block)
+        if name not in self.type_ids:
+            self.type_ids[name] = max(self.type_ids.values(), default=0) + 1
+        self.blocks.setdefault(name, block)
+        return self.type_ids[name]
+
+    def implementers(self, interface: t.Interface) -> str:
+        """Constant with a byte per type number: 1 for function blocks that implement `interface`."""
+        symbol = f"tappet.implements.{interface.name.upper()}"
+        if symbol not in self.module.constants:
+            self.module.constants[symbol] = ir.Constant(symbol, b"")
+            self.queried[symbol] = interface
+        return symbol
+
+    def expose(self, place: ir.Place, type_: t.Type | None) -> None:
+        """Note that the address of a variable gets known, so that pointers may change it."""
+        if isinstance(place.base, ir.Data):
+            self.module.exposed.add((place.base.symbol, place.root))
+        elif isinstance(place.base, ir.Self):
+            self.module.exposed.add((place.base.type, place.root))
+        self._expose_blocks(type_)
+
+    def _expose_blocks(self, type_: t.Type | None) -> None:
+        if isinstance(type_, t.FunctionBlock):
+            key = (self.block_name(type_), -1)
+            if key in self.module.exposed:
+                return
+            self.module.exposed.add(key)
+            for member in type_.members.values():
+                self._expose_blocks(member.type)
+            derived = type_.base
+            while derived is not None:
+                self.module.exposed.add((self.block_name(derived), -1))
+                derived = derived.base
+        elif isinstance(type_, t.Array):
+            self._expose_blocks(type_.element)
+        elif isinstance(type_, t.Struct):
+            for member in type_.members.values():
+                self._expose_blocks(member.type)
+
+
+def qualified_name(pou: PouSymbol) -> str:
+    """`FB_Motor.Start`, `Standard.TON`."""
+    name = pou.qualified_name or pou.name
+    source = pou.source
+    if source is not None and source.scope is Scope.LIBRARY and source.library:
+        return f"{source.library}.{name}"
+    return name
+
+
+def data_symbol(owner: GvlSymbol | PouSymbol) -> str:
+    """External symbol of a list or program."""
+    source = owner.source
+    name = owner.name.upper()
+    if source is not None and source.scope is Scope.LIBRARY and source.library:
+        name = f"{source.library.upper()}.{name}"
+    return DATA_PREFIX + name
+
+
+def export_name(pou: PouSymbol) -> str | None:
+    """C symbol of a FUNCTION with attribute tappet_export."""
+    return attribute_value(pou.pou.attributes, "tappet_export") if pou.pou is not None else None
+
+
+def attribute_value(pragmas: list[ast.Pragma], name: str) -> str | None:
+    """Value of an attribute pragma, None when it is missing."""
+    for pragma in pragmas:
+        if pragma.attribute is not None and pragma.attribute.lower() == name:
+            return pragma.value or ""
+    return None

@@ -1,0 +1,163 @@
+"""Statements of the textual languages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from tappet.core import assign, calls, ir, places
+from tappet.core.body import Body
+from tappet.core.scalars import convert, require_scalar
+from tappet.lang import ast
+from tappet.lang import types as t
+
+
+def lower_statements(b: Body, statements: Sequence[ast.Stmt]) -> None:
+    """Append the code of statements."""
+    for statement in statements:
+        if statement.label is not None:
+            b.emit(ir.Label(statement.label.upper()))
+        handler = _STATEMENTS.get(statement.__class__)
+        if handler is not None:
+            b.line(statement)
+            handler(b, statement)
+
+
+def body_of(b: Body, statements: Sequence[ast.Stmt]) -> list[ir.Stmt]:
+    """The code of statements as a list of its own."""
+    with b.block_of() as out:
+        lower_statements(b, statements)
+    return out
+
+
+def _assign(b: Body, s: ast.Assign) -> None:
+    assign.assign(b, s.op, s.target, s.value)
+
+
+def _call(b: Body, s: ast.CallStmt) -> None:
+    calls.call_statement(b, s.call)
+
+
+def _expression(b: Body, s: ast.ExprStmt) -> None:
+    e = s.expr
+    if isinstance(e, ast.AssignExpr):
+        assign.assign(b, e.op, e.target, e.value)
+    elif isinstance(e, ast.Call):
+        calls.call_statement(b, e)
+    # anything else has no effect
+
+
+def _if(b: Body, s: ast.If) -> None:
+    otherwise: list[ir.Stmt] = body_of(b, s.otherwise) if s.otherwise else []
+    for number in range(len(s.branches) - 1, -1, -1):
+        condition, body = s.branches[number]
+        then = body_of(b, body)
+        test = b.value(condition)
+        if number == 0:
+            b.emit(ir.If(test, then, otherwise))
+        else:
+            otherwise = [ir.Line(condition.span[0] + 1), ir.If(test, then, otherwise)]
+
+
+def _case(b: Body, s: ast.Case) -> None:
+    selector = b.value(s.selector)
+    if not selector.type.integer:
+        selector = convert(selector, ir.I64)
+    cases = []
+    for branch in s.branches:
+        ranges = []
+        for item in branch.selectors:
+            low = item.low.constant
+            high = item.high.constant if item.high is not None else low
+            assert isinstance(low, int)
+            assert isinstance(high, int)
+            ranges.append((int(low), int(high)))
+        cases.append(ir.SwitchCase(ranges, body_of(b, branch.body)))
+    b.emit(ir.Switch(selector, cases, body_of(b, s.otherwise) if s.otherwise else []))
+
+
+def _for(b: Body, s: ast.For) -> None:
+    type_ = s.variable.type
+    scalar = require_scalar(type_)
+    if isinstance(type_, t.Subrange) and b.check_function(_range_check(scalar)) is not None:
+        _checked_for(b, s, scalar)
+        return
+    counter = places.freeze(b, b.place(s.variable), b.out)
+    b.touch(counter)
+    start, stop = convert(b.value(s.start), scalar), convert(b.value(s.stop), scalar)
+    step: int | ir.Expr = 1
+    if s.step is not None:
+        amount = convert(b.value(s.step), scalar)
+        step = int(amount.value) if isinstance(amount, ir.Const) else amount
+    body = body_of(b, s.body)
+    b.emit(ir.For(counter, scalar, start, stop, step, body, s.span[0] + 1))
+
+
+def _range_check(scalar: ir.Scalar) -> str:
+    width = "CheckLRange" if scalar.bits == 64 else "CheckRange"
+    return width + ("Signed" if scalar.signed else "Unsigned")
+
+
+def _checked_for(b: Body, s: ast.For, scalar: ir.Scalar) -> None:
+    """A counter of a subrange type whose every assignment passes the check function (LTYP-125)."""
+    counter = places.freeze(b, b.place(s.variable), b.out)
+    b.touch(counter)
+    read = ir.Load(scalar, counter)
+    step = convert(b.value(s.step), scalar) if s.step is not None else ir.Const(scalar, 1)
+    start = assign.range_checked(b, convert(b.value(s.start), scalar), s.variable.type)
+    b.emit(ir.Store(counter, start))
+    down = isinstance(step, ir.Const) and step.value < 0
+    test = ir.Compare(ir.BOOL, "ge" if down else "le", read, convert(b.value(s.stop), scalar))
+    advance = assign.range_checked(b, ir.Binary(scalar, "add", read, step), s.variable.type)
+    first = b.temp(ir.BOOL)
+    b.emit(ir.Store(ir.Place(first), ir.Const(ir.BOOL, 1)))
+    running = ir.Load(ir.BOOL, ir.Place(first))
+    head: list[ir.Stmt] = [
+        ir.If(running, [ir.Store(ir.Place(first), ir.Const(ir.BOOL, 0))], [ir.Store(counter, advance)]),
+        ir.If(test, [], [ir.Break()]),
+    ]
+    b.emit(ir.While(ir.Const(ir.BOOL, 1), [*head, *body_of(b, s.body)], s.span[0] + 1))
+
+
+def _while(b: Body, s: ast.While) -> None:
+    b.emit(ir.While(b.value(s.condition), body_of(b, s.body), s.span[0] + 1))
+
+
+def _repeat(b: Body, s: ast.RepeatUntil) -> None:
+    b.emit(ir.Repeat(body_of(b, s.body), b.value(s.condition), s.condition.span[0] + 1))
+
+
+def _exit(b: Body, s: ast.Exit) -> None:
+    b.emit(ir.Break())
+
+
+def _continue(b: Body, s: ast.Continue) -> None:
+    b.emit(ir.Continue())
+
+
+def _return(b: Body, s: ast.Return) -> None:
+    b.emit(ir.Return())
+
+
+def _jump(b: Body, s: ast.Jump) -> None:
+    b.emit(ir.Goto(s.target.upper()))
+
+
+def _try(b: Body, s: ast.Try) -> None:
+    raise b.error("__TRY is not supported", s)
+
+
+_STATEMENTS: dict[type, Callable[..., None]] = {
+    ast.Assign: _assign,
+    ast.CallStmt: _call,
+    ast.ExprStmt: _expression,
+    ast.If: _if,
+    ast.Case: _case,
+    ast.For: _for,
+    ast.While: _while,
+    ast.RepeatUntil: _repeat,
+    ast.Exit: _exit,
+    ast.Continue: _continue,
+    ast.Return: _return,
+    ast.Jump: _jump,
+    ast.Try: _try,
+}
