@@ -182,7 +182,7 @@ class LoadedApplication:
     # -- values ------------------------------------------------------------------------------------------
 
     def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes of the image, all of them between two cycles of the task that owns the first, if it pauses."""
+        """Bytes of the image, all between two cycles of the task that owns the first, if it pauses."""
         for offset, size in places:
             self.image.check(offset, size)
         owner = self.ownership.of(places[0][0]) if places else None
@@ -199,8 +199,8 @@ class LoadedApplication:
         return values
 
     def write(self, values: Sequence[PlacedValue]) -> list[tuple[int, int]]:
-        """Queue values for the begin of a cycle of the task that owns them; all of one call for one task are stored
-        together. Returns tickets for `written`. TaskError when the queue of a task is full."""
+        """Queue values for the begin of a cycle of the task that owns them; all of one call for one task are
+        stored together. Returns tickets for `written`. TaskError when the queue of a task is full."""
         by_task: dict[int | None, list[PlacedValue]] = {}
         for value in values:
             self._check(value.place)
@@ -255,7 +255,9 @@ class LoadedApplication:
         return data if place.bit is None else bytes([data[0] >> place.bit & 1])
 
     def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> list[Force]:
-        """Release forces, all with None; with `restore` the variables get back what they held before (WAT-09)."""
+        """Release forces, all with None; with `restore` the variables get back what they held before
+        (WAT-09).
+        """
         released = self.forces.release(keys)
         self.publish_forces()
         if restore and released:

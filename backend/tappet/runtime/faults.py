@@ -18,6 +18,8 @@ from tappet.runtime.link import CodeSection, LinkedCode, ObjectSymbol, read_symb
 
 ABORTED = 100
 """FAULT_CODE.ABORTED: the runtime itself ended the cycle."""
+_GENERATED = "tappet."
+"""Functions the compiler adds: the list of a task's programs, initialisation."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,9 @@ class ExceptionReport:
     timestamp_ns: int
     call_stack: tuple[CallFrame, ...] = ()
     values: dict[str, str] = field(default_factory=dict)
-    """Numbers of the fault itself (index, low, high, address ...) and variables of the programs in the call stack."""
+    """Numbers of the fault itself (index, low, high, address ...) and variables of the programs in the call
+    stack.
+    """
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for the wire."""
@@ -127,10 +131,10 @@ class Locator:
         stack: list[CallFrame] = []
         for address in addresses:
             stack.extend(self.frames_at(address))
-        return stack
+        return [frame for frame in stack if not frame.pou.startswith(_GENERATED)] or stack
 
     def frames_at(self, address: int) -> list[CallFrame]:
-        """The function at `address`, preceded by those the compiler merged into it; empty for foreign code."""
+        """The function at `address`, after those the compiler merged into it; empty for foreign code."""
         section = self._code.section_of(address)
         if section is None:
             return []
@@ -177,8 +181,8 @@ class Locator:
 def _place(data: bytes, section: CodeSection) -> bytes:
     """Copy of an object whose symbols of one section carry their address in memory.
 
-    Relocating the debug information of this copy gives real addresses. Symbols of other code sections are moved out
-    of the way, because in a relocatable object every section begins at 0.
+    Relocating the debug information of this copy gives real addresses. Symbols of other code sections are
+    moved out of the way, because in a relocatable object every section begins at 0.
     """
     placed = bytearray(data)
     table, entry, count = *struct.unpack_from("<Q", data, 0x28), *struct.unpack_from("<HH", data, 0x3A)
@@ -261,7 +265,8 @@ def _covers(die: DIE, address: int) -> bool:
         lists = die.dwarfinfo.range_lists()
         base = die.cu.get_top_DIE().attributes.get("DW_AT_low_pc")
         start = int(base.value) if base is not None else 0
-        for entry in lists.get_range_list_at_offset(die.attributes["DW_AT_ranges"].value, cu=die.cu):
+        entries: Any = lists.get_range_list_at_offset(die.attributes["DW_AT_ranges"].value) if lists else ()
+        for entry in entries:
             if hasattr(entry, "base_address"):
                 start = entry.base_address
             elif start + entry.begin_offset <= address < start + entry.end_offset:

@@ -59,7 +59,7 @@ class Image:
         self.size = size
 
     def _restrict(self, size: int) -> None:
-        """What lies behind the image is not accessible: a wild pointer ends in an exception, not in silence."""
+        """Nothing behind the image is accessible: a wild pointer ends in an exception, not in silence."""
         wanted = pages(size)
         if wanted > self._accessible:
             self._mapping.protect(self._accessible, wanted - self._accessible, accessible=True)

@@ -17,15 +17,16 @@ _EXECUTABLE = 0x4
 _SYMTAB = 2
 _UNDEFINED = 0
 _RESERVED = 0xFF00
+_OF_THE_LINKER = {"", "_GLOBAL_OFFSET_TABLE_"}
 _numbers = itertools.count(1)
 
-C_LIBRARY = frozenset(
-    "memcpy memmove memset memcmp strlen strcmp strncmp "
-    "sin cos tan asin acos atan atan2 sinh cosh tanh exp exp2 exp10 expm1 log log2 log10 log1p pow sqrt cbrt fmod "
-    "fabs floor ceil round trunc rint nearbyint lround llround hypot copysign fmin fmax fma ldexp frexp modf "
-    "sinf cosf tanf asinf acosf atanf atan2f sinhf coshf tanhf expf exp2f logf log2f log10f powf sqrtf cbrtf fmodf "
-    "fabsf floorf ceilf roundf truncf rintf nearbyintf hypotf copysignf fminf fmaxf fmaf ldexpf".split()
-)
+_MEMORY = ["memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp"]
+_DOUBLE = [
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2", "exp10", "expm1",
+    "log", "log2", "log10", "log1p", "pow", "sqrt", "cbrt", "fmod", "fabs", "floor", "ceil", "round", "trunc", "rint",
+    "nearbyint", "lround", "llround", "hypot", "copysign", "fmin", "fmax", "fma", "ldexp", "frexp", "modf",
+]  # fmt: skip
+C_LIBRARY = frozenset(_MEMORY + _DOUBLE + [f"{name}f" for name in _DOUBLE])
 """Functions of the C and mathematics library that applications may use; everything else is refused by name."""
 
 
@@ -137,9 +138,8 @@ class Linker:
         builder = llvm.JITLibraryBuilder()
         for data in objects:
             builder.add_object_img(data)
-        for name in (
-            {s.name for symbols, _ in tables for s in symbols if s.section == _UNDEFINED} - defined - {""}
-        ):
+        used = {s.name for symbols, _ in tables for s in symbols if s.section == _UNDEFINED}
+        for name in used - defined - _OF_THE_LINKER:
             builder.import_symbol(name, _address_of(name, imports))
         witnesses = _witnesses(tables)
         for name in {*exports, *(w.name for w in witnesses.values())}:

@@ -24,7 +24,7 @@ from tappet.runtime.threads import NORMAL, Scheduling
 _WRITE_TIMEOUT_S = 2.0
 
 
-class ApplicationException(RuntimeError):
+class ApplicationException(RuntimeError):  # noqa: N818 - the field's term for this state
     """The application went into the state exception; `report` says where and why."""
 
     def __init__(self, report: ExceptionReport) -> None:
@@ -98,7 +98,9 @@ class LocalRuntime:
         cycle_limit_s: float = STUCK_LIMIT_S,
         start: bool = True,
     ) -> None:
-        """Load and, with `start`, run. `cycle_limit_s` of wall time ends a cycle that never comes to its end."""
+        """Load and, with `start`, run. `cycle_limit_s` of wall time ends a cycle that never comes to its
+        end.
+        """
         self.plc = SoftPlc(folder, virtual=virtual, scheduling=scheduling, stuck_limit_s=cycle_limit_s)
         self.virtual = virtual
         self.traces: list[Trace] = []
@@ -150,8 +152,8 @@ class LocalRuntime:
     def run(self, cycles: int | None = None, *, time_ns: int | None = None) -> None:
         """Run for so many cycles of the bus cycle task, or for a time; raises ApplicationException.
 
-        In virtual time exactly what is due before the end runs, so two runs of one cycle equal one of two. In real
-        time the call waits until the task has completed so many cycles, or so long.
+        In virtual time exactly what is due before the end runs, so two runs of one cycle equal one of two.
+        In real time the call waits until the task has completed so many cycles, or so long.
         """
         if (cycles is None) == (time_ns is None):
             raise ValueError("give either cycles or time_ns")

@@ -1,4 +1,4 @@
-"""The log of the runtime (LOG-01): starts, stops, downloads, exceptions, and what the host does not permit."""
+"""The log of the runtime (LOG-01): starts, stops, downloads, exceptions, what the host does not permit."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Online change: a running application becomes another one without stopping (LDEC-47, LDEC-106).
 
-When only code changed, code pointers are exchanged beside the running tasks. When data moved, all tasks stand at
-their cycle boundary while the image is rearranged.
+When only code changed, code pointers are exchanged beside the running tasks. When data moved, all tasks
+stand at their cycle boundary while the image is rearranged.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def check_change(running: CodePackage, package: CodePackage) -> None:
         raise OnlineChangeError("the package was not built as an online change; download it")
     if change.base_code_id != running.code_id or change.base_data_id != running.data_id:
         raise OnlineChangeError(
-            "the package was built against another application than the one that is running; build again or download"
+            "the package was built against another application than the running one; build again or download"
         )
     before = [(t.name, t.kind, t.priority) for t in running.tasks]
     after = [(t.name, t.kind, t.priority) for t in package.tasks]
@@ -53,7 +53,9 @@ def check_change(running: CodePackage, package: CodePackage) -> None:
 def apply_change(
     application: LoadedApplication, package: CodePackage, retain_folder: Path | None
 ) -> ChangeResult:
-    """Make `application` run `package`. Nothing has changed when it raises OnlineChangeError, ImageError or LinkError."""
+    """Make `application` run `package`. Nothing has changed when it raises OnlineChangeError, ImageError or
+    LinkError.
+    """
     running = application.package
     check_change(running, package)
     change = package.online_change

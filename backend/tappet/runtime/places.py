@@ -1,4 +1,6 @@
-"""From a place in the image back to a variable: what is forced or recorded is found again after an online change."""
+"""From a place in the image back to a variable: what is forced or recorded is found again after an online
+change.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ class Place:
 
 
 def path_at(symbols: SymbolMap, place: Place) -> str | None:
-    """Path of the variable that is exactly `place`, the outermost when several are; None when there is none."""
+    """Path of the variable that is exactly `place`, the outermost of several; None when there is none."""
     found = _locate(symbols, place)
     return found[0] if found is not None and found[1] == 0 else None
 

@@ -184,10 +184,12 @@ class SoftPlc:
                 self.log.add("info", "application", f"{application.package.application} stopped")
                 self._tell("state")
 
-    def reset(self, kind: ResetKind) -> None:
-        """Back to initial values as the table of remanent variables says (PERS-02); the application is stopped.
+    def reset(self, kind: str) -> None:
+        """Back to initial values as the table of remanent variables says (PERS-02); the application is
+        stopped.
 
-        Origin also removes the application, its boot copy and everything remanent.
+        `kind` is warm, cold or origin; origin also removes the application, its boot copy and everything
+        remanent.
         """
         if kind not in get_args(ResetKind):
             raise PlcError(f"unknown reset '{kind}'; known are warm, cold and origin")
@@ -222,8 +224,8 @@ class SoftPlc:
 
     # -- download ----------------------------------------------------------------------------------------
 
-    def download(self, data: bytes, mode: Literal["download", "online_change"] = "download") -> None:
-        """Load a package; it is stopped afterwards (download) or goes on running (online change).
+    def download(self, data: bytes, mode: str = "download") -> None:
+        """Load a package; it is stopped afterwards (mode `download`) or goes on running (`online_change`).
 
         Raises PlcError; with a refused package the old application stays as it was.
         """
@@ -252,7 +254,9 @@ class SoftPlc:
             self._tell("application")
 
     def _load(self, package: CodePackage, kept: Kept | None) -> None:
-        """Replace the application. Values to keep come from the running one (persistent only) or from `kept`."""
+        """Replace the application. Values to keep come from the running one (persistent only) or from
+        `kept`.
+        """
         try:
             application = LoadedApplication(
                 self.executive,
@@ -335,7 +339,9 @@ class SoftPlc:
             self.poll()
 
     def boot(self) -> bool:
-        """Load and start the boot application with its remanent values; False when there is none or it fails."""
+        """Load and start the boot application with its remanent values; False when there is none or it
+        fails.
+        """
         if self.folder is None:
             return False
         with self._lock:
@@ -367,7 +373,7 @@ class SoftPlc:
             return self._need().read(places)
 
     def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
-        """Store values together at a cycle begin; the result tells, when called, whether that has happened."""
+        """Store values together at a cycle begin; the result tells, when called, whether it has happened."""
         with self._lock:
             application = self._need()
             try:

@@ -1,4 +1,6 @@
-"""The system calls the runtime needs and Python does not offer: low memory, native threads, signals, scheduling."""
+"""The system calls the runtime needs and Python does not offer: low memory, native threads, signals,
+scheduling.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ libm = ctypes.CDLL("libm.so.6")
 
 PAGE = mmap.PAGESIZE
 LOW_LIMIT = 1 << 32
-"""Application data lie below this address, because CODESYS-style code keeps pointers in DWORD (decision 12)."""
+"""Application data lie below this address, as CODESYS-style code keeps pointers in DWORD (decision 12)."""
 
 _MAP_32BIT = 0x40
 _MAP_FIXED_NOREPLACE = 0x100000
@@ -135,8 +137,8 @@ def pages(size: int) -> int:
 def map_memory(size: int, fd: int = -1, *, low: bool = False) -> Mapping:
     """Map `size` bytes, of the file `fd` (shared) or anonymous (private).
 
-    `low` asks for addresses below 4 GiB: first by MAP_32BIT (x86-64), then by trying free places. Where the host
-    has none the mapping lies anywhere; the caller looks at `Mapping.low` and says so.
+    `low` asks for addresses below 4 GiB: first by MAP_32BIT (x86-64), then by trying free places. Where the
+    host has none the mapping lies anywhere; the caller looks at `Mapping.low` and says so.
     """
     size = pages(size)
     protection = mmap.PROT_READ | mmap.PROT_WRITE

@@ -1,4 +1,6 @@
-"""Recorders: values sampled by a task at the end of its cycles into a ring that Python empties (DESIGN decision 4)."""
+"""Recorders: values sampled by a task at the end of its cycles into a ring that Python empties (DESIGN
+decision 4).
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class RecorderSpec:
-    """What to record: (offset, size) in the image, every `divider`-th cycle, `min_interval_ns` apart at least."""
+    """What to record: (offset, size) in the image, every `divider`-th cycle, `min_interval_ns` apart at
+    least.
+    """
 
     items: tuple[tuple[int, int], ...]
     task: int

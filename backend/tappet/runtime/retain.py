@@ -1,8 +1,9 @@
 """Remanent variables on disk (PERS-01..PERS-05).
 
-`retain.live` is mapped into memory: tasks copy their remanent variables into it at the end of each cycle, in turn
-into one of two slots, so a process killed at any instruction loses at most the running cycle. `retain.saved` is
-written as a whole at stop and exit and counts when the machine itself failed and the live file is torn.
+`retain.live` is mapped into memory: tasks copy their remanent variables into it at the end of each cycle, in
+turn into one of two slots, so a process killed at any instruction loses at most the running cycle.
+`retain.saved` is written as a whole at stop and exit and counts when the machine itself failed and the live
+file is torn.
 """
 
 from __future__ import annotations
@@ -279,7 +280,9 @@ def remove_retain(folder: Path) -> None:
 def matching(
     kept: MappingType[str, KeptValue], variables: Sequence[Remanent]
 ) -> tuple[list[tuple[RemanentRange, bytes]], list[str]]:
-    """Kept values that fit a variable of the application by path and type, and the paths that found no place."""
+    """Kept values that fit a variable of the application by path and type, and the paths that found no
+    place.
+    """
     restored = []
     used = set()
     for r in variables:

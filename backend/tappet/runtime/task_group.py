@@ -1,4 +1,6 @@
-"""The threads of an application: started, paused at cycle boundaries, ended; and lists exchanged beside them."""
+"""The threads of an application: started, paused at cycle boundaries, ended; and lists exchanged beside
+them.
+"""
 
 from __future__ import annotations
 
@@ -177,8 +179,8 @@ class TaskGroup:
     def publish(
         self, cell: int, address: int, owner: object, release: Callable[[], None] | None = None
     ) -> None:
-        """Exchange a pointer that tasks follow. The owner of the new list is kept; the old one is dropped, and its
-        `release` called, once no task can be using it."""
+        """Exchange a pointer that tasks follow. The owner of the new list is kept; the old one is dropped,
+        and its `release` called, once no task can be using it."""
         old = self._published.get(cell)
         self._published[cell] = (owner, release)
         self.executive.store(cell, address)

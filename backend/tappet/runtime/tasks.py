@@ -22,7 +22,9 @@ def watchdog_threshold(sensitivity: int) -> int:
 
 
 def bus_task(tasks: list[TaskSpec]) -> int | None:
-    """Index of the bus cycle task: the cyclic task with the shortest interval (PLC-05), else a freewheeling one."""
+    """Index of the bus cycle task: the cyclic task with the shortest interval (PLC-05), else a freewheeling
+    one.
+    """
     cyclic = [(t.interval_ns, t.priority, i) for i, t in enumerate(tasks) if t.kind == "cyclic"]
     if cyclic:
         return min(cyclic)[2]
@@ -34,7 +36,7 @@ def bus_task(tasks: list[TaskSpec]) -> int | None:
 
 
 class TaskOwnership:
-    """Which task runs the program that a variable belongs to; global variables belong to the bus cycle task."""
+    """Which task runs the program a variable belongs to; global variables belong to the bus cycle task."""
 
     def __init__(self, package: CodePackage) -> None:
         self.bus = bus_task(package.tasks)

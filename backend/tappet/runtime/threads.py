@@ -95,8 +95,8 @@ def real_time_scheduling(*, pin: bool = True) -> Scheduling:
         return Scheduling(
             False,
             notes=(
-                "tasks run at normal priority: this host does not permit SCHED_FIFO (grant CAP_SYS_NICE or an "
-                "rtprio limit of 81)",
+                "tasks run at normal priority: this host does not permit SCHED_FIFO "
+                "(grant CAP_SYS_NICE or an rtprio limit of 81)",
             ),
         )
     finally:

@@ -31,7 +31,9 @@ class Layout:
 
 
 class Record:
-    """One structure at a native address; `record["due"]` reads, `record["due"] = 5` stores in one instruction."""
+    """One structure at a native address; `record["due"]` reads, `record["due"] = 5` stores in one
+    instruction.
+    """
 
     __slots__ = ("address", "layout")
 

@@ -1,0 +1,121 @@
+"""`python -m tappet.runtime`: a soft PLC as a process of its own."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import os
+import secrets
+import signal
+import sys
+from pathlib import Path
+
+from tappet.runtime.contexts import STUCK_LIMIT_S
+from tappet.runtime.logbook import Logbook, LogEntry
+from tappet.runtime.plc import SoftPlc
+from tappet.runtime.posix import lock_memory
+from tappet.runtime.retain import write_atomically
+from tappet.runtime.service import RuntimeService
+from tappet.runtime.threads import NORMAL, Scheduling, real_time_scheduling
+
+DEFAULT_PORT = 11740
+
+
+def parser() -> argparse.ArgumentParser:
+    """Command line of the runtime process."""
+    p = argparse.ArgumentParser(
+        "tappet runtime", description="A soft PLC: loads, runs and serves an application."
+    )
+    p.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
+    p.add_argument(
+        "--port", type=int, default=DEFAULT_PORT, help="port, 0 for a free one (default: %(default)s)"
+    )
+    p.add_argument(
+        "--data", type=Path, default=Path("runtime-data"), help="folder of boot application and retain"
+    )
+    p.add_argument(
+        "--token-file", type=Path, help="file with the access token (default: DATA/token, made if missing)"
+    )
+    p.add_argument(
+        "--no-realtime", action="store_true", help="normal priority even where real time is permitted"
+    )
+    p.add_argument("--all-cpus", action="store_true", help="let tasks run on all processors, not on one")
+    p.add_argument("--stuck-limit", type=float, default=STUCK_LIMIT_S, metavar="S",
+                   help="longest cycle of a task without watchdog, seconds (default: %(default)s)")  # fmt: skip
+    p.add_argument("--ready-fd", type=int, help=argparse.SUPPRESS)
+    return p
+
+
+def read_token(path: Path) -> str:
+    """The access token; a new one is made, readable by the owner only, when there is none.
+
+    Raises OSError, and ValueError for a token that is too short to be safe.
+    """
+    try:
+        token = path.read_text(encoding="ascii").strip()
+    except FileNotFoundError:
+        token = secrets.token_urlsafe(32)
+        write_atomically(path, token.encode() + b"\n")
+    if len(token) < 16:
+        raise ValueError(f"{path}: a token has at least 16 characters")
+    return token
+
+
+def _echo(entry: LogEntry) -> None:
+    print(f"{entry.severity}: {entry.component}: {entry.message}", file=sys.stderr, flush=True)
+
+
+def _scheduling(arguments: argparse.Namespace, log: Logbook) -> Scheduling:
+    if arguments.no_realtime:
+        return Scheduling(False, notes=("tasks run at normal priority, as asked",))
+    scheduling = real_time_scheduling(pin=not arguments.all_cpus)
+    if scheduling.realtime:
+        refused = lock_memory()
+        if refused is not None:
+            log.add("warning", "scheduler", f"memory is not locked, a cycle may wait for a page: {refused}")
+    return scheduling or NORMAL
+
+
+async def serve(arguments: argparse.Namespace) -> None:
+    """Run until SIGTERM or SIGINT, then stop the application and save its remanent values."""
+    log = Logbook(_echo)
+    arguments.data.mkdir(parents=True, exist_ok=True, mode=0o700)
+    token = read_token(arguments.token_file or arguments.data / "token")
+    plc = SoftPlc(
+        arguments.data,
+        scheduling=_scheduling(arguments, log),
+        stuck_limit_s=arguments.stuck_limit,
+        logbook=log,
+    )
+    service = RuntimeService(plc, token)
+    plc.boot()
+    port = await service.start(arguments.host, arguments.port)
+    log.add("info", "service", f"listening on ws://{arguments.host}:{port}")
+    if arguments.ready_fd is not None:
+        ready = {"port": port, "token": token, "instance_id": plc.instance_id}
+        with os.fdopen(arguments.ready_fd, "w") as pipe:
+            json.dump(ready, pipe)
+    ended = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        loop.add_signal_handler(number, ended.set)
+    await ended.wait()
+    log.add("info", "service", "shutting down")
+    await service.close()
+    await asyncio.to_thread(plc.close)
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Entry point; 0 after a proper end, 1 when the runtime could not start."""
+    arguments = parser().parse_args(argv)
+    try:
+        asyncio.run(serve(arguments))
+    except (OSError, ValueError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

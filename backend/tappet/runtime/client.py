@@ -1,0 +1,379 @@
+"""Client of a runtime: what the IDE server and the command line use.
+
+    async with await RuntimeClient.connect("ws://127.0.0.1:11740", token) as client:
+        await client.download(package.to_bytes())
+        await client.start()
+
+A lost connection ends all waiting calls with ConnectionLost; connecting again is up to the caller.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Literal
+
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, WebSocketException
+
+from tappet.codegen.symbol_map import SymbolMap
+from tappet.runtime import protocol
+from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.logbook import LogEntry
+from tappet.runtime.plc import RuntimeInfo
+from tappet.runtime.protocol import ProtocolError
+from tappet.runtime.recorder import Frame
+from tappet.runtime.tasks import TaskStatistics
+
+_LARGEST_REPLY = 1 << 30
+_PENDING_FRAMES = 20_000
+"""Frames kept in a recorder that nobody reads; older ones are dropped first."""
+
+
+class ConnectionLost(ConnectionError):  # noqa: N818 - the event, not an error class of the field
+    """The runtime closed the connection or is gone."""
+
+
+class RuntimeRefused(RuntimeError):  # noqa: N818
+    """The runtime answered with an error; `code` is one of refused, bad_request, unknown_op, internal."""
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+@dataclass(frozen=True, slots=True)
+class RuntimeEvent:
+    """What a runtime tells: kind `state`, `exception`, `application`, `forces` or `lost`, and its state."""
+
+    kind: str
+    state: str
+
+
+@dataclass(frozen=True, slots=True)
+class ForcedValue:
+    """A forced variable: its place, the forced bytes, the bytes before, and its path when it has one."""
+
+    offset: int
+    bit: int | None
+    data: bytes
+    before: bytes
+    path: str | None
+
+
+class Recorder:
+    """Frames of a recorder, to be read with `async for`; ends when closed or when its application is gone."""
+
+    def __init__(self, client: RuntimeClient, number: int, data_size: int) -> None:
+        self._client = client
+        self.number = number
+        self.data_size = data_size
+        self.dropped = 0
+        """Frames lost at the runtime, because ring or connection were full."""
+        self.skipped = 0
+        """Frames dropped here, because nobody read them."""
+        self._frames: deque[Frame] = deque()
+        self._arrived = asyncio.Event()
+        self._ended = False
+
+    def __aiter__(self) -> Recorder:
+        return self
+
+    async def __anext__(self) -> Frame:
+        while not self._frames:
+            if self._ended:
+                raise StopAsyncIteration
+            self._arrived.clear()
+            await self._arrived.wait()
+        return self._frames.popleft()
+
+    def take(self) -> list[Frame]:
+        """All frames that have arrived, without waiting."""
+        frames = list(self._frames)
+        self._frames.clear()
+        return frames
+
+    async def close(self) -> None:
+        """Stop recording."""
+        if not self._ended:
+            self.end()
+            await self._client.end_record(self)
+
+    def receive(self, batch: protocol.FrameBatch) -> None:
+        """Frames from the wire."""
+        self.dropped = batch.dropped
+        self._frames.extend(batch.frames(self.data_size))
+        while len(self._frames) > _PENDING_FRAMES:
+            self._frames.popleft()
+            self.skipped += 1
+        self._arrived.set()
+
+    def end(self) -> None:
+        """No more frames will come."""
+        self._ended = True
+        self._arrived.set()
+
+
+class RuntimeClient:
+    """One connection to a runtime."""
+
+    def __init__(self, socket: ClientConnection) -> None:
+        self._socket = socket
+        self._numbers = itertools.count(1)
+        self._waiting: dict[int, asyncio.Future[Any]] = {}
+        self._recorders: dict[int, Recorder] = {}
+        self._orphans: dict[int, list[protocol.FrameBatch]] = {}
+        self._callbacks: list[Callable[[RuntimeEvent], None]] = []
+        self._symbols: tuple[str, SymbolMap] | None = None
+        self._receiver: asyncio.Task[None] | None = None
+        self._upload = asyncio.Lock()
+
+    @classmethod
+    async def connect(cls, url: str, token: str, *, timeout_s: float = 10.0) -> RuntimeClient:
+        """Connect and authenticate; ConnectionLost when the runtime is not there or refuses the token."""
+        try:
+            socket = await connect(
+                url, max_size=_LARGEST_REPLY, compression=None, open_timeout=timeout_s, proxy=None
+            )
+        except (OSError, TimeoutError, WebSocketException, ValueError) as error:
+            raise ConnectionLost(f"no runtime at {url}: {error}") from error
+        client = cls(socket)
+        client._receiver = asyncio.create_task(client._receive())
+        try:
+            await client._call("hello", token=token)
+        except RuntimeRefused as error:
+            await client.close()
+            raise ConnectionLost(str(error)) from error
+        except BaseException:
+            await client.close()
+            raise
+        return client
+
+    async def __aenter__(self) -> RuntimeClient:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Leave; recorders of this connection end."""
+        await self._socket.close()
+        if self._receiver is not None:
+            await asyncio.gather(self._receiver, return_exceptions=True)
+
+    @property
+    def connected(self) -> bool:
+        """Whether the connection stands."""
+        return self._receiver is not None and not self._receiver.done()
+
+    # -- wire --------------------------------------------------------------------------------------------
+
+    async def _call(self, op: str, **arguments: Any) -> Any:
+        if not self.connected:
+            raise ConnectionLost("the connection to the runtime is closed")
+        number = next(self._numbers)
+        future: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        self._waiting[number] = future
+        try:
+            await self._socket.send(protocol.pack({"id": number, "op": op, **arguments}))
+            return await future
+        except ConnectionClosed as error:
+            raise self._lost(error) from error
+        finally:
+            self._waiting.pop(number, None)
+
+    @staticmethod
+    def _lost(error: ConnectionClosed) -> ConnectionLost:
+        code = error.rcvd.code if error.rcvd else None
+        reason = {
+            protocol.CLOSE_BAD_TOKEN: "the runtime refused the token",
+            protocol.CLOSE_BUSY: "the runtime has too many connections",
+            protocol.CLOSE_HELLO: "the runtime did not accept the greeting",
+        }.get(code or 0, "the connection to the runtime was lost")
+        return ConnectionLost(reason)
+
+    async def _receive(self) -> None:
+        lost: Exception = ConnectionLost("the connection to the runtime was closed")
+        try:
+            async for data in self._socket:
+                try:
+                    self._take(data)
+                except ProtocolError:
+                    continue  # a newer runtime may send what this client does not know
+        except ConnectionClosed as error:
+            lost = self._lost(error)
+        finally:
+            if self._socket.close_code in (
+                protocol.CLOSE_BAD_TOKEN,
+                protocol.CLOSE_BUSY,
+                protocol.CLOSE_HELLO,
+            ):
+                lost = ConnectionLost(f"the runtime closed the connection: {self._socket.close_reason}")
+            for future in self._waiting.values():
+                if not future.done():
+                    future.set_exception(lost)
+            for recorder in self._recorders.values():
+                recorder.end()
+            self._emit(RuntimeEvent("lost", "unknown"))
+
+    def _take(self, data: bytes | str) -> None:
+        if protocol.is_frames(data):
+            assert isinstance(data, bytes)
+            batch = protocol.unpack_frames(data)
+            recorder = self._recorders.get(batch.recorder)
+            if recorder is not None:
+                recorder.receive(batch)
+            else:  # the reply to `record` is still on its way to its caller
+                self._orphans.setdefault(batch.recorder, []).append(batch)
+            return
+        message = protocol.unpack(data)
+        if "event" in message:
+            self._take_event(message)
+            return
+        future = self._waiting.get(message.get("id") or 0)
+        if future is None or future.done():
+            return
+        error = message.get("error")
+        if isinstance(error, dict):
+            future.set_exception(RuntimeRefused(str(error.get("code")), str(error.get("message"))))
+        else:
+            future.set_result(message.get("result"))
+
+    def _take_event(self, message: dict[str, Any]) -> None:
+        if message["event"] == "recorder_ended":
+            recorder = self._recorders.pop(message.get("recorder", 0), None)
+            if recorder is not None:
+                recorder.end()
+            return
+        self._emit(RuntimeEvent(str(message["event"]), str(message.get("state"))))
+
+    def _emit(self, event: RuntimeEvent) -> None:
+        for callback in list(self._callbacks):
+            callback(event)
+
+    def on_event(self, callback: Callable[[RuntimeEvent], None]) -> None:
+        """Call `callback` for every event, on the event loop; it must not block."""
+        self._callbacks.append(callback)
+
+    # -- life cycle --------------------------------------------------------------------------------------
+
+    async def info(self) -> RuntimeInfo:
+        """Identity, state, application."""
+        return _info(await self._call("info"))
+
+    async def download(
+        self, package: bytes, mode: Literal["download", "online_change"] = "download"
+    ) -> RuntimeInfo:
+        """Load a package. RuntimeRefused when it does not fit; the old application then stays."""
+        async with self._upload:
+            await self._call("download_begin", size=len(package))
+            for at in range(0, len(package), protocol.CHUNK):
+                await self._call("download_chunk", data=package[at : at + protocol.CHUNK])
+            return _info(await self._call("download_commit", mode=mode))
+
+    async def start(self) -> None:
+        """Run the application."""
+        await self._call("start")
+
+    async def stop(self) -> None:
+        """Stop it at the end of its cycles."""
+        await self._call("stop")
+
+    async def reset(self, kind: Literal["warm", "cold", "origin"]) -> None:
+        """Initial values again, by the table of remanent variables; origin removes the application."""
+        await self._call("reset", kind=kind)
+
+    async def symbols(self) -> SymbolMap:
+        """Symbol map of the loaded application; fetched once per application."""
+        info = await self.info()
+        if self._symbols is None or self._symbols[0] != info.code_id:
+            reply = await self._call("symbols")
+            self._symbols = (reply["code_id"], SymbolMap.from_table(reply["table"]))
+        return self._symbols[1]
+
+    # -- values ------------------------------------------------------------------------------------------
+
+    async def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes at (offset, size) places."""
+        return list(await self._call("read", places=[list(p) for p in places]))
+
+    async def write(self, values: Sequence[tuple[int, bytes, int | None]]) -> bool:
+        """Store (offset, bytes, bit or None) together at a cycle begin; for a bit one byte 0 or 1.
+
+        True when that has happened, False when the task takes longer than a second to its next cycle.
+        """
+        return bool(await self._call("write", values=[list(v) for v in values]))
+
+    async def force(self, values: Sequence[tuple[int, bytes, int | None]]) -> None:
+        """Hold places at values until released."""
+        await self._call("force", values=[list(v) for v in values])
+
+    async def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
+        """Release (offset, bit) places, all with None; `restore` brings the values before back (WAT-09)."""
+        rows = None if keys is None else [list(k) for k in keys]
+        return int(await self._call("unforce", keys=rows, restore=restore))
+
+    async def forces(self) -> list[ForcedValue]:
+        """All forces."""
+        return [ForcedValue(*row) for row in await self._call("forces")]
+
+    async def record(
+        self,
+        items: Sequence[tuple[int, int]],
+        task: str | None = None,
+        divider: int = 1,
+        min_interval_ns: int = 0,
+        frames: int = 0,
+    ) -> Recorder:
+        """Record (offset, size) items at the end of the cycles of a task (the bus cycle task for None).
+
+        `frames` is the wanted length of the ring at the runtime, 0 for as many as fit into a megabyte.
+        """
+        reply = await self._call(
+            "record",
+            items=[list(i) for i in items],
+            task=task,
+            divider=divider,
+            min_interval_ns=min_interval_ns,
+            frames=frames,
+        )
+        recorder = Recorder(self, reply["recorder"], reply["data_size"])
+        self._recorders[recorder.number] = recorder
+        for batch in self._orphans.pop(recorder.number, []):
+            recorder.receive(batch)
+        return recorder
+
+    async def end_record(self, recorder: Recorder) -> None:
+        """Stop a recorder."""
+        self._recorders.pop(recorder.number, None)
+        await self._call("end_record", recorder=recorder.number)
+        self._orphans.pop(recorder.number, None)
+
+    # -- monitoring --------------------------------------------------------------------------------------
+
+    async def tasks(self) -> list[TaskStatistics]:
+        """Task monitoring."""
+        return [TaskStatistics(**row) for row in await self._call("tasks")]
+
+    async def reset_statistics(self, task: str | None = None) -> None:
+        """Statistics of a task, or of all, back to 0."""
+        await self._call("reset_statistics", task=task)
+
+    async def exception(self) -> ExceptionReport | None:
+        """Why the application is in the state exception."""
+        report = await self._call("exception")
+        return None if report is None else ExceptionReport.from_dict(report)
+
+    async def log(self, since: int = 0) -> list[LogEntry]:
+        """Log entries with a higher number than `since`."""
+        return [LogEntry(**row) for row in await self._call("log", since=since)]
+
+
+def _info(row: dict[str, Any]) -> RuntimeInfo:
+    return RuntimeInfo(**{**row, "scheduling": tuple(row["scheduling"])})
