@@ -104,7 +104,7 @@ class Token:
 class Lexed:
     """Tokens as parallel lists ending with END; `trivia[i]` holds the comments and pragmas before token i."""
 
-    __slots__ = ("columns", "diagnostics", "kinds", "lines", "texts", "trivia", "unclosed_comment")
+    __slots__ = ("columns", "damaged", "diagnostics", "kinds", "lines", "texts", "trivia", "unclosed_comment")
 
     def __init__(self) -> None:
         self.kinds: list[str] = []
@@ -113,6 +113,8 @@ class Lexed:
         self.columns: list[int] = []
         self.trivia: dict[int, list[Trivia]] = {}
         self.diagnostics: list[Diagnostic] = []
+        self.damaged: set[int] = set()
+        """Tokens before which something unreadable was left out: an error there is no error of its own."""
         self.unclosed_comment = False
         """Whether the rest of the text went into a comment: then missing ends are no error of their own."""
 
@@ -222,6 +224,7 @@ def _special(
     elif piece[0] in "'\"":
         out.diagnostics.append(report("E0004", uri, span, quote=piece[0]))
         _append(out, STRING, piece.rstrip("$") + piece[0], line, column)
+        out.damaged.add(index + 1)
     elif piece[0] == "_" or piece[0].isalnum():
         wrong = next(char for char in piece if not char.isascii())
         out.diagnostics.append(report("E0005", uri, span, name=piece, char=wrong))
@@ -247,6 +250,8 @@ def _unexpected(out: Lexed, uri: str, span: Span, char: str) -> None:
     kind = _BASE_KINDS.get(plain or "")
     if kind:  # read on as if it were right, so that one wrong key gives one message
         _append(out, kind, char, span.line, span.column)
+    else:
+        out.damaged.add(len(out.kinds))
 
 
 def _append(out: Lexed, kind: str, text: str, line: int, column: int) -> None:

@@ -147,8 +147,6 @@ def _typed(text: str, prefix: str, body: str) -> Decoded:
         return _wrong_kind(text, prefix, f"{prefix} holds whole numbers only.")
     bits = 8 * elementary.size
     low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if elementary.is_signed else (0, (1 << bits) - 1)
-    if "#" in body and elementary.is_signed and high < magnitude <= 2 * high + 1:
-        magnitude -= 1 << bits  # INT#16#FFFF is the bit pattern of -1
     if not low <= magnitude <= high:
         return Decoded("int", prefix, None, "E0014", {"text": text, "type": prefix, "low": low, "high": high})
     return Decoded("int", prefix, magnitude)

@@ -137,6 +137,8 @@ class Core:
         if self.failed_at == self.i:
             return
         self.failed_at = self.i
+        if self.i in self.lexed.damaged:
+            return  # the lexer has said why
         if self.kinds[self.i] is END and self.lexed.unclosed_comment:
             return  # the missing text went into the comment
         self.diagnostics.append(report(code, self.source.uri, span or self.span_at(self.i), **fields))
@@ -296,7 +298,7 @@ class Core:
         line = self.lines[index]
         for item in reversed(trivia):
             span = item.span
-            if span.end_line < line - 1 or span.line == own_line != self.lines[index]:
+            if span.end_line < line - 1 or span.line == own_line:
                 break
             if item.kind is COMMENT:
                 texts.append(plain_comment(item.text))

@@ -155,7 +155,10 @@ class Parser(TypeParser):
             self.error("E0101", expected="A declaration", found="':'", hint=hint)
             self.i += 1
             self.type_reference()
-        if self.kinds[self.i] == ";":
+        elif kind in _TYPED and self._forgotten_colon():
+            self.expected("':'", "Write ':' between the name and the return type.")
+            pou.return_type = self.type_reference("return type")
+        if self.kinds[self.i] == ";" and self.lines[self.i] == self.lines[self.i - 1]:
             self.i += 1
         if self.failed_at == self.i:  # a faulty head: its rest is the rest of the line
             while self.lines[self.i] == self.lines[start] and self.kinds[self.i] not in BODY_END:
@@ -167,11 +170,20 @@ class Parser(TypeParser):
         pou.span = self.span_from(start)
         return pou
 
+    def _forgotten_colon(self) -> bool:
+        """Whether a type follows the name of a function directly, in its line."""
+        i = self.i
+        if self.kinds[i] is not ID or self.lines[i] != self.lines[i - 1]:
+            return False
+        return self.kinds[i + 1] in SECTIONS or self.lines[i + 1] != self.lines[i]
+
     def _access(self) -> tuple[str, set[str]]:
         """Words before a name such as PRIVATE or ABSTRACT; such a word may also be the name itself."""
         access = "PUBLIC"
         modifiers: set[str] = set()
-        while self.kinds[self.i + 1] is ID if self.kinds[self.i] is ID else False:
+        while self.kinds[self.i] is ID and self.kinds[self.i + 1] is ID:
+            if self.texts[self.i + 1].upper() in ("EXTENDS", "IMPLEMENTS"):
+                break
             word = self.word()
             if word in _ACCESS:
                 access = word
@@ -203,6 +215,8 @@ class Parser(TypeParser):
         while True:
             kind = kinds[self.i]
             if kind == end or kind is END:
+                if self.i in self.trivia and not pou.body:
+                    pou.body += self.statements()  # pragmas alone
                 break
             if kind in SECTIONS:
                 if begun:
@@ -214,7 +228,7 @@ class Parser(TypeParser):
                 break
             elif kind == "STRUCT" or kind == "UNION":
                 hint = "Declare the structure in a TYPE block."
-                self.error("E0114", what=f"A {kind}", where=opener[0], hint=hint)
+                self.error("E0114", what=f"A {kind}", where=f"a {opener[0]}", hint=hint)
                 self.i += 1
                 self.variables(ENDS[kind])
                 self._pass(ENDS[kind])
@@ -278,7 +292,7 @@ class Parser(TypeParser):
                 node.setter = self._accessor("SET")
             elif self.kinds[self.i] in SECTIONS:
                 hint = "Declare it in the GET or SET that uses it."
-                self.error("E0114", what="A variable", where="PROPERTY outside GET and SET", hint=hint)
+                self.error("E0114", what="A variable", where="a PROPERTY outside GET and SET", hint=hint)
                 self.variable_block()
             else:
                 break
@@ -356,7 +370,7 @@ class Parser(TypeParser):
                 break
             else:
                 hint = "An interface has heads of methods and properties only."
-                self.error("E0114", what=self.found(), where="INTERFACE", hint=hint)
+                self.error("E0114", what=self.found(), where="an INTERFACE", hint=hint)
                 kinds = self.kinds
                 while (
                     kinds[self.i] is not END

@@ -7,13 +7,24 @@ from typing import Final
 
 from tappet.lang import ast
 from tappet.lang.lexer import END, ID, INT, NUMBER, STRING
-from tappet.lang.parser_core import BODY_END, COMPOUND, ENDS, MAX_NESTING, STATEMENT_KEYWORDS
+from tappet.lang.parser_core import (
+    BODY_END,
+    COMPOUND,
+    ENDS,
+    MAX_NESTING,
+    OBJECT_HEADS,
+    SECTIONS,
+    STATEMENT_KEYWORDS,
+)
 from tappet.lang.parser_expressions import ExpressionParser
 
 _LABEL_PARTS: Final = frozenset(
     [ID, INT, NUMBER, STRING, ".", ",", "..", "-", "+", "*", "(", ")", "TRUE", "FALSE"]
 )
-_LABEL_HEADS: Final = frozenset([INT, NUMBER, STRING, "-", "+", "TRUE", "FALSE"])
+_LITERAL_HEADS: Final = frozenset([INT, NUMBER, STRING, "-", "+", "TRUE", "FALSE"])
+"""These begin no statement, so in a CASE they begin a label."""
+_OWN_PRAGMAS: Final = OBJECT_HEADS | SECTIONS
+"""What a pragma above it belongs to; it is no statement there."""
 _OPENED_BY: Final = {end: begin for begin, end in ENDS.items()}
 _STATEMENT_ENDS: Final = frozenset(ENDS[word] for word in COMPOUND)
 _BRANCH_OWNERS: Final = {
@@ -48,15 +59,15 @@ class StatementParser(ExpressionParser):
         append = out.append
         while True:
             start = self.i
-            if start in trivia:
+            kind = kinds[start]
+            if start in trivia and kind not in _OWN_PRAGMAS:
                 for pragma in self.pragmas_before(start):
                     append(ast.PragmaStmt(span=pragma.span, pragma=pragma))
-            kind = kinds[start]
             if kind in BODY_END:
                 if self.stray_end(kind):
                     continue
                 return out
-            if in_case and (kind is ID or kind in _LABEL_HEADS) and self.at_case_label():
+            if in_case and (kind in _LITERAL_HEADS or ((kind is ID or kind == "(") and self.at_case_label())):
                 return out
             append(self.statement(start, kind))
 
@@ -108,6 +119,7 @@ class StatementParser(ExpressionParser):
         messages_before = len(self.diagnostics)
         target = self.binary(0)
         operator = self.assignment_operator() if kinds[self.i] == ":=" or kinds[self.i] is ID else None
+        target = self.bounded(target, start)
         if operator is not None:
             value = self.expression()
             if kinds[self.i] == ";":
@@ -115,7 +127,6 @@ class StatementParser(ExpressionParser):
                 return ast.Assign(span=self.span_from(start), op=operator, target=target, value=value)
             result: ast.Stmt = ast.Assign(span=self.span_from(start), op=operator, target=target, value=value)
         else:
-            target = self.bounded(target, start)
             if isinstance(target, ast.Call):
                 result = ast.CallStmt(span=target.span, call=target)
             elif self.i == start:
@@ -244,6 +255,9 @@ class StatementParser(ExpressionParser):
         self.expected(keyword)
         kinds = self.kinds
         i = self.i
+        if kinds[i] is ID and self.lines[i] == self.lines[i - 1] != self.lines[i + 1]:
+            self.i = i + 1  # a misspelt keyword at the end of the line
+            return
         line = self.lines[i]
         while kinds[i] not in BODY_END and kinds[i] != ";" and self.lines[i] == line:
             if kinds[i] == keyword:
@@ -285,7 +299,7 @@ class StatementParser(ExpressionParser):
                 self.error("E0106", found=kind, hint="ELSE is the last branch of a CASE and stands once.")
                 self.i += 1
                 otherwise = (otherwise or []) + self.statements()
-            elif (kind is ID or kind in _LABEL_HEADS) and otherwise is None:
+            elif (kind is ID or kind == "(" or kind in _LITERAL_HEADS) and otherwise is None:
                 branches.append(self.case_branch())
             else:
                 break

@@ -148,9 +148,9 @@ class TypeParser(StatementParser):
                 self.i += 1
             entry.comment = self.comment_of(first, self.i - 1)
             if not more:
-                break
-        if kinds[self.i] == ID and values:
-            self.expected("','", "Separate the values by commas.")
+                if kinds[self.i] is not ID:
+                    break
+                self.expected("','", "Separate the values by commas.")
         self.take(")", hint="Close the list of values with ')'.")
         base = None
         if kinds[self.i] is ID and self.lines[self.i] == self.lines[self.i - 1]:
