@@ -41,8 +41,8 @@ def parser() -> argparse.ArgumentParser:
         "--no-realtime", action="store_true", help="normal priority even where real time is permitted"
     )
     p.add_argument("--all-cpus", action="store_true", help="let tasks run on all processors, not on one")
-    p.add_argument("--stuck-limit", type=float, default=STUCK_LIMIT_S, metavar="S",
-                   help="longest cycle of a task without watchdog, seconds (default: %(default)s)")  # fmt: skip
+    text = "longest cycle, in seconds, of tasks without watchdog (default: %(default)s)"
+    p.add_argument("--stuck-limit", type=float, default=STUCK_LIMIT_S, metavar="S", help=text)
     p.add_argument("--ready-fd", type=int, help=argparse.SUPPRESS)
     return p
 

@@ -97,12 +97,12 @@ class LoadedApplication:
         """
         saved = [(o, self.image.read(o, n)) for o, n in self.package.no_init] if keep_no_init else []
         self.image.write(0, self.package.initial_image)
-        for i, task in enumerate(self.contexts.tasks):
+        for task in self.contexts.tasks:
             task["started"] = 0
             task["eventLast"] = 0
             task["pending"] = 0
             self.contexts.watchdog(task)["overruns"] = 0
-            self.reset_statistics(i)
+            self.contexts.clear_statistics(task)
         self.contexts.application["pFaulted"] = 0
         if self.virtual:
             self.contexts.application["virtualNow"] = 0
@@ -201,9 +201,11 @@ class LoadedApplication:
     def write(self, values: Sequence[PlacedValue]) -> list[tuple[int, int]]:
         """Queue values for the begin of a cycle of the task that owns them; all of one call for one task are
         stored together. Returns tickets for `written`. TaskError when the queue of a task is full."""
-        by_task: dict[int | None, list[PlacedValue]] = {}
         for value in values:
             self._check(value.place)
+        self._simulate_inputs(values)
+        by_task: dict[int | None, list[PlacedValue]] = {}
+        for value in values:
             by_task.setdefault(self.ownership.regular(value.place.offset), []).append(value)
         if len(by_task) > 1 and None not in by_task:
             # one task's cycle is one moment for all of them: the bus cycle task takes the batch
@@ -236,6 +238,36 @@ class LoadedApplication:
     def written(self, tickets: Iterable[tuple[int, int]]) -> bool:
         """Whether the writes behind these tickets have been stored."""
         return all(self.executive.load(self.contexts.queues[t].place("taken")) > n for t, n in tickets)
+
+    # -- I/O ---------------------------------------------------------------------------------------------
+
+    def put_inputs(self, offset: int, data: bytes) -> None:
+        """A driver's input bytes; the bus cycle task takes over either all of them or none."""
+        if offset < 0 or offset + len(data) > self.area("I")[1]:
+            raise ValueError(f"{len(data)} bytes at {offset} lie outside the input area")
+        cell = self.buffers.sequence.address
+        number = self.executive.load(cell)
+        self.executive.store(cell, number + 1)
+        self.buffers.inputs.view()[offset : offset + len(data)] = data
+        self.executive.store(cell, number + 2)
+
+    def outputs(self) -> bytes:
+        """What drivers are to send now."""
+        return bytes(self.buffers.outputs.view()[: self.area("Q")[1]])
+
+    def _simulate_inputs(self, values: Sequence[PlacedValue]) -> None:
+        """Without a driver nothing else fills the inputs: a written input stays."""
+        start, size = self.area("I")
+        for value in values:
+            offset = value.place.offset - start
+            if not 0 <= offset < size:
+                continue
+            data = value.data
+            if value.place.bit is not None:
+                mask = 1 << value.place.bit
+                old = self.buffers.inputs.view()[offset]
+                data = bytes([old | mask if data[0] & 1 else old & ~mask])
+            self.put_inputs(offset, data[: size - offset])
 
     def _check(self, place: Place) -> None:
         self.image.check(place.offset, place.size)

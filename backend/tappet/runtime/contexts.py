@@ -5,12 +5,13 @@ from __future__ import annotations
 import struct
 import time
 from dataclasses import dataclass
+from typing import Any
 
 from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Arena, Block, Record
 from tappet.runtime.faults import RawFault
-from tappet.runtime.posix import WATCHDOG_SIGNAL, libc, read_memory
+from tappet.runtime.posix import WATCHDOG_SIGNAL, libc, read_memory, write_memory
 from tappet.runtime.tasks import KINDS, watchdog_threshold
 from tappet.runtime.threads import TaskStack
 
@@ -60,7 +61,7 @@ class Contexts:
         stacks = [TaskStack()] if virtual else [TaskStack() for _ in range(count)]
         self.service_stack, self.scheduler_stack = TaskStack(), TaskStack()
         self.stacks = stacks
-        self._fill_application(first, count, virtual)
+        self._fill_application(first, count, virtual, package.runtime)
         for i, (spec, task) in enumerate(zip(package.tasks, self.tasks, strict=True)):
             self.fill_task(spec, task, image, stuck_limit_s)
             task["pWrites"] = self.queues[i].address
@@ -71,10 +72,12 @@ class Contexts:
         self.watchdog(self.service)["stuckLimit"] = int(stuck_limit_s * 1e9)
         self.service_stack.describe(self.service)
 
-    def _fill_application(self, first: int, count: int, virtual: bool) -> None:
+    def _fill_application(self, first: int, count: int, virtual: bool, facts: dict[str, Any]) -> None:
+        """`facts` of the package: update_io_in_stop (PLC-02), outputs_in_stop keep|default (PLC-03)."""
         application = self.application
         application["virtual"] = int(virtual)
-        application["ioInStop"] = 1
+        application["ioInStop"] = int(bool(facts.get("update_io_in_stop", True)))
+        application["safeOutputs"] = int(facts.get("outputs_in_stop", "keep") == "default")
         application["startNs"] = 0 if virtual else time.clock_gettime_ns(time.CLOCK_MONOTONIC)
         application["virtualFreewheel"] = VIRTUAL_FREEWHEEL_NS
         application["taskCount"] = count
@@ -106,6 +109,11 @@ class Contexts:
     def statistics(self, task: Record) -> Record:
         """TASK_STATISTICS of a task."""
         return task.part("statistics", self.executive.layouts["TASK_STATISTICS"])
+
+    def clear_statistics(self, task: Record) -> None:
+        """All zero, at once; only while the task does not run."""
+        layout = self.executive.layouts["TASK_STATISTICS"]
+        write_memory(self.statistics(task).address, bytes(layout.size))
 
     def fault(self, task: Record) -> RawFault:
         """Copy of the fault record of a task."""

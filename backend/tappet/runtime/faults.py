@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from elftools.common.exceptions import ELFError
+from elftools.construct import ConstructError
 from elftools.dwarf.die import DIE
 from elftools.elf.elffile import ELFFile
 
@@ -18,6 +19,10 @@ from tappet.runtime.link import CodeSection, LinkedCode, ObjectSymbol, read_symb
 
 ABORTED = 100
 """FAULT_CODE.ABORTED: the runtime itself ended the cycle."""
+_UNREADABLE = (
+    ELFError, ConstructError, struct.error, LookupError, ValueError, AttributeError, AssertionError,
+)  # fmt: skip
+"""What damaged or unusual debug information raises; the report then goes without lines."""
 _GENERATED = "tappet."
 """Functions the compiler adds: the list of a task's programs, initialisation."""
 
@@ -141,7 +146,7 @@ class Locator:
         function = self._function(section, address)
         try:
             return self._debug_frames(section, address, function)
-        except (ELFError, struct.error, KeyError, IndexError, ValueError, AttributeError):
+        except _UNREADABLE:
             return [CallFrame(function, "", 0)]
 
     def _function(self, section: CodeSection, address: int) -> str:

@@ -22,12 +22,13 @@ _numbers = itertools.count(1)
 
 _MEMORY = ["memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp"]
 _DOUBLE = [
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2", "exp10", "expm1",
-    "log", "log2", "log10", "log1p", "pow", "sqrt", "cbrt", "fmod", "fabs", "floor", "ceil", "round", "trunc", "rint",
-    "nearbyint", "lround", "llround", "hypot", "copysign", "fmin", "fmax", "fma", "ldexp", "frexp", "modf",
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
+    "exp10", "expm1", "log", "log2", "log10", "log1p", "pow", "sqrt", "cbrt", "fmod", "fabs", "floor",
+    "ceil", "round", "trunc", "rint", "nearbyint", "lround", "llround", "hypot", "copysign", "fmin",
+    "fmax", "fma", "ldexp", "frexp", "modf",
 ]  # fmt: skip
 C_LIBRARY = frozenset(_MEMORY + _DOUBLE + [f"{name}f" for name in _DOUBLE])
-"""Functions of the C and mathematics library that applications may use; everything else is refused by name."""
+"""Functions of the C and mathematics library that applications may use; all else is refused by name."""
 
 
 class LinkError(RuntimeError):

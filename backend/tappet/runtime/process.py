@@ -156,7 +156,7 @@ class RuntimeProcess:
                 return
 
     async def stop(self) -> None:
-        """End the process properly: it stops the application and saves remanent values; killed if it hangs."""
+        """End the process properly: it stops the application, saves remanent values. Killed if it hangs."""
         self._stopping = True
         process = self._process
         if process is not None and process.returncode is None:

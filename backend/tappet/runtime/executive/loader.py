@@ -21,14 +21,15 @@ FOLDER = Path(__file__).parent
 
 STRUCTURES = (
     "VALUE_ITEM", "VALUE_LIST", "WRITE_QUEUE", "IO_RANGE", "IO_LIST", "MEMORY_RANGE", "RECORDER",
-    "RECORDER_LIST", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD", "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT",
-    "APPLICATION_CONTEXT", "THREAD_ENTRY", "EXECUTIVE_REGISTRY",
+    "RECORDER_LIST", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD", "TASK_STATISTICS", "WATCHDOG_STATE",
+    "TASK_CONTEXT", "APPLICATION_CONTEXT", "THREAD_ENTRY", "EXECUTIVE_REGISTRY",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
 
 ENTRIES = (
     "tappet_task_thread", "tappet_scheduler_thread", "tappet_virtual_thread", "tappet_call_thread",
-    "tappet_signal", "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag", "tappet_load",
+    "tappet_signal", "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag",
+    "tappet_load",
 )  # fmt: skip
 """What Python starts or calls."""
 
@@ -39,9 +40,9 @@ SERVICES = (
 """What compiled applications and libraries may call."""
 
 HOST_FUNCTIONS = (
-    "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self", "pthread_getspecific",
-    "pthread_setspecific", "pthread_sigmask", "sigaltstack", "signal", "prctl", "sem_post", "sem_wait",
-    "abort", "_setjmp", "longjmp", "_longjmp",
+    "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self",
+    "pthread_getspecific", "pthread_setspecific", "pthread_sigmask", "sigaltstack", "signal", "prctl",
+    "sem_post", "sem_wait", "abort", "_setjmp", "longjmp", "_longjmp",
 )  # fmt: skip
 """What the executive itself takes from the C library."""
 
