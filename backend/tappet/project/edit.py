@@ -9,10 +9,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from tappet.project.data import Data
 from tappet.project.declaration_text import rename_header
 from tappet.project.errors import NotPlaceableError
 from tappet.project.model import (
-    Data,
     DeclarationData,
     MethodData,
     PouData,
@@ -62,7 +62,7 @@ def add_object(
         parent_id=parent_id,
         kind=kind,
         name=name,
-        index=len(project.children(parent_id)),
+        index=len(project.siblings(parent_id, kind)),
         data=new_data(kind, name, subkind) if data is None else data,
     )
     grown = _with(project, [added])
@@ -108,9 +108,10 @@ def move_object(project: Project, object_id: str, parent_id: str | None, index: 
             _check_unknown_place(project, item, parent_id)
         check_name(project, item.kind, item.name, parent_id, own=object_id)
         old_parent = item.parent_id
-        moved = changed_object(item, parent_id=parent_id, index=len(project.children(parent_id)))
-        project = _dense(_with(project, [moved]), old_parent)
-    last = len(project.children(parent_id)) - 1
+        end = len(project.siblings(parent_id, item.kind))
+        moved = changed_object(item, parent_id=parent_id, index=end)
+        project = _dense(_with(project, [moved]), old_parent, item.kind)
+    last = len(project.siblings(parent_id, item.kind)) - 1
     return _ordered(project, object_id, last if index is None else index)
 
 
@@ -139,7 +140,7 @@ def copy_object(
         item if name == item.name else _renamed(item, name),
         id=ids[item.id],
         parent_id=parent_id,
-        index=len(project.children(parent_id)),
+        index=len(project.siblings(parent_id, item.kind)),
         revision=0,
     )
     copies = [top]
@@ -157,7 +158,7 @@ def delete_object(project: Project, object_id: str) -> Project:
     item = project.get(object_id)
     gone = {item.id} | {below.id for below in project.walk(item.id)}
     kept = {key: value for key, value in project.objects.items() if key not in gone}
-    return _dense(replace(project, objects=kept), item.parent_id)
+    return _dense(replace(project, objects=kept), item.parent_id, item.kind)
 
 
 def give_content(project: Project, then: ProjectObject) -> Project:
@@ -191,7 +192,7 @@ def restore_objects(
         restored += now
         found.update(item.id for item in now)
         waiting = [item for item in waiting if item.id not in found]
-    end = len(project.children(top.parent_id))
+    end = len(project.siblings(top.parent_id, top.kind))
     restored[0] = changed_object(restored[0], index=end)
     return _ordered(_with(project, restored), top.id, index)
 
@@ -206,14 +207,14 @@ def _in_order(project: Project, siblings: list[ProjectObject]) -> Project:
     return _with(project, moved) if moved else project
 
 
-def _dense(project: Project, parent_id: str | None) -> Project:
-    return _in_order(project, project.children(parent_id))
+def _dense(project: Project, parent_id: str | None, kind: str) -> Project:
+    return _in_order(project, project.siblings(parent_id, kind))
 
 
 def _ordered(project: Project, object_id: str, index: int) -> Project:
     """The project with an object at `index` among its siblings; a number out of range means the end."""
     item = project.get(object_id)
-    siblings = [other for other in project.children(item.parent_id) if other.id != object_id]
+    siblings = [other for other in project.siblings(item.parent_id, item.kind) if other.id != object_id]
     siblings.insert(max(0, index), item)
     return _in_order(project, siblings)
 

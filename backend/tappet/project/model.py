@@ -28,10 +28,12 @@ from pydantic import (
     model_validator,
 )
 
+from tappet.project.data import Data
 from tappet.project.declaration_text import subkind_of
 from tappet.project.durations import duration_ns
 from tappet.project.errors import InvalidDataError, InvalidTimeError, UnknownObjectError
 from tappet.project.naming import name_key
+from tappet.project.scene import Scene
 
 MAX_TEXT = 16 * 1024 * 1024
 """Characters in one text of an object; more is no source but a data file."""
@@ -67,12 +69,6 @@ Line = Annotated[str, Field(max_length=4000), AfterValidator(_clean_text)]
 Duration = Annotated[str, BeforeValidator(_microseconds_as_text), AfterValidator(_clean_time)]
 """A TIME literal (`T#20ms`) or a number of microseconds as text (`300`); TASK-17."""
 Language = Literal["ST"]
-
-
-class Data(BaseModel):
-    """Base of the data of all object kinds: frozen, and nothing unknown is swallowed."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="null")
 
 
 class NoData(Data):
@@ -192,7 +188,7 @@ class UnknownData(BaseModel):
     @classmethod
     def _is_json(cls, value: object) -> object:
         try:
-            json.dumps(value, allow_nan=False).encode()
+            json.dumps(value, allow_nan=False, ensure_ascii=False).encode()
         except (TypeError, ValueError, RecursionError) as error:
             if isinstance(value, UnknownData):
                 return value
@@ -212,7 +208,7 @@ class ObjectHead(BaseModel):
     kind: str = Field(min_length=1, max_length=64, pattern=r"^[a-z][a-z0-9_]*$")
     name: str = Field(min_length=1)
     index: StrictInt = Field(
-        0, ge=0, description="Order among the children of one parent, from 0 without gaps."
+        0, ge=0, description="Order among the children of one parent (roots: of one view), from 0."
     )
     revision: StrictInt = Field(
         0, ge=0, description="Number of the last save in the store; 0 = never stored."
@@ -347,6 +343,13 @@ class LibraryManagerObject(ObjectHead):
     data: LibraryManagerData = LibraryManagerData()
 
 
+class SceneObject(ObjectHead):
+    """A 3D scene of the machine, bound to variables of the application."""
+
+    kind: Literal["scene"] = "scene"
+    data: Scene = Scene()
+
+
 class UnknownObjectKind(ObjectHead):
     """An object of a plug-in that is not installed; shown as such and kept unchanged (CON-03)."""
 
@@ -371,6 +374,7 @@ KIND_CLASSES: Mapping[str, type[ObjectHead]] = MappingProxyType(
         "task_configuration": TaskConfigurationObject,
         "task": TaskObject,
         "library_manager": LibraryManagerObject,
+        "scene": SceneObject,
     }
 )
 """The class of each kind that is installed."""
@@ -398,6 +402,7 @@ ProjectObject = Annotated[
     | Annotated[TaskConfigurationObject, Tag("task_configuration")]
     | Annotated[TaskObject, Tag("task")]
     | Annotated[LibraryManagerObject, Tag("library_manager")]
+    | Annotated[SceneObject, Tag("scene")]
     | Annotated[UnknownObjectKind, Tag("unknown")],
     Discriminator(_tag),
 ]
@@ -438,6 +443,11 @@ def describe(error: ValidationError) -> str:
     return "; ".join(lines)
 
 
+def is_pous_root(parent_id: str | None, kind: str) -> bool:
+    """Whether an object is a root of the POUs view; the roots of the two views are counted apart."""
+    return parent_id is None and kind != "device"
+
+
 @dataclass(frozen=True)
 class Project:
     """A project: its name and its objects by id. A value: `edit` returns changed copies."""
@@ -454,7 +464,14 @@ class Project:
         for item in self.objects.values():
             children.setdefault(item.parent_id, []).append(item)
         for siblings in children.values():
-            siblings.sort(key=lambda item: (item.index, name_key(item.name), item.id))
+            siblings.sort(
+                key=lambda item: (
+                    is_pous_root(item.parent_id, item.kind),
+                    item.index,
+                    name_key(item.name),
+                    item.id,
+                )
+            )
         return children
 
     def get(self, object_id: str) -> ProjectObject:
@@ -467,8 +484,15 @@ class Project:
             ) from None
 
     def children(self, object_id: str | None) -> list[ProjectObject]:
-        """The children of an object in their order; of None the roots of both views."""
+        """The children of an object in their order; of None the roots of both views, devices first."""
         return list(self._children.get(object_id, ()))
+
+    def siblings(self, parent_id: str | None, kind: str) -> list[ProjectObject]:
+        """The objects that one of this kind below `parent_id` is counted among by its index, in their order."""
+        view = is_pous_root(parent_id, kind)
+        return [
+            item for item in self._children.get(parent_id, ()) if is_pous_root(parent_id, item.kind) == view
+        ]
 
     def child(self, object_id: str | None, name: str) -> ProjectObject | None:
         """The child with this name in any case, None when there is none."""

@@ -121,6 +121,7 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 naming="fixed",
                 names=("Library Manager",),
             ),
+            PlacementRule(kind="scene", parents=("application",), proposal="Scene3D"),
         )
     }
 )

@@ -1,7 +1,8 @@
-"""A 3D scene of a machine: elements with properties that are fixed or bound to variables of the application.
+"""A 3D scene of a machine: elements with properties that are fixed or bound to variables.
 
-A scene is data, never code: opening a project runs nothing (DESIGN decision 16). Lengths are in the unit of the
-machine (`unit` metres each, 0.001 for millimetres). `{i}` in a variable or name stands for the index of a repetition.
+A scene is data, never code: opening a project runs nothing (DESIGN decision 16). Lengths are in the unit of
+the machine (`unit` metres each, 0.001 for millimetres). `{i}` in a variable or name stands for the index of a
+repetition.
 """
 
 from __future__ import annotations
@@ -9,16 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from tappet.project.data import Data
 
 Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Linear(_Strict):
+class Linear(Data):
     """offset + factor * variable, in the unit of the scene."""
 
     variable: str = Field(min_length=1)
@@ -26,14 +25,14 @@ class Linear(_Strict):
     offset: float = 0.0
 
 
-class Threshold(_Strict):
+class Threshold(Data):
     """TRUE while the variable is at least as large; BOOL counts as 0 or 1."""
 
     variable: str = Field(min_length=1)
     at_least: float | Literal["{i}"] = 1.0
 
 
-class ColorChoice(_Strict):
+class ColorChoice(Data):
     """One of two colours by a BOOL variable."""
 
     variable: str = Field(min_length=1)
@@ -41,7 +40,7 @@ class ColorChoice(_Strict):
     when_false: Color
 
 
-class Repetition(_Strict):
+class Repetition(Data):
     """The element stands once for each index from `first` to `last`."""
 
     first: int = 1
@@ -51,7 +50,7 @@ class Repetition(_Strict):
 Number = float | Linear
 
 
-class Element(_Strict):
+class Element(Data):
     """One body. `position` is the centre of its bottom face, x along the machine, z up.
 
     `size` is x, y, z for a box, diameter x, diameter y, height for a cylinder or sphere; labels ignore it.
@@ -70,14 +69,14 @@ class Element(_Strict):
     repeat: Repetition | None = None
 
 
-class Camera(_Strict):
+class Camera(Data):
     """Where the view starts, in scene units."""
 
     position: tuple[float, float, float]
     look_at: tuple[float, float, float]
 
 
-class Scene(_Strict):
+class Scene(Data):
     """Elements in the order they are drawn."""
 
     unit: float = Field(default=0.001, gt=0.0)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from tappet.project.data import Data
 from tappet.project.errors import InvalidDataError
 from tappet.project.model import (
     AccessorData,
     ActionData,
-    Data,
     DeclarationData,
     DeviceData,
     LibraryManagerData,
@@ -22,6 +22,7 @@ from tappet.project.model import (
     new_id,
 )
 from tappet.project.placement import RULES
+from tappet.project.scene import Scene
 
 _POU_TEXTS = {
     "program": "PROGRAM {name}\nVAR\nEND_VAR",
@@ -81,6 +82,7 @@ _DEFAULTS: dict[str, type[Data]] = {
     "action": ActionData,
     "accessor": AccessorData,
     "task": TaskData,
+    "scene": Scene,
 }
 _CHILDREN = {
     "device": (("plc_logic", "PLC Logic"),),
