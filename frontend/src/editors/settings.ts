@@ -1,0 +1,56 @@
+/** What the user chose for text editors and online values; kept on the server for the account. */
+import { create } from 'zustand';
+import { loadSetting, saveSetting } from '@/app/preferences';
+import type { NumberFormat } from '@/online/format';
+
+export type DeclarationView = 'text' | 'table';
+
+export interface EditorSettings {
+  /** View in which declarations open (DECL-03). */
+  declarationView: DeclarationView;
+  /** Height of the declaration pane, as part of the editor. */
+  declarationShare: number;
+  /** Number format of inline values and online tables. */
+  numberFormat: NumberFormat;
+  /** Most recently used data type: default of a new row (DECL-24). */
+  lastType: string;
+  /** Ask to declare an unknown name when its line is finished (DECL-60). */
+  autoDeclare: boolean;
+}
+
+const DEFAULTS: EditorSettings = {
+  declarationView: 'text',
+  declarationShare: 0.4,
+  numberFormat: 'dec',
+  lastType: 'BOOL',
+  autoDeclare: true,
+};
+const KEY = 'editors';
+const SAVE_AFTER_MS = 1000;
+
+export const useEditorSettings = create<EditorSettings>(() => DEFAULTS);
+
+let loaded: Promise<void> | null = null;
+let timer: ReturnType<typeof setTimeout> | undefined;
+
+/** Reads the settings once; until then, and when they cannot be read, the defaults hold. */
+export function loadEditorSettings(): Promise<void> {
+  loaded ??= loadSetting<Partial<EditorSettings>>(KEY).then(
+    (stored) => useEditorSettings.setState(sound(stored)),
+    () => undefined,
+  );
+  return loaded;
+}
+
+/** Keeps only what has the right type: settings may come from another version. */
+function sound(stored: Partial<EditorSettings> | null): Partial<EditorSettings> {
+  const known = Object.entries(DEFAULTS) as [keyof EditorSettings, unknown][];
+  const right = known.filter(([key, value]) => typeof stored?.[key] === typeof value);
+  return Object.fromEntries(right.map(([key]) => [key, stored?.[key]])) as Partial<EditorSettings>;
+}
+
+export function setEditorSettings(change: Partial<EditorSettings>): void {
+  useEditorSettings.setState(change);
+  clearTimeout(timer);
+  timer = setTimeout(() => void saveSetting(KEY, useEditorSettings.getState()).catch(() => undefined), SAVE_AFTER_MS);
+}

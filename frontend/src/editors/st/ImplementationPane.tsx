@@ -1,0 +1,39 @@
+import { useCallback, useState } from 'react';
+import type { ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { languageClient } from '@/lsp/session';
+import type { EditorProps } from '@/workbench/editors';
+import type { OpenText } from '../documents/useTextDocument';
+import { useOnlineView } from '../online/useOnlineView';
+import { CodePane, type CodeEditor } from './CodePane';
+import { addPanelEditor, removePanelEditor } from './focus';
+import { useEditingLock } from './useEditingLock';
+
+/** The ST text of the body, with values behind the variables while online. */
+export function ImplementationPane(props: EditorProps & OpenText & { object: ObjectSummary }) {
+  const { panelId, projectId, object, monaco, document } = props;
+  const t = useText();
+  const [editor, setEditor] = useState<CodeEditor | null>(null);
+  const readOnly = useEditingLock(object, editor);
+  const onEditor = useCallback(
+    (made: CodeEditor | null) => {
+      if (made === null) removePanelEditor(panelId, 'implementation');
+      else {
+        addPanelEditor(panelId, 'implementation', made);
+        languageClient(monaco, projectId);
+      }
+      setEditor(made);
+    },
+    [panelId, monaco, projectId],
+  );
+  useOnlineView({ ...props, editor });
+  return (
+    <CodePane
+      monaco={monaco}
+      model={document.models.implementation}
+      label={t('st.implementationOf', { name: object.name })}
+      readOnly={readOnly}
+      onEditor={onEditor}
+    />
+  );
+}

@@ -1,0 +1,48 @@
+/** What the delegated commands do in a text editor. */
+import type { Handlers } from '@/workbench/commands';
+import type { TextDocument } from '../documents/documents';
+import { panelEditor } from './focus';
+
+const ACTIONS: Readonly<Record<string, string>> = {
+  'edit.find': 'actions.find',
+  'edit.replace': 'editor.action.startFindReplaceAction',
+  'edit.selectAll': 'editor.action.selectAll',
+  'edit.cut': 'editor.action.clipboardCutAction',
+  'edit.copy': 'editor.action.clipboardCopyAction',
+  'edit.paste': 'editor.action.clipboardPasteAction',
+  'st.goToDefinition': 'editor.action.revealDefinition',
+  'st.peekReferences': 'editor.action.goToReferences',
+  'st.format': 'editor.action.formatDocument',
+  'st.comment': 'editor.action.commentLine',
+  'st.goToLine': 'editor.action.gotoLine',
+  'st.outline': 'editor.action.quickOutline',
+  'st.suggest': 'editor.action.triggerSuggest',
+  'st.parameters': 'editor.action.triggerParameterHints',
+  'st.nextProblem': 'editor.action.marker.next',
+  'st.previousProblem': 'editor.action.marker.prev',
+};
+
+/** Acts of a panel with Monaco editors: they go to the one that had the focus last. */
+export function textHandlers(panelId: string, document: TextDocument): Handlers {
+  const act = (id: string) => ({
+    run: () => {
+      const editor = panelEditor(panelId);
+      editor?.focus();
+      return editor?.getAction(id)?.run();
+    },
+  });
+  const history = (command: 'undo' | 'redo') => ({
+    run: () => {
+      const editor = panelEditor(panelId);
+      if (editor?.getRawOptions().readOnly === true) return;
+      editor?.focus();
+      editor?.trigger('command', command, null);
+    },
+  });
+  return {
+    ...Object.fromEntries(Object.entries(ACTIONS).map(([command, action]) => [command, act(action)])),
+    'edit.undo': history('undo'),
+    'edit.redo': history('redo'),
+    'file.save': { run: () => document.save() },
+  };
+}

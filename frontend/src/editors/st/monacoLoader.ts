@@ -1,0 +1,22 @@
+/** Monaco is large: it is fetched when the first text editor opens, from our own server, with its texts translated. */
+import type * as api from 'monaco-editor/editor/editor.api';
+import { language } from '@/i18n';
+
+export type Monaco = typeof api;
+
+let loading: Promise<Monaco> | null = null;
+
+async function load(): Promise<Monaco> {
+  // The editor reads its texts while its modules are evaluated, so the language pack comes first.
+  if (language() === 'zh') await import('monaco-editor/nls/lang/zh-cn');
+  const { monaco } = await import('./monaco');
+  return monaco;
+}
+
+export function loadMonaco(): Promise<Monaco> {
+  loading ??= load().catch((error: unknown) => {
+    loading = null;
+    throw error;
+  });
+  return loading;
+}

@@ -1,0 +1,34 @@
+import { useEffect } from 'react';
+import type { Reveal } from '@/workbench/editors';
+import { panelEditor, panelEditorOf } from './focus';
+
+/** Carries out a jump into an editor; the editor may appear a moment later (the table gives way to the text). */
+export function useReveal(panelId: string, reveal: Reveal | null): void {
+  useEffect(() => {
+    if (reveal === null) return;
+    let attempts = 0;
+    let frame = 0;
+    const jump = () => {
+      const editor = reveal.part === undefined ? panelEditor(panelId) : panelEditorOf(panelId, reveal.part);
+      if (editor === null) {
+        if ((attempts += 1) < 30) frame = requestAnimationFrame(jump);
+        return;
+      }
+      if (reveal.line !== undefined) {
+        const line = reveal.line;
+        const column = reveal.column ?? 1;
+        const end = { line: reveal.endLine ?? line, column: reveal.endColumn ?? column };
+        editor.setSelection({
+          startLineNumber: line,
+          startColumn: column,
+          endLineNumber: end.line,
+          endColumn: end.column,
+        });
+        editor.revealLineInCenterIfOutsideViewport(line);
+      }
+      if (reveal.focus) editor.focus();
+    };
+    frame = requestAnimationFrame(jump);
+    return () => cancelAnimationFrame(frame);
+  }, [panelId, reveal]);
+}

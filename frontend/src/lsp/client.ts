@@ -1,0 +1,195 @@
+/**
+ * The language client of the open project: one connection, kept up, and every ST text model on it.
+ *
+ * A thin layer: it mirrors the models to the server and shows what the server publishes. The providers ask through it.
+ */
+import type { CancellationToken, editor, IDisposable } from 'monaco-editor/editor/editor.api';
+import { socketUrl } from '@/api/client';
+import { LANGUAGE_ID } from '@/editors/st/language';
+import type { Monaco } from '@/editors/st/monacoLoader';
+import { fromDiagnostic, parsePartUri, toRange } from './convert';
+import type { Diagnostic, InitializeResult, ServerCapabilities } from './protocol';
+import { RpcConnection, RpcError, type RpcSocket } from './rpc';
+
+const FIRST_PAUSE_MS = 1000;
+const LONGEST_PAUSE_MS = 15_000;
+const INCREMENTAL = 2;
+const MARKERS = 'tappet';
+
+const CLIENT_CAPABILITIES = {
+  general: { positionEncodings: ['utf-16'] },
+  textDocument: {
+    synchronization: { dynamicRegistration: false },
+    completion: {
+      completionItem: { snippetSupport: true, documentationFormat: ['markdown', 'plaintext'], labelDetailsSupport: true },
+    },
+    hover: { contentFormat: ['markdown', 'plaintext'] },
+    signatureHelp: { signatureInformation: { parameterInformation: { labelOffsetSupport: true }, activeParameterSupport: true } },
+    documentSymbol: { hierarchicalDocumentSymbolSupport: true },
+    publishDiagnostics: { relatedInformation: true, dataSupport: true, tagSupport: { valueSet: [1, 2] } },
+    rename: { prepareSupport: true },
+    semanticTokens: {
+      requests: { full: true },
+      tokenTypes: [
+        'namespace', 'type', 'class', 'enum', 'interface', 'struct', 'parameter', 'variable', 'property', 'enumMember',
+        'function', 'method', 'macro', 'keyword', 'comment', 'string', 'number', 'operator',
+      ], // prettier-ignore
+      tokenModifiers: ['declaration', 'readonly', 'static', 'deprecated', 'defaultLibrary'],
+      formats: ['relative'],
+    },
+  },
+};
+
+export class LanguageClient {
+  capabilities: ServerCapabilities = {};
+  private rpc: RpcConnection | null = null;
+  private ready: Promise<RpcConnection> | null = null;
+  private pause = FIRST_PAUSE_MS;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private closed = false;
+  private readonly disposables: IDisposable[] = [];
+  private readonly listeners = new Map<string, IDisposable>();
+  private readonly connectedListeners = new Set<() => void>();
+
+  constructor(
+    private readonly monaco: Monaco,
+    readonly projectId: string,
+  ) {
+    this.disposables.push(
+      monaco.editor.onDidCreateModel((model) => this.watch(model)),
+      monaco.editor.onWillDisposeModel((model) => this.forget(model)),
+    );
+    this.connect();
+    for (const model of monaco.editor.getModels()) this.watch(model);
+  }
+
+  /** Called after each successful connection, when the server's capabilities are known. */
+  onConnected(listener: () => void): () => void {
+    this.connectedListeners.add(listener);
+    return () => this.connectedListeners.delete(listener);
+  }
+
+  /** Null where the server cannot answer now or was told to stop; the editor then shows nothing. */
+  async request<Result>(method: string, params: unknown, token?: CancellationToken): Promise<Result | null> {
+    let subscription: IDisposable | undefined;
+    try {
+      const rpc = await this.ready;
+      if (rpc === null || token?.isCancellationRequested === true) return null;
+      return await rpc.request<Result>(method, params, (cancel) => {
+        subscription = token?.onCancellationRequested(cancel);
+      });
+    } catch (error) {
+      if (error instanceof RpcError) return null;
+      throw error;
+    } finally {
+      subscription?.dispose();
+    }
+  }
+
+  /** As `request`, but a refusal reaches the caller with the server's words (rename). */
+  async demand<Result>(method: string, params: unknown): Promise<Result> {
+    const rpc = await this.ready;
+    if (rpc === null) throw new RpcError(0, 'The language server is not connected');
+    return rpc.request<Result>(method, params);
+  }
+
+  close(): void {
+    this.closed = true;
+    clearTimeout(this.timer);
+    this.disposables.forEach((disposable) => disposable.dispose());
+    this.listeners.forEach((listener) => listener.dispose());
+    this.rpc?.close();
+  }
+
+  private connect(): void {
+    const socket = new WebSocket(socketUrl('/lsp', { project: this.projectId })) as RpcSocket;
+    const rpc = new RpcConnection(socket, () => this.lost());
+    this.rpc = rpc;
+    rpc.on<{ uri: string; diagnostics: Diagnostic[] }>('textDocument/publishDiagnostics', (p) => this.diagnostics(p.uri, p.diagnostics));
+    this.ready = new Promise<RpcConnection>((resolve, reject) => {
+      socket.onopen = () => {
+        this.initialise(rpc).then(() => resolve(rpc), reject);
+      };
+    });
+    this.ready.catch(() => undefined);
+  }
+
+  private async initialise(rpc: RpcConnection): Promise<void> {
+    const result = await rpc.request<InitializeResult>('initialize', {
+      processId: null,
+      clientInfo: { name: 'Tappet' },
+      rootUri: `tappet:/${this.projectId}`,
+      capabilities: CLIENT_CAPABILITIES,
+    });
+    this.capabilities = result.capabilities;
+    this.pause = FIRST_PAUSE_MS;
+    rpc.notify('initialized', {});
+    for (const model of this.models()) this.open(rpc, model);
+    this.connectedListeners.forEach((listener) => listener());
+  }
+
+  private lost(): void {
+    this.rpc = null;
+    this.ready = null;
+    if (this.closed) return;
+    this.timer = setTimeout(() => this.connect(), this.pause);
+    this.pause = Math.min(this.pause * 2, LONGEST_PAUSE_MS);
+  }
+
+  private mine(model: editor.ITextModel): boolean {
+    return model.getLanguageId() === LANGUAGE_ID && parsePartUri(model.uri.toString())?.projectId === this.projectId;
+  }
+
+  private models(): editor.ITextModel[] {
+    return this.monaco.editor.getModels().filter((model) => this.mine(model));
+  }
+
+  private watch(model: editor.ITextModel): void {
+    if (!this.mine(model)) return;
+    const uri = model.uri.toString();
+    if (this.listeners.has(uri)) return;
+    this.listeners.set(uri, model.onDidChangeContent((event) => this.changed(model, event)));
+    void this.ready?.then((rpc) => {
+      if (!model.isDisposed()) this.open(rpc, model);
+    }, () => undefined);
+  }
+
+  private readonly opened = new WeakMap<RpcConnection, Set<string>>();
+
+  private open(rpc: RpcConnection, model: editor.ITextModel): void {
+    const uri = model.uri.toString();
+    const known = this.opened.get(rpc) ?? new Set<string>();
+    this.opened.set(rpc, known);
+    if (known.has(uri)) return;
+    known.add(uri);
+    rpc.notify('textDocument/didOpen', {
+      textDocument: { uri, languageId: LANGUAGE_ID, version: model.getVersionId(), text: model.getValue() },
+    });
+  }
+
+  private changed(model: editor.ITextModel, event: editor.IModelContentChangedEvent): void {
+    const uri = model.uri.toString();
+    if (this.rpc === null || this.opened.get(this.rpc)?.has(uri) !== true) return;
+    const sync = this.capabilities.textDocumentSync;
+    const incremental = (typeof sync === 'object' ? sync.change : sync) === INCREMENTAL && !event.isFlush;
+    this.rpc.notify('textDocument/didChange', {
+      textDocument: { uri, version: event.versionId },
+      contentChanges: incremental
+        ? event.changes.map((change) => ({ range: toRange(change.range), text: change.text }))
+        : [{ text: model.getValue() }],
+    });
+  }
+
+  private forget(model: editor.ITextModel): void {
+    const uri = model.uri.toString();
+    this.listeners.get(uri)?.dispose();
+    if (!this.listeners.delete(uri) || this.rpc === null) return;
+    this.opened.get(this.rpc)?.delete(uri);
+    this.rpc.notify('textDocument/didClose', { textDocument: { uri } });
+  }
+
+  private diagnostics(uri: string, diagnostics: readonly Diagnostic[]): void {
+    const model = this.monaco.editor.getModel(this.monaco.Uri.parse(uri));
+    if (model !== null) this.monaco.editor.setModelMarkers(model, MARKERS, diagnostics.map(fromDiagnostic));
+  }
+}

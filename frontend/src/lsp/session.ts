@@ -1,0 +1,91 @@
+/** The language client of the open project: started with the first text editor, changed with the project. */
+import type { IDisposable } from 'monaco-editor/editor/editor.api';
+import { keys, queryClient } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
+import { openDocument, type TextDocument } from '@/editors/documents/documents';
+import type { Monaco } from '@/editors/st/monacoLoader';
+import { openObject } from '@/workbench/docking/dock';
+import { LanguageClient } from './client';
+import { parsePartUri } from './convert';
+import { registerProviders } from './providers';
+
+let client: LanguageClient | null = null;
+let providers: IDisposable[] = [];
+let opener: IDisposable | null = null;
+
+/** Texts opened only so that a peek view can show them; held until the project changes. */
+const peeked = new Map<string, TextDocument>();
+const MOST_PEEKED = 60;
+
+function nameOf(projectId: string, objectId: string): string {
+  const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId));
+  return objects?.find((object) => object.id === objectId)?.name ?? '';
+}
+
+/** The client for `projectId`, made when there is none yet. */
+export function languageClient(monaco: Monaco, projectId: string): LanguageClient {
+  if (client?.projectId === projectId) return client;
+  closeLanguageClient();
+  const made = new LanguageClient(monaco, projectId);
+  client = made;
+  const source = (uris: readonly string[]) => provideModels(monaco, uris);
+  providers = registerProviders(monaco, made, source);
+  made.onConnected(() => {
+    providers.forEach((provider) => provider.dispose());
+    providers = registerProviders(monaco, made, source);
+  });
+  opener ??= monaco.editor.registerEditorOpener({
+    openCodeEditor: (_editor, resource, selection) => {
+      const address = parsePartUri(resource.toString());
+      if (address === null) return false;
+      const start = selection === undefined ? undefined : 'lineNumber' in selection ? selection : null;
+      const place =
+        start === undefined
+          ? { line: 1, column: 1 }
+          : start !== null
+            ? { line: start.lineNumber, column: start.column }
+            : rangeStart(selection);
+      openObject(address.objectId, nameOf(address.projectId, address.objectId), {
+        place: { part: address.part, ...place },
+      });
+      return true;
+    },
+  });
+  return made;
+}
+
+function rangeStart(selection: unknown): { line: number; column: number } {
+  const range = selection as { startLineNumber: number; startColumn: number };
+  return { line: range.startLineNumber, column: range.startColumn };
+}
+
+/** The client of the open project, if a text editor has been shown yet. */
+export function activeLanguageClient(): LanguageClient | null {
+  return client;
+}
+
+async function provideModels(monaco: Monaco, uris: readonly string[]): Promise<void> {
+  await Promise.all(
+    uris.map(async (uri) => {
+      const address = parsePartUri(uri);
+      if (address === null || monaco.editor.getModel(monaco.Uri.parse(uri)) !== null) return;
+      const document = await openDocument(monaco, address.projectId, address.objectId);
+      if (peeked.has(address.objectId)) document.release();
+      else peeked.set(address.objectId, document);
+    }),
+  );
+  while (peeked.size > MOST_PEEKED) {
+    const [oldest, document] = peeked.entries().next().value as [string, TextDocument];
+    peeked.delete(oldest);
+    document.release();
+  }
+}
+
+export function closeLanguageClient(): void {
+  providers.forEach((provider) => provider.dispose());
+  providers = [];
+  client?.close();
+  client = null;
+  peeked.forEach((document) => document.release());
+  peeked.clear();
+}
