@@ -98,8 +98,9 @@ class PouSymbol(Symbol):
     result: VarSymbol | None = None
     """The variable that holds the return value (storage RESULT)."""
     vtable: dict[str, PouSymbol] = field(default_factory=dict)
-    """Function blocks: what a virtual call by upper-case name reaches (methods, actions, `__GETX`, `__SETX`,
-    inherited ones first), in slot order; a derived block keeps the slots of its base."""
+    """Function blocks: what a virtual call by upper-case name reaches, in slot order: `__BODY` (the block itself),
+    methods, actions, `__GETX`, `__SETX`; inherited ones first, a derived block keeps the slots of its base.
+    Empty when nothing of the block is virtual; then its instances have no `__VFTABLE`."""
 
 
 @dataclass(eq=False, slots=True)

@@ -325,7 +325,11 @@ class Declarations:
             return None
         if open_dims:
             return t.Array(element, (), len(ref.bounds))
-        return t.Array(element, tuple(bounds))
+        array = t.Array(element, tuple(bounds))
+        if array.count > layout.SIZE_LIMIT:
+            body.report("E0413", ref.span, type=array, size=array.count, limit=layout.SIZE_LIMIT)
+            return None
+        return array
 
     def _pointer(self, body: Body, ref: ast.PointerType, name: str) -> Type | None:
         base = self.type_of(body, ref.base, name, below_pointer=True)

@@ -137,6 +137,8 @@ class Analysis:
     interfaces: dict[str, InterfaceSymbol] = field(default_factory=dict)
     configured: list[ConfiguredAddress] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    called: set[int] = field(default_factory=set)
+    """id() of every POU that code calls, instantiates or takes the address of."""
 
     @property
     def ok(self) -> bool:

@@ -52,6 +52,7 @@ def analyse(units: Sequence[ast.Unit], options: AnalysisOptions | None = None) -
     for pou, _ in found.pous:
         _bodies(pou, declarations)
     program.check(session, found, declarations)
+    analysis.called = session.called
     _sort(session, units)
     return analysis
 

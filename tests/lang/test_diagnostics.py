@@ -1,0 +1,88 @@
+"""The one table of messages: complete, used, and shown in the manual."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from string import Formatter
+
+import pytest
+
+from tappet.lang import diagnostic_pages
+from tappet.lang.diagnostics import TABLE, Related, report
+from tappet.lang.rules import RULES
+from tappet.lang.source import Span
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "backend" / "tappet"
+
+
+def _used_codes() -> set[str]:
+    text = "".join(path.read_text(encoding="utf-8") for path in PACKAGE.rglob("*.py"))
+    return set(re.findall(r'"([EW]\d{4})"', text))
+
+
+def test_every_code_is_used_and_every_used_code_is_in_the_table() -> None:
+    used = _used_codes()
+    assert set(TABLE) - used == set()
+    assert {code for code in used if code[1] in "01"} - set(TABLE) == set()
+
+
+@pytest.mark.parametrize("entry", TABLE.values(), ids=lambda entry: entry.code)
+def test_entry_is_well_formed(entry: object) -> None:
+    assert re.fullmatch(r"[EW]\d{4}", entry.code)
+    assert re.fullmatch(r"[a-z0-9_]+", entry.name)
+    assert (entry.severity == "error") == (entry.code[0] == "E")
+    assert entry.alias == "" or re.fullmatch(r"C\d{4}", entry.alias)
+    assert entry.message and not entry.message.endswith(".")
+    for template in (entry.message, entry.advice):
+        assert all(name is None or name.isidentifier() for _, name, _, _ in Formatter().parse(template))
+
+
+def test_names_are_unique() -> None:
+    names = [entry.name for entry in TABLE.values()]
+    assert len(names) == len(set(names))
+
+
+def test_report_fills_the_templates() -> None:
+    made = report(
+        "E0301",
+        "PLC_PRG",
+        Span(11, 8, 11, 9),
+        [Related("declared here", "GVL", Span(0, 0, 0, 1))],
+        source="INT",
+        target="BYTE",
+        hint="Use INT_TO_BYTE(...).",
+    )
+    assert str(made) == (
+        "PLC_PRG:12:9: error E0301: Cannot convert type 'INT' to type 'BYTE'. Use INT_TO_BYTE(...)."
+    )
+    assert (made.alias, made.name, made.related[0].uri) == ("C0032", "cannot_convert", "GVL")
+
+
+def test_report_with_a_missing_field_is_a_fault_of_the_caller() -> None:
+    with pytest.raises(KeyError):
+        report("E0301", "PLC_PRG", Span(0, 0, 0, 0), source="INT")
+
+
+def test_text_of_the_user_is_never_a_template() -> None:
+    made = report("E0201", "P", Span(0, 0, 0, 1), name="{0.__class__}", hint="{x}")
+    assert made.message == "Identifier '{0.__class__}' not defined"
+    assert made.advice == "{x}"
+
+
+def test_codes_of_rules_are_in_the_table() -> None:
+    assert {code for rule in RULES for code in rule.CODES} <= set(TABLE)
+
+
+def test_manual_pages_are_current() -> None:
+    directory = ROOT / "docs" / "diagnostics"
+    stored = {path.name: path.read_text(encoding="utf-8") for path in directory.glob("*.md")}
+    assert stored == diagnostic_pages.pages(), "run: python -m tappet.lang.diagnostic_pages"
+
+
+def test_writing_pages_removes_those_of_unknown_codes(tmp_path: Path) -> None:
+    (tmp_path / "E9999.md").write_text("old")
+    diagnostic_pages.write(tmp_path)
+    assert not (tmp_path / "E9999.md").exists()
+    assert (tmp_path / "W1104.md").read_text().startswith("# W1104: case covers enum")
