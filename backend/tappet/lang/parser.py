@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.lexer import lex
+from tappet.lang.lexer import Lexed, lex
 from tappet.lang.parser_declarations import Parser
-from tappet.lang.source import Source
+from tappet.lang.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,16 +22,25 @@ class ParseResult:
 
     unit: ast.Unit
     diagnostics: list[Diagnostic]
+    inactive: tuple[Span, ...] = ()
+    """Places that conditional pragmas leave out (see `conditional`)."""
 
 
 def parse(source: Source) -> ParseResult:
-    """Parse a whole text. Time grows linearly with its length."""
-    lexed = lex(source.text, source.uri)
+    """Parse a whole text. Conditional pragmas stay in the tree; `conditional.parse_sources` decides them.
+
+    Time grows linearly with the length of the text.
+    """
+    return parse_tokens(source, lex(source.text, source.uri))
+
+
+def parse_tokens(source: Source, lexed: Lexed, inactive: tuple[Span, ...] = ()) -> ParseResult:
+    """Parse the tokens of a text, or what conditional pragmas leave of them."""
     parser = Parser(source, lexed)
     unit = parser.unit()
     found = lexed.diagnostics + parser.diagnostics
     found.sort(key=_place)
-    return ParseResult(unit, found)
+    return ParseResult(unit, found, inactive)
 
 
 def parse_expression(text: str, uri: str = "") -> tuple[ast.Expr, list[Diagnostic]]:
