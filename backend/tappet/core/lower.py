@@ -170,6 +170,9 @@ def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
 def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
     function = ir.Function(task.symbol, exported=True, uri="", inline="never")
     program.taken.add(task.symbol)
+    for item in program.analysis.configured:
+        end = item.address + max(item.type.size, 1)
+        program.area_use[item.area] = max(program.area_use.get(item.area, 0), end)
     configured = [c for c in program.analysis.configured if _task_of(c, tasks) is task]
     for item in configured:
         if item.area == "I":

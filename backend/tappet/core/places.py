@@ -50,6 +50,7 @@ def slot_of(b: Body, variable: VarSymbol) -> ir.Place:
     elif storage in (Storage.GLOBAL, Storage.PROGRAM):
         return ir.Place(ir.Data(b.program.home(variable)), variable.offset, root=variable.offset)
     elif storage is Storage.DIRECT:
+        b.program.use_area(variable)
         return ir.Place(ir.Data(AREA_PREFIX + (variable.area or "M")), variable.offset)
     raise b.error(f"'{variable.name}' has no place here", ast.Node(span=variable.span or ast.Node().span))
 
@@ -201,9 +202,8 @@ def dereference(b: Body, pointer: ast.Expr, target: t.Type) -> ir.Place:
         return address.place
     check = b.check_function("CheckPointer")
     if check is not None:
-        args: list[ir.Expr] = [
-            address, ir.Const(ir.I32, target.size), ir.Const(ir.I32, _granularity(target)), ir.Const(ir.BOOL, 0),
-        ]  # fmt: skip
+        size, granularity = ir.Const(ir.I32, target.size), ir.Const(ir.I32, _granularity(target))
+        args: list[ir.Expr] = [address, size, granularity, ir.Const(ir.BOOL, 0)]
         address = check_call(b, check, args)
     return ir.Place(ir.Indirect(convert(address, ir.PTR)))
 

@@ -10,7 +10,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.source import Scope
-from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
+from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
 DATA_PREFIX = "tappet.data."
 AREA_PREFIX = "tappet.area."
@@ -57,6 +57,8 @@ class Program:
     """Dispatch operations whose slot number is known at the end, with the method's upper-case name."""
     implementations: dict[str, dict[int, PouSymbol]] = field(default_factory=dict)
     """What a virtual call of a name can reach, over all function blocks."""
+    area_use: dict[str, int] = field(default_factory=dict)
+    """Bytes of the areas I, Q, M that variables and direct addresses reach to."""
     library: dict[str, PouSymbol] = field(default_factory=dict)
     """Functions of the conversion library by upper-case name."""
     queried: dict[str, t.Interface] = field(default_factory=dict)
@@ -72,6 +74,7 @@ class Program:
             symbol = data_symbol(gvl)
             for member in gvl.members.values():
                 self.homes[id(member)] = symbol
+                self.use_area(member)
         for pou in self.analysis.pous:
             if pou.kind == "PROGRAM":
                 self._claim(pou)
@@ -82,6 +85,13 @@ class Program:
         symbol = data_symbol(pou)
         for variable in pou.locals.values():
             self.homes.setdefault(id(variable), symbol)
+            self.use_area(variable)
+
+    def use_area(self, variable: VarSymbol) -> None:
+        """Note how far a variable at an address reaches into its area."""
+        if variable.storage is Storage.DIRECT and variable.area is not None and variable.type is not None:
+            end = variable.offset + max(variable.type.size, 1)
+            self.area_use[variable.area] = max(self.area_use.get(variable.area, 0), end)
 
     def home(self, variable: VarSymbol) -> str:
         """Data symbol of a variable of a list or program."""

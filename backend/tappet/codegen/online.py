@@ -1,0 +1,144 @@
+"""Plans an online change: which bytes move from the running image, which start anew."""
+
+from __future__ import annotations
+
+from tappet.codegen.layout import Layout
+from tappet.codegen.package import CodePackage, OnlineChange
+from tappet.codegen.symbol_map import SymbolMap, TypeInfo
+
+
+def plan_online_change(old: CodePackage, new: CodePackage, placed: Layout) -> OnlineChange:
+    """Moves and initialised ranges of the data objects that are new or changed."""
+    plan = _Plan(old.symbols, new.symbols)
+    for symbol, place in new.data_objects.items():
+        if symbol in placed.kept:
+            continue
+        before = old.data_objects.get(symbol)
+        name = symbol.rpartition("tappet.data.")[2]
+        if symbol.startswith("tappet.area."):
+            size = min(before.size, place.size) if before else 0
+            if before is not None:
+                plan.moves.append((before.offset, place.offset, size))
+            plan.reasons.append(f"area %{symbol[-1]} has {place.size} bytes")
+            continue
+        old_root, new_root = old.symbols.roots.get(name), new.symbols.roots.get(name)
+        if before is None or old_root is None or new_root is None:
+            plan.reasons.append(f"{name} is new")
+            plan.fresh.append((place.offset, place.size))
+            continue
+        plan.reasons.append(f"declaration of {name} changed")
+        plan.fresh.append((place.offset, place.size))
+        plan.members(
+            plan.old.types[old_root.type], old_root.offset, plan.new.types[new_root.type], new_root.offset
+        )
+    for symbol in old.data_objects:
+        if symbol not in new.data_objects:
+            plan.reasons.append(f"{symbol.rpartition('tappet.data.')[2]} was removed")
+    return OnlineChange(
+        old.code_id, old.data_id, tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)
+    )
+
+
+class _Plan:
+    """Matches old and new variables by path and type."""
+
+    def __init__(self, old: SymbolMap, new: SymbolMap) -> None:
+        self.old = old
+        self.new = new
+        self.moves: list[tuple[int, int, int]] = []
+        self.fresh: list[tuple[int, int]] = []
+        self.reasons: list[str] = []
+        self.same: dict[tuple[int, int], bool] = {}
+
+    def members(self, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int) -> None:
+        """Move the members that both types have."""
+        known = {m.name.upper(): m for m in old.members}
+        for member in new.members:
+            before = known.get(member.name.upper())
+            if before is None or member.absolute or before.absolute or before.bit != member.bit:
+                continue
+            if member.name.upper() == "__VFTABLE" or member.bit is not None:
+                continue
+            self.value(before.type, old_at + before.offset, member.type, new_at + member.offset)
+
+    def value(self, old_type: int, old_at: int, new_type: int, new_at: int) -> None:
+        """Move a value, as a whole when its type is the same, else part by part."""
+        old, new = self.old.types[old_type], self.new.types[new_type]
+        if self.equal(old_type, new_type):
+            self.move(old_at, new_at, new.size)
+        elif old.kind == new.kind and new.members:
+            self.members(old, old_at, new, new_at)
+        elif old.kind == new.kind == "array":
+            self.elements(old, old_at, new, new_at)
+        elif old.kind == new.kind and new.kind in ("string", "wstring"):
+            # one unit stays free, so that a shortened text ends in a zero
+            unit = 2 if new.kind == "wstring" else 1
+            self.move(old_at, new_at, min(old.size, new.size - unit))
+
+    def elements(self, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int) -> None:
+        """Move the elements whose indices both arrays have, one dimension only."""
+        if len(old.bounds) != 1 or len(new.bounds) != 1 or old.elem is None or new.elem is None:
+            return
+        (old_low, old_high), (new_low, new_high) = old.bounds[0], new.bounds[0]
+        old_size, new_size = self.old.types[old.elem].size, self.new.types[new.elem].size
+        for index in range(max(old_low, new_low), min(old_high, new_high) + 1):
+            self.value(
+                old.elem,
+                old_at + (index - old_low) * old_size,
+                new.elem,
+                new_at + (index - new_low) * new_size,
+            )
+
+    def move(self, old_at: int, new_at: int, size: int) -> None:
+        """Note a move, joined to the one before it where they touch."""
+        if size <= 0:
+            return
+        if self.moves:
+            last_old, last_new, last_size = self.moves[-1]
+            if last_old + last_size == old_at and last_new + last_size == new_at:
+                self.moves[-1] = (last_old, last_new, last_size + size)
+                return
+        self.moves.append((old_at, new_at, size))
+
+    def equal(self, old_type: int, new_type: int) -> bool:
+        """Whether two types lay out and mean the same."""
+        key = (old_type, new_type)
+        known = self.same.get(key)
+        if known is None:
+            self.same[key] = True  # a recursive mention, through pointers
+            known = self.same[key] = self._equal(self.old.types[old_type], self.new.types[new_type])
+        return known
+
+    def _equal(self, old: TypeInfo, new: TypeInfo) -> bool:
+        if (old.kind, old.size, old.bounds, old.length) != (new.kind, new.size, new.bounds, new.length):
+            return False
+        if old.kind in ("pointer", "reference", "interface"):
+            return old.name == new.name
+        if old.elem is not None and new.elem is not None and not self.equal(old.elem, new.elem):
+            return False
+        if len(old.members) != len(new.members):
+            return False
+        if old.kind == "fb" and old.name != new.name:
+            return False
+        return all(
+            a.name.upper() == b.name.upper()
+            and (a.offset, a.bit, a.absolute) == (b.offset, b.bit, b.absolute)
+            and self.equal(a.type, b.type)
+            for a, b in zip(old.members, new.members, strict=True)
+        )
+
+    def uncovered(self) -> list[tuple[int, int]]:
+        """The fresh ranges without what moves fill."""
+        filled = sorted((target, target + size) for _, target, size in self.moves)
+        result: list[tuple[int, int]] = []
+        for start, length in sorted(self.fresh):
+            at, end = start, start + length
+            for low, high in filled:
+                if high <= at or low >= end:
+                    continue
+                if low > at:
+                    result.append((at, low - at))
+                at = max(at, high)
+            if at < end:
+                result.append((at, end - at))
+        return result

@@ -1,0 +1,266 @@
+"""Builds the symbol map, and the lists of remanent variables, from a checked program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from tappet.codegen.layout import Signatures
+from tappet.codegen.package import DataObject, RemanentRange
+from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
+from tappet.core.initial import VFTABLE
+from tappet.core.lower import DataObject as ProgramData
+from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
+from tappet.lang.types import Kind
+
+_KINDS = {
+    "BOOL": "bool", "TIME": "time", "LTIME": "ltime", "DATE": "date", "TIME_OF_DAY": "tod",
+    "DATE_AND_TIME": "dt", "LDATE": "ldate", "LTIME_OF_DAY": "ltod", "LDATE_AND_TIME": "ldt",
+}  # fmt: skip
+_FAMILIES = {Kind.BITS: "bits", Kind.SIGNED: "int", Kind.UNSIGNED: "uint", Kind.REAL: "real"}
+
+
+def elementary_kind(type_: t.Elementary) -> str:
+    """Kind of a simple type in the symbol map."""
+    return _KINDS.get(type_.name) or _FAMILIES[type_.kind]
+
+
+class TypeTable:
+    """Numbers types and describes them."""
+
+    def __init__(self) -> None:
+        self.types: list[TypeInfo] = []
+        self.numbers: dict[object, int] = {}
+        self.keep: list[t.Type] = []
+
+    def number(self, type_: t.Type) -> int:
+        """Index of a type in the table."""
+        named = isinstance(type_, t.Struct | t.FunctionBlock | t.Enum | t.Interface)
+        key: object = id(type_) if named else (type_.__class__.__name__, self._value_key(type_))
+        number = self.numbers.get(key)
+        if number is None:
+            number = self.numbers[key] = len(self.types)
+            self.keep.append(type_)
+            self.types.append(TypeInfo(str(type_), "bits", type_.size))
+            self.types[number] = self._describe(type_)
+        return number
+
+    def _value_key(self, type_: t.Type) -> object:
+        if isinstance(type_, t.Array):
+            return (type_.bounds, type_.open_dims, self.number(type_.element))
+        if isinstance(type_, t.Pointer | t.Reference):
+            return (
+                "" if type_.base is None else (type_.base.__class__.__name__, id(type_.base), str(type_.base))
+            )
+        if isinstance(type_, t.Subrange):
+            return (type_.base.name, type_.low, type_.high, type_.name)
+        return str(type_) if not isinstance(type_, t.String) else (type_.length, type_.wide)
+
+    def _describe(self, type_: t.Type) -> TypeInfo:
+        name = str(type_)
+        if isinstance(type_, t.Elementary):
+            return TypeInfo(name, elementary_kind(type_), type_.size)
+        if isinstance(type_, t.String):
+            return TypeInfo(name, "wstring" if type_.wide else "string", type_.size, length=type_.length)
+        if isinstance(type_, t.Array):
+            return TypeInfo(name, "array", type_.size, elem=self.number(type_.element), bounds=type_.bounds)
+        if isinstance(type_, t.Enum):
+            base = elementary_kind(type_.base)
+            return TypeInfo(name, "enum", type_.size, values=tuple(type_.values.items()), base=base)
+        if isinstance(type_, t.Subrange):
+            kind = elementary_kind(type_.base)
+            return TypeInfo(name, kind, type_.size, range=(type_.low, type_.high))
+        if isinstance(type_, t.Pointer | t.Reference):
+            kind = "pointer" if isinstance(type_, t.Pointer) else "reference"
+            return TypeInfo(name, kind, type_.size, elem=self._target(type_.base))
+        if isinstance(type_, t.Interface):
+            return TypeInfo(name, "interface", type_.size)
+        return self._composite(type_)
+
+    def _target(self, base: t.Type | None) -> int | None:
+        if base is None or (isinstance(base, t.Array) and base.open_dims):
+            return None
+        return self.number(base)
+
+    def _composite(self, type_: t.Struct | t.FunctionBlock) -> TypeInfo:
+        if isinstance(type_, t.Struct):
+            kind = "union" if type_.union else "struct"
+        else:
+            kind = "program" if type_.program else "fb"
+        members = tuple(self.member(m) for m in type_.members.values())
+        return TypeInfo(str(type_), kind, type_.size, members=members)
+
+    def member(self, m: t.Member) -> MemberInfo:
+        """Description of a stored member; VAR_IN_OUT is the pointer it is stored as."""
+        type_ = t.Pointer(m.type) if m.section == "VAR_IN_OUT" else m.type
+        flags = set(m.flags)
+        if m.name.upper() == VFTABLE or hidden(m.decl):
+            flags.add("HIDDEN")
+        return MemberInfo(m.name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
+
+
+def hidden(decl: ast.VarDecl | None) -> bool:
+    """Whether a variable has the attribute hide."""
+    return decl is not None and attribute_value(decl.attributes, "hide") is not None
+
+
+def build_symbol_map(
+    data: list[ProgramData], objects: Mapping[str, DataObject], byte_addressing: bool
+) -> SymbolMap:
+    """Symbol map of placed data objects."""
+    table = TypeTable()
+    symbols = SymbolMap(table.types, byte_addressing=byte_addressing)
+    for area in "IQM":
+        place = objects.get(AREA_PREFIX + area)
+        if place is not None:
+            symbols.areas[area] = (place.offset, place.size)
+    for item in data:
+        name = item.symbol.removeprefix(DATA_PREFIX)
+        shown = item.owner.name if "." not in name else f"{name.rpartition('.')[0].title()}.{item.owner.name}"
+        offset = objects[item.symbol].offset
+        extra = tuple(_addressed(table, item.owner, symbols.areas))
+        if isinstance(item.owner, PouSymbol):
+            assert item.owner.instance is not None
+            number = table.number(item.owner.instance)
+            if extra:
+                info = table.types[number]
+                table.types[number] = TypeInfo(
+                    info.name, info.kind, info.size, members=(*info.members, *extra)
+                )
+            symbols.roots[name] = Root(shown, "program", offset, number)
+            continue
+        members = (*_list_members(table, item.owner), *extra)
+        table.types.append(TypeInfo(item.owner.name, "gvl", item.size, members=members))
+        symbols.roots[name] = Root(shown, "gvl", offset, len(table.types) - 1)
+        if not item.owner.qualified_only and not name.startswith("__") and "." not in name:
+            for member in members:
+                key = member.name.upper()
+                symbols.globals[key] = "" if key in symbols.globals else name
+    return symbols
+
+
+def _list_members(table: TypeTable, gvl: GvlSymbol) -> Iterator[MemberInfo]:
+    for member in gvl.members.values():
+        if _home(member) is Storage.GLOBAL and member.type is not None:
+            flags = set(member.flags) | ({"HIDDEN"} if hidden(member.decl) else set())
+            text = " ".join(sorted(flags))
+            number = table.number(member.type)
+            yield MemberInfo(member.name, number, member.offset, member.section, text, member.bit)
+
+
+def _home(variable: VarSymbol) -> Storage:
+    return variable.home if variable.storage is Storage.CONSTANT else variable.storage
+
+
+def _addressed(
+    table: TypeTable, owner: GvlSymbol | PouSymbol, areas: Mapping[str, tuple[int, int]]
+) -> Iterator[MemberInfo]:
+    """Variables AT an address: members with an absolute offset."""
+    variables = owner.members if isinstance(owner, GvlSymbol) else owner.locals
+    for variable in variables.values():
+        area = areas.get(variable.area or "")
+        if variable.storage is Storage.DIRECT and variable.type is not None and area is not None:
+            offset = area[0] + variable.offset
+            flags = " ".join(sorted(variable.flags))
+            number = table.number(variable.type)
+            yield MemberInfo(variable.name, number, offset, variable.section, flags, variable.bit, True)
+
+
+# -- remanence --------------------------------------------------------------------------------------
+
+
+@dataclass(slots=True)
+class Remanence:
+    """Variables that outlive resets."""
+
+    retain: list[RemanentRange]
+    persistent: list[RemanentRange]
+    no_init: list[tuple[int, int]]
+
+
+def remanent_variables(data: list[ProgramData], objects: Mapping[str, DataObject]) -> Remanence:
+    """RETAIN and PERSISTENT variables over nested instances, by path (LDEC-70..LDEC-76)."""
+    found = Remanence([], [], [])
+    signatures = Signatures()
+    walk = _RemanentWalk(found, signatures)
+    for item in data:
+        base = objects[item.symbol].offset
+        if isinstance(item.owner, GvlSymbol):
+            for variable in item.owner.members.values():
+                if variable.storage is Storage.GLOBAL and variable.type is not None:
+                    path = f"{item.owner.name}.{variable.name}"
+                    offset = base + variable.offset
+                    walk.variable(path, offset, variable.type, variable.flags, variable.decl)
+        elif item.owner.instance is not None:
+            walk.members(item.owner.name, base, item.owner.instance)
+    return found
+
+
+class _RemanentWalk:
+    """Descends into instances that are not remanent as a whole."""
+
+    def __init__(self, found: Remanence, signatures: Signatures) -> None:
+        self.found = found
+        self.signatures = signatures
+        self.interesting: dict[int, bool] = {}
+
+    def members(self, path: str, offset: int, type_: t.FunctionBlock | t.Struct) -> None:
+        for member in type_.members.values():
+            if member.section == "VAR_IN_OUT":
+                continue
+            self.variable(
+                f"{path}.{member.name}", offset + member.offset, member.type, member.flags, member.decl
+            )
+
+    def variable(
+        self, path: str, offset: int, type_: t.Type, flags: frozenset[str], decl: ast.VarDecl | None
+    ) -> None:
+        if decl is not None and _not_initialised(decl):
+            self.found.no_init.append((offset, type_.size))
+        if "PERSISTENT" in flags or "RETAIN" in flags:
+            target = self.found.persistent if "PERSISTENT" in flags else self.found.retain
+            target.append(RemanentRange(path, offset, type_.size, self.signatures.of(type_)))
+            return
+        if not self.has_remanent(type_):
+            return
+        if isinstance(type_, t.FunctionBlock | t.Struct):
+            self.members(path, offset, type_)
+        elif isinstance(type_, t.Array):
+            for number, index in enumerate(_indices(type_)):
+                self.variable(
+                    f"{path}[{index}]", offset + number * type_.element.size, type_.element, frozenset(), None
+                )
+
+    def has_remanent(self, type_: t.Type) -> bool:
+        """Whether a type contains remanent members."""
+        if isinstance(type_, t.Array):
+            return self.has_remanent(type_.element)
+        if not isinstance(type_, t.FunctionBlock | t.Struct):
+            return False
+        known = self.interesting.get(id(type_))
+        if known is None:
+            self.interesting[id(type_)] = False
+            known = any(
+                m.flags & {"RETAIN", "PERSISTENT"}
+                or (m.decl is not None and _not_initialised(m.decl))
+                or (m.section != "VAR_IN_OUT" and self.has_remanent(m.type))
+                for m in type_.members.values()
+            )
+            self.interesting[id(type_)] = known
+        return known
+
+
+def _not_initialised(decl: ast.VarDecl) -> bool:
+    names = ("no_init", "noinit", "no-init")
+    return any(attribute_value(decl.attributes, name) is not None for name in names)
+
+
+def _indices(type_: t.Array) -> Iterator[str]:
+    indices: list[tuple[int, ...]] = [()]
+    for low, high in type_.bounds:
+        indices = [(*done, i) for done in indices for i in range(low, high + 1)]
+    for index in indices:
+        yield ", ".join(map(str, index))
