@@ -495,7 +495,9 @@ class Pou(Declaration):
     body: list[Stmt] = field(default_factory=list)
     language: str = "ST"
     extends: str | None = None
+    extends_span: Span = NOWHERE
     implements: list[str] = field(default_factory=list)
+    implements_spans: list[Span] = field(default_factory=list)
     access: str = "PUBLIC"
     modifiers: set[str] = field(default_factory=set)
     """Of ABSTRACT, FINAL, OVERRIDE."""
@@ -512,6 +514,7 @@ class Interface(Declaration):
     """INTERFACE with its method and property heads."""
 
     extends: list[str] = field(default_factory=list)
+    extends_spans: list[Span] = field(default_factory=list)
     methods: list[Pou] = field(default_factory=list)
     properties: list[Property] = field(default_factory=list)
     # resolved
@@ -525,6 +528,7 @@ class TypeDecl(Declaration):
     type_ref: TypeRef
     initial: Expr | None = None
     extends: str | None = None
+    extends_span: Span = NOWHERE
     # resolved
     type: Type | None = None
 

@@ -197,14 +197,15 @@ class Core:
     def _is_misused_keyword(self) -> bool:
         return self.kinds[self.i + 1] in (":", ",", ":=", "AT", ";") and self.kinds[self.i] != "END_VAR"
 
-    def qualified_name(self, what: str) -> str:
-        """`name.name`, joined by dots."""
+    def qualified_name(self, what: str) -> tuple[str, Span]:
+        """`name.name`, joined by dots, and its place."""
+        start = self.i
         name, _ = self.name(what)
         while self.kinds[self.i] == "." and name:
             self.i += 1
             part, _ = self.name(what)
             name = f"{name}.{part}"
-        return name
+        return name, self.span_from(start)
 
     # -- recovery
 

@@ -8,7 +8,7 @@ from typing import Final
 from tappet.lang import ast
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import BODY_END, CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS, Opener
-from tappet.lang.parser_types import TypeParser
+from tappet.lang.parser_type_blocks import TypeBlockParser
 
 _ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
@@ -17,7 +17,7 @@ _HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
 _TYPED: Final = frozenset(["FUNCTION", "METHOD"])
 
 
-class Parser(TypeParser):
+class Parser(TypeBlockParser):
     """Reads a whole text."""
 
     __slots__ = ()
@@ -203,9 +203,10 @@ class Parser(TypeParser):
                 self.i += 1
                 names.append(self.qualified_name("interface"))
             if word == "IMPLEMENTS":
-                pou.implements += [name for name in names if name]
+                pou.implements += [name for name, _ in names if name]
+                pou.implements_spans += [span for name, span in names if name]
             else:
-                pou.extends = names[0] or None
+                pou.extends, pou.extends_span = names[0][0] or None, names[0][1]
 
     def _members(self, pou: ast.Pou, opener: Opener) -> None:
         """Variables, statements and children up to the end of `pou`, in any order."""
@@ -352,11 +353,12 @@ class Parser(TypeParser):
         )
         if self.word() == "EXTENDS":
             self.i += 1
-            node.extends = [self.qualified_name("interface")]
+            bases = [self.qualified_name("interface")]
             while self.kinds[self.i] == ",":
                 self.i += 1
-                node.extends.append(self.qualified_name("interface"))
-            node.extends = [base for base in node.extends if base]
+                bases.append(self.qualified_name("interface"))
+            node.extends = [name for name, _ in bases if name]
+            node.extends_spans = [span for name, span in bases if name]
         self.open.append(opener)
         while True:
             kind = self.kinds[self.i]
