@@ -82,7 +82,8 @@ def emit_module(module: ir.Module, names: list[str], options: EmitOptions, whole
     head = [f'target triple = "{options.triple}"']
     head += _globals(module, state, f", !absolute_symbol !{absolute}" if options.absolute_data else "")
     head += tables
-    head += [_RUNTIME[name] for name in sorted(state.used & _RUNTIME.keys())]
+    # the executive defines what other code only calls
+    head += [_RUNTIME[name] for name in sorted((state.used & _RUNTIME.keys()) - own)]
     head += sorted(state.intrinsics)
     head += [_declaration(module, name) for name in sorted(state.called - own)]
     return "\n".join([*head, *body, _ATTRIBUTES, *debug.named(), *metadata.lines, ""])
