@@ -61,8 +61,8 @@ class DebugInfo:
     def subprogram(self, function: ir.Function) -> int:
         """Node of a function."""
         file = self.file(function.uri)
-        name = quoted(function.name.rpartition(".")[2].encode())
-        linkage = quoted(function.name.encode())
+        # line tables carry no linkage names, so the name itself is the qualified one
+        name = linkage = quoted(function.name.encode())
         line = max(function.line, 1)
         return self.metadata.add(
             f'distinct !DISubprogram(name: "{name}", linkageName: "{linkage}", '
