@@ -28,7 +28,9 @@ def at(project: Project, path: str) -> ProjectObject:
 
 def names(project: Project, parent: ProjectObject | None) -> list[str]:
     children = project.children(parent.id if parent else None)
-    assert [child.index for child in children] == list(range(len(children)))
+    for kind in {child.kind for child in children}:
+        siblings = project.siblings(parent.id if parent else None, kind)
+        assert [child.index for child in siblings] == list(range(len(siblings)))
     return [child.name for child in children]
 
 

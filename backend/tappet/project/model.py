@@ -40,7 +40,11 @@ MAX_TEXT = 16 * 1024 * 1024
 
 
 def _clean_text(text: str) -> str:
-    """The text with line feeds as the only line breaks. NUL is refused: no database keeps it."""
+    """The text without byte order mark and with line feeds as the only line breaks.
+
+    NUL is refused: no database keeps it.
+    """
+    text = text.lstrip("\ufeff")
     if "\r" in text:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
     for position, character in enumerate(text):
@@ -488,7 +492,7 @@ class Project:
         return list(self._children.get(object_id, ()))
 
     def siblings(self, parent_id: str | None, kind: str) -> list[ProjectObject]:
-        """The objects that one of this kind below `parent_id` is counted among by its index, in their order."""
+        """The objects among which one of this kind below `parent_id` is counted by its index."""
         view = is_pous_root(parent_id, kind)
         return [
             item for item in self._children.get(parent_id, ()) if is_pous_root(parent_id, item.kind) == view

@@ -13,7 +13,7 @@ MAX_NAME = 200
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 _COUNTED = re.compile(r"(?P<stem>.*?)_(?P<count>[1-9]\d{0,8})", re.DOTALL)
-_FORBIDDEN_IN_FREE_NAMES = frozenset("./\\")
+_SEPARATORS = frozenset("./\\")
 
 _KEYWORD_TABLE = """
     ABS ABSTRACT ACOS ACTION ADD ADR AND AND_THEN ARRAY ASIN AT ATAN BITADR BOOL BY BYTE CASE CONSTANT
@@ -63,17 +63,27 @@ def check_identifier(name: str) -> None:
 
 def check_free_name(name: str) -> None:
     """Raise InvalidNameError unless `name` can name a device, folder or another thing not named in code."""
+    _check_visible(name)
+    for character in name:
+        if character in _SEPARATORS:
+            raise InvalidNameError(
+                f"'{_shown(name)}' contains '{character}', which separates the parts of a path"
+            )
+
+
+def check_project_name(name: str) -> None:
+    """Raise InvalidNameError unless `name` can name a project: what can be read, on one line."""
+    _check_visible(name)
+
+
+def _check_visible(name: str) -> None:
     if not name:
-        raise InvalidNameError("An object needs a name")
+        raise InvalidNameError("A name is needed")
     if len(name) > MAX_NAME:
         raise InvalidNameError(f"The name '{name[:40]}...' is longer than {MAX_NAME} characters")
     if name != name.strip():
         raise InvalidNameError(f"'{_shown(name)}' begins or ends with a blank")
     for character in name:
-        if character in _FORBIDDEN_IN_FREE_NAMES:
-            raise InvalidNameError(
-                f"'{_shown(name)}' contains '{character}', which separates the parts of a path"
-            )
         if unicodedata.category(character) in ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"):
             raise InvalidNameError(
                 f"'{_shown(name)}' contains the character U+{ord(character):04X}, which cannot be seen"

@@ -81,7 +81,7 @@ def deleted_with(connection: Connection, project_id: str, change: int) -> list[P
             revisions.c.deleted.is_(True),
         )
     ).all()
-    ranks = ranks_of((row.object_id, row.parent_id, row.position, row.name) for row in rows)
+    ranks = ranks_of((row.object_id, row.parent_id, row.kind, row.position, row.name) for row in rows)
     return [
         make_object(
             id=row.object_id,

@@ -9,7 +9,7 @@ from typing import Any
 
 from sqlalchemy import Connection, select
 
-from tappet.project.model import Project, ProjectObject, make_object
+from tappet.project.model import Project, ProjectObject, is_pous_root, make_object
 from tappet.project.naming import name_key
 from tappet.project.store.records import ObjectSummary, ProjectInfo, UnknownProjectError
 from tappet.project.store.tables import files, objects, projects
@@ -75,7 +75,7 @@ def stored_project(
 ) -> StoredProject:
     """The project of rows of (id, parent_id, kind, name, position, revision, data)."""
     ordered = list(rows)
-    ranks = ranks_of((row[0], row[1], row[4], row[3]) for row in ordered)
+    ranks = ranks_of((row[0], row[1], row[2], row[4], row[3]) for row in ordered)
     items: dict[str, ProjectObject] = {}
     for object_id, parent_id, kind, name, _, revision, data in ordered:
         items[object_id] = make_object(
@@ -103,12 +103,12 @@ def read_summaries(connection: Connection, project_id: str) -> list[ObjectSummar
         objects.c.revision,
     )
     rows = connection.execute(select(*columns).where(objects.c.project_id == project_id)).all()
-    ranks = ranks_of((row.id, row.parent_id, row.position, row.name) for row in rows)
+    ranks = ranks_of((row.id, row.parent_id, row.kind, row.position, row.name) for row in rows)
     found = [
         ObjectSummary(row.id, row.parent_id, row.kind, row.subkind, row.name, ranks[row.id], row.revision)
         for row in rows
     ]
-    return sorted(found, key=lambda item: (item.parent_id or "", item.index))
+    return sorted(found, key=lambda item: (item.parent_id or "", item.kind != "device", item.index))
 
 
 def summary_of(item: ProjectObject) -> ObjectSummary:
@@ -123,13 +123,14 @@ def data_of(item: ProjectObject) -> dict[str, Any]:
     return item.data.model_dump(mode="json")
 
 
-def ranks_of(places: Iterable[tuple[str, str | None, int, str]]) -> dict[str, int]:
-    """The index of each object among its siblings, from (id, parent, position, name)."""
-    siblings: dict[str | None, list[tuple[int, str, str]]] = defaultdict(list)
-    for object_id, parent_id, position, name in places:
-        siblings[parent_id].append((position, name_key(name), object_id))
+def ranks_of(places: Iterable[tuple[str, str | None, str, int, str]]) -> dict[str, int]:
+    """The index of each object among its siblings, from (id, parent, kind, position, name)."""
+    siblings: dict[tuple[str | None, bool], list[tuple[int, str, str]]] = defaultdict(list)
+    for object_id, parent_id, kind, position, name in places:
+        group = parent_id, is_pous_root(parent_id, kind)
+        siblings[group].append((position, name_key(name), object_id))
     return {
         object_id: index
-        for group in siblings.values()
-        for index, (_, _, object_id) in enumerate(sorted(group))
+        for members in siblings.values()
+        for index, (_, _, object_id) in enumerate(sorted(members))
     }

@@ -14,7 +14,7 @@ from sqlalchemy.exc import IntegrityError
 from tappet.project import edit
 from tappet.project.errors import NameTakenError
 from tappet.project.model import ObjectHead, Project, ProjectObject
-from tappet.project.naming import check_free_name, name_key, normal_name, unique_name
+from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
 from tappet.project.placement import check_project
 from tappet.project.store import history
 from tappet.project.store.changes import apply_project
@@ -98,7 +98,7 @@ class Store:
         InvalidNameError, and what check_project finds in the content.
         """
         name = normal_name(name)
-        check_free_name(name)
+        check_project_name(name)
         action = "create" if content is None else "import"
         content = content if content is not None else new_project(name, description)
         check_project(content)
@@ -149,7 +149,7 @@ class Store:
         values: dict[str, Any] = {"changed_at": datetime.now(UTC), "changed_by": author}
         if name is not None:
             name = normal_name(name)
-            check_free_name(name)
+            check_project_name(name)
             values |= {"name": name, "name_key": name_key(name)}
         if description is not None:
             values["description"] = description
@@ -402,7 +402,7 @@ class Store:
             else:
                 last = history.object_revisions(connection, project_id, object_id)[0]
                 below = history.deleted_with(connection, project_id, last.project_revision)
-                siblings = stored.project.children(then.parent_id)
+                siblings = stored.project.siblings(then.parent_id, then.kind)
                 index = sum(stored.positions[item.id] < position for item in siblings)
                 wanted = edit.restore_objects(stored.project, then, below, index)
             result, event = apply_project(connection, stored, wanted, "revert", author, comment)

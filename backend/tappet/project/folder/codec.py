@@ -1,0 +1,270 @@
+"""A project to files by path, and back: every object a file, its children in a folder of its name.
+
+What no object claims is kept as an extra file. Reading takes files in that no index lists, so that a new
+`FB_New.st` in a folder is a new object of the project.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from tappet.project.declaration_text import subkind_of, words
+from tappet.project.errors import FolderFormatError, ProjectError
+from tappet.project.folder.filenames import name_of, stem_of
+from tappet.project.folder.layout import (
+    DEVICES,
+    INDEX_FILE,
+    POUS,
+    PROJECT_FILE,
+    Entry,
+    derived_id,
+    read_index,
+    read_json,
+    read_project_file,
+    read_utf8,
+    write_index,
+    write_json,
+    write_project_file,
+)
+from tappet.project.folder.texts import TEXT_KINDS, Parts, read_text, write_text
+from tappet.project.model import KIND_CLASSES, NoData, Project, ProjectObject, make_object
+from tappet.project.naming import check_project_name, name_key, normal_name
+from tappet.project.placement import check_project
+
+_KINDS_BY_SUBKIND = {
+    **dict.fromkeys(("program", "function_block", "function"), "pou"),
+    **dict.fromkeys(("struct", "union", "enum", "alias", "subrange"), "dut"),
+    **dict.fromkeys(("get", "set"), "accessor"),
+    "method": "method",
+    "action": "action",
+    "property": "property",
+    "interface": "interface",
+    "gvl": "gvl",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class DecodedFolder:
+    """A project that was read, and the paths of the files that are its objects."""
+
+    project: Project
+    own_files: frozenset[str]
+
+
+def encode(project: Project) -> dict[str, bytes]:
+    """The files of a project by path, `/` between the parts. The same project always gives the same bytes.
+
+    Of an extra file and an object's file at the same path, the object's stays.
+    """
+    files: dict[str, bytes] = {}
+    entries: dict[str, list[Entry]] = defaultdict(list)
+    folders: dict[str, str] = {}
+    for item in project.walk():
+        if item.parent_id is not None:
+            folder = folders[item.parent_id]
+        else:
+            folder = DEVICES if item.kind == "device" else POUS
+        place = f"{folder}/{stem_of(item.name)}"
+        folders[item.id] = place
+        entries[folder].append(_encode_object(item, place, files))
+    for folder, children in entries.items():
+        files[f"{folder}/{INDEX_FILE}"] = write_index(children)
+    files[PROJECT_FILE] = write_project_file(project.name, project.description)
+    own = {name_key(path) for path in files}
+    own_folders = {above for key in own for above in _with_ancestors(key.rpartition("/")[0])}
+    extra = {
+        path: content
+        for path, content in project.extra_files.items()
+        if name_key(path) not in own_folders and own.isdisjoint(_with_ancestors(name_key(path)))
+    }
+    return dict(sorted({**extra, **files}.items()))
+
+
+def decode(files: Mapping[str, bytes]) -> DecodedFolder:
+    """The project of files by path. Raises FolderFormatError, whose message begins with a path."""
+    by_path = {normal_name(path): content for path, content in files.items()}
+    if PROJECT_FILE not in by_path:
+        raise FolderFormatError(PROJECT_FILE, "is missing, so this is no Tappet project folder")
+    head = read_project_file(by_path[PROJECT_FILE])
+    reader = _Reader(by_path)
+    for view in (DEVICES, POUS):
+        reader.read_view(view)
+    extra = {path: content for path, content in by_path.items() if path not in reader.own}
+    project = Project(head.name, head.description, reader.objects, extra)
+    try:
+        check_project_name(head.name)
+        check_project(project)
+    except ProjectError as error:
+        raise FolderFormatError(PROJECT_FILE, str(error)) from error
+    return DecodedFolder(project, frozenset(reader.own))
+
+
+def _encode_object(item: ProjectObject, place: str, files: dict[str, bytes]) -> Entry:
+    """Add the file of an object to `files`; its line of the index."""
+    split = None
+    options = None
+    data = item.data.model_dump(mode="json", exclude_none=item.kind in KIND_CLASSES)
+    if item.kind in TEXT_KINDS:
+        parts = Parts(data.pop("declaration", None), data.pop("implementation", None))
+        text, split = write_text(item.kind, item.name, parts)
+        files[f"{place}.st"] = text.encode()
+        fields = type(item.data).model_fields
+        options = {key: value for key, value in data.items() if value != fields[key].default} or None
+    elif data or not _may_be_empty(item.kind):
+        files[f"{place}.{item.kind}.json"] = write_json(data)
+    object_id = None if item.id == derived_id(place) else item.id
+    return Entry(kind=item.kind, name=item.name, id=object_id, split=split, options=options)
+
+
+def _with_ancestors(path: str) -> Iterator[str]:
+    """A path and the folders above it."""
+    while path:
+        yield path
+        path = path.rpartition("/")[0]
+
+
+def _may_be_empty(kind: str) -> bool:
+    """Whether an object of this kind needs no file: it has no data, or its plug-in is not here to say."""
+    known = KIND_CLASSES.get(kind)
+    return known is None or isinstance(known.model_fields["data"].default, NoData)
+
+
+class _Reader:
+    """Reads the two views folder by folder."""
+
+    def __init__(self, files: Mapping[str, bytes]) -> None:
+        self.files = files
+        self.own: set[str] = {PROJECT_FILE}
+        self.objects: dict[str, ProjectObject] = {}
+        self._below: dict[str, set[str]] = defaultdict(set)
+        self._spelling: dict[str, str] = {}
+        for path in files:
+            self._spelling.setdefault(name_key(path), path)
+            folder, _, name = path.rpartition("/")
+            while folder:
+                self._below[folder].add(name)
+                folder, _, name = folder.rpartition("/")
+        self._folders = {name_key(folder): folder for folder in sorted(self._below, reverse=True)}
+        self._with_code = {above for folder in self._code_folders() for above in _with_ancestors(folder)}
+
+    def read_view(self, view: str) -> None:
+        """Read everything below the folder of a view."""
+        waiting: list[tuple[str, str | None]] = [(view, None)]
+        while waiting:
+            folder, parent_id = waiting.pop()
+            entries = self._entries(folder)
+            for index, entry in enumerate(entries):
+                if parent_id is None and (entry.kind == "device") != (view == DEVICES):
+                    raise FolderFormatError(
+                        f"{folder}/{INDEX_FILE}",
+                        f"'{entry.name}' is a {entry.kind}; devices alone belong in {DEVICES}",
+                    )
+                place = f"{folder}/{stem_of(entry.name)}"
+                item = self._object(entry, place, parent_id, index)
+                if item.id in self.objects:
+                    raise FolderFormatError(
+                        f"{folder}/{INDEX_FILE}", f"'{item.name}' has the id of another object"
+                    )
+                self.objects[item.id] = item
+                below = self._folders.get(name_key(place))
+                if below is not None:
+                    waiting.append((below, item.id))
+
+    def _entries(self, folder: str) -> list[Entry]:
+        """The children that the index lists, then those that are there besides, by name."""
+        path = f"{folder}/{INDEX_FILE}"
+        entries: list[Entry] = []
+        if path in self.files:
+            self.own.add(path)
+            entries = read_index(path, self.files[path])
+        listed = set()
+        for entry in entries:
+            entry.name = normal_name(entry.name)
+            if name_key(stem_of(entry.name)) in listed:
+                raise FolderFormatError(path, f"lists '{entry.name}' twice (names differ by more than case)")
+            listed.add(name_key(stem_of(entry.name)))
+        found = []
+        for name in sorted(self._below.get(folder, ()), key=lambda name: ("." not in name, name)):
+            key = name_key(name.partition(".")[0])
+            unlisted = self._unlisted(f"{folder}/{name}", name) if key not in listed else None
+            if unlisted is not None:
+                listed.add(key)
+                found.append(unlisted)
+        return entries + sorted(found, key=lambda entry: name_key(entry.name))
+
+    def _unlisted(self, path: str, name: str) -> Entry | None:
+        """What a file or folder would be that no index lists; None for what is no object."""
+        stem, dot, ending = name.partition(".")
+        object_name = name_of(stem)
+        kind: str | None = ending.removesuffix(".json") if ending.endswith(".json") else None
+        if not dot:
+            kind = "folder" if path in self._with_code else None
+        elif ending == "st" and path in self.files:
+            kind = _kind_of_text(read_utf8(path, self.files[path]))
+            if kind is None:
+                raise FolderFormatError(
+                    path, "what it declares cannot be told; it should begin with PROGRAM, TYPE or the like"
+                )
+        elif kind not in KIND_CLASSES or kind in TEXT_KINDS:
+            kind = None
+        if kind is None:
+            return None
+        if stem_of(object_name) != stem:
+            raise FolderFormatError(path, f"an object's file is named {stem_of(object_name)}, not {stem}")
+        return Entry(kind=kind, name=object_name)
+
+    def _code_folders(self) -> Iterable[str]:
+        """Folders that hold an index or a text."""
+        return (
+            folder
+            for folder, names in self._below.items()
+            if any(name == INDEX_FILE or name.endswith(".st") for name in names)
+        )
+
+    def _object(self, entry: Entry, place: str, parent_id: str | None, index: int) -> ProjectObject:
+        path, data = self._data(entry, place)
+        try:
+            return make_object(
+                id=entry.id or derived_id(place),
+                parent_id=parent_id,
+                kind=entry.kind,
+                name=entry.name,
+                index=index,
+                data=data,
+            )
+        except ProjectError as error:
+            raise FolderFormatError(path, str(error)) from error
+
+    def _data(self, entry: Entry, place: str) -> tuple[str, dict[str, object]]:
+        """The path of an object's file and the data in it."""
+        is_text = entry.kind in TEXT_KINDS
+        path = f"{place}.st" if is_text else f"{place}.{entry.kind}.json"
+        actual = path if path in self.files else self._spelling.get(name_key(path))
+        if actual is None:
+            if not is_text and _may_be_empty(entry.kind):
+                return path, {}
+            raise FolderFormatError(path, f"is missing, but the index lists '{entry.name}'")
+        self.own.add(actual)
+        content = self.files[actual]
+        if not is_text:
+            data = read_json(actual, content)
+            if not isinstance(data, dict):
+                raise FolderFormatError(actual, "should hold a JSON object")
+            return actual, data
+        parts = read_text(entry.kind, entry.name, read_utf8(actual, content), entry.split)
+        texts = {"declaration": parts.declaration, "implementation": parts.implementation}
+        present = {key: value for key, value in texts.items() if value is not None}
+        return actual, {**(entry.options or {}), **present}
+
+
+def _kind_of_text(text: str) -> str | None:
+    kind = _KINDS_BY_SUBKIND.get(subkind_of(text) or "")
+    if kind == "gvl":
+        for word in words(text):
+            if word.text == "PERSISTENT":
+                return "persistent"
+            if word.text not in ("VAR_GLOBAL", "RETAIN", "CONSTANT"):
+                break
+    return kind
