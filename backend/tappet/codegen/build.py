@@ -25,7 +25,7 @@ from tappet.codegen.package import (
     TaskSpec,
 )
 from tappet.codegen.partition import partition
-from tappet.codegen.symbols_build import build_symbol_map, remanent_variables
+from tappet.codegen.symbols_build import build_symbol_map, instance_paths, remanent_variables
 from tappet.codegen.tasks import check_tasks, default_tasks, event_place
 from tappet.core import passes
 from tappet.core.lower import Lowered, Task, lower
@@ -53,6 +53,8 @@ class BuildOptions:
     """How an application is built."""
 
     application: str = "Application"
+    device: str = "Device"
+    """First part of instance paths."""
     level: int = 2
     """Optimisation, 0..3."""
     byte_addressing: bool = False
@@ -255,6 +257,10 @@ class _Build:
         for item in lowered.data:
             start = placed.objects[item.symbol].offset
             image[start : start + item.size] = item.template.data
+        prefix = f"{options.device}.{options.application}"
+        for offset, type_, path in instance_paths(lowered.data, placed.objects, prefix):
+            text = path.encode("latin-1", "replace")[: type_.length]
+            image[offset : offset + type_.size] = text.ljust(type_.size, b"\0")
         functions = lowered.module.functions
         package = CodePackage(
             application=options.application,

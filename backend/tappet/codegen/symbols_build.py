@@ -253,6 +253,53 @@ class _RemanentWalk:
         return known
 
 
+def instance_paths(
+    data: list[ProgramData], objects: Mapping[str, DataObject], prefix: str
+) -> Iterator[tuple[int, t.String, str]]:
+    """Offset, type and text of every STRING with attribute instance-path, behind `prefix`."""
+    known: dict[int, bool] = {}
+
+    def wants(type_: t.Type) -> bool:
+        if isinstance(type_, t.Array):
+            return wants(type_.element)
+        if not isinstance(type_, t.FunctionBlock):
+            return False
+        found = known.get(id(type_))
+        if found is None:
+            known[id(type_)] = False
+            found = known[id(type_)] = any(
+                _has_path(m) or (m.section != "VAR_IN_OUT" and wants(m.type)) for m in type_.members.values()
+            )
+        return found
+
+    def walk(path: str, offset: int, type_: t.Type) -> Iterator[tuple[int, t.String, str]]:
+        if not wants(type_):
+            return
+        if isinstance(type_, t.Array):
+            for number, index in enumerate(_indices(type_)):
+                yield from walk(f"{path}[{index}]", offset + number * type_.element.size, type_.element)
+        elif isinstance(type_, t.FunctionBlock):
+            for member in type_.members.values():
+                if _has_path(member) and isinstance(member.type, t.String):
+                    yield offset + member.offset, member.type, path
+                elif member.section != "VAR_IN_OUT":
+                    yield from walk(f"{path}.{member.name}", offset + member.offset, member.type)
+
+    for item in data:
+        base = objects[item.symbol].offset
+        root = f"{prefix}.{item.owner.name}"
+        if isinstance(item.owner, GvlSymbol):
+            for variable in item.owner.members.values():
+                if variable.type is not None and variable.storage is Storage.GLOBAL:
+                    yield from walk(f"{root}.{variable.name}", base + variable.offset, variable.type)
+        elif item.owner.instance is not None:
+            yield from walk(root, base, item.owner.instance)
+
+
+def _has_path(member: t.Member) -> bool:
+    return member.decl is not None and attribute_value(member.decl.attributes, "instance-path") is not None
+
+
 def _not_initialised(decl: ast.VarDecl) -> bool:
     names = ("no_init", "noinit", "no-init")
     return any(attribute_value(decl.attributes, name) is not None for name in names)

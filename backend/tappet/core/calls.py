@@ -342,6 +342,15 @@ def _instance_call(
     b: Body, e: ast.Call, target: PouSymbol, instance: ir.Place, before: list[ir.Stmt]
 ) -> Prepared:
     prepared = Prepared(before)
+    given = {id(a.parameter) for a in e.args if a.value is not None}
+    for variable in target.parameters:
+        if id(variable) not in given and initialised_on_call(variable):
+            slot = places.at(instance, variable.offset, _root(instance, variable.offset))
+            assert variable.type is not None
+            with b.block_of() as reset:
+                decl = variable.decl
+                INITIALISERS[0](b, slot, variable.type, decl.init if decl is not None else None)
+            before += reset
     for arg in e.args:
         parameter, value = arg.parameter, arg.value
         if not isinstance(parameter, VarSymbol) or value is None:
@@ -362,6 +371,12 @@ def _instance_call(
     own = [places.address_of(instance)] if target.kind == "FUNCTION_BLOCK" else []
     prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
     return prepared
+
+
+def initialised_on_call(parameter: VarSymbol) -> bool:
+    """Whether an input goes back to its initial value in calls that do not assign it."""
+    decl = parameter.decl
+    return decl is not None and attribute_value(decl.attributes, "initialize_on_call") is not None
 
 
 def _root(instance: ir.Place, offset: int) -> int | None:

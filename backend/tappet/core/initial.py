@@ -7,11 +7,11 @@ function calls, addresses and FB_Init become dynamic steps, in order of declarat
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tappet.core import assign, calls, ir, places
 from tappet.core.body import INITIALISERS, Body
-from tappet.core.program import Program
+from tappet.core.program import Program, attribute_value
 from tappet.core.scalars import scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
@@ -34,6 +34,8 @@ class Step:
     """Bind the address of `value` instead of copying it."""
     args: list[ast.Argument] = field(default_factory=list)
     """Arguments of FB_Init."""
+    after: bool = False
+    """Call the methods marked call_after_init instead of constructing."""
     count: int = 1
     stride: int = 0
     """Repeated for `count` elements of an array."""
@@ -159,15 +161,19 @@ class Initialiser:
     ) -> None:
         own = self.of_type(type_)
         template.data[offset : offset + len(own.data)] = own.data
-        if self.constructed(type_):
+        constructed = self.constructed(type_)
+        if constructed:
             template.steps.append(Step(offset, type_, args=args))
-            if isinstance(init, ast.StructInit):
-                # after FB_Init again (LDEC-46)
-                template.steps += self._field_steps(offset, init)
         if isinstance(init, ast.StructInit):
-            self._fields(template, offset, init)
+            if constructed:
+                # FB_Init runs first and does not see these values (LDEC-46)
+                template.steps += self._field_steps(offset, init)
+            else:
+                self._fields(template, offset, init)
         elif init is not None:
             template.steps.append(Step(offset, type_, init))
+        if after_init_methods(type_):
+            template.steps.append(Step(offset, type_, after=True))
 
     def _field_steps(self, offset: int, init: ast.StructInit) -> list[Step]:
         steps = []
@@ -242,16 +248,7 @@ class _ArrayFiller:
 
 
 def _moved(step: Step, offset: int) -> Step:
-    return Step(
-        step.offset + offset,
-        step.type,
-        step.value,
-        step.reference,
-        step.args,
-        step.count,
-        step.stride,
-        step.inner,
-    )
+    return replace(step, offset=step.offset + offset)
 
 
 def _init_arguments(decl: ast.VarDecl | None) -> list[ast.Argument]:
@@ -276,6 +273,21 @@ def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
             found.insert(0, method)
         walk = walk.base
     return found
+
+
+def after_init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
+    """Methods with attribute call_after_init of a block that has it too (LDEC-109)."""
+    found: list[PouSymbol] = []
+    walk = type_.pou.symbol if type_.pou is not None else None
+    while isinstance(walk, PouSymbol):
+        if walk.pou is not None and attribute_value(walk.pou.attributes, "call_after_init") is not None:
+            found += [
+                m
+                for m in walk.methods.values()
+                if m.pou is not None and attribute_value(m.pou.attributes, "call_after_init") is not None
+            ]
+        walk = walk.base
+    return found[::-1]
 
 
 # -- constants --------------------------------------------------------------------------------------
@@ -345,7 +357,10 @@ def run_steps(b: Body, base: ir.Place, steps: list[Step]) -> None:
             _run_elements(b, base, step)
             continue
         place = _step_place(base, step.offset)
-        if step.value is None:
+        if step.after:
+            assert isinstance(step.type, t.FunctionBlock)
+            _call_all(b, place, after_init_methods(step.type))
+        elif step.value is None:
             assert isinstance(step.type, t.FunctionBlock)
             construct(b, place, step.type, step.args)
         elif step.reference or isinstance(step.type, t.Reference):
@@ -410,8 +425,12 @@ def _init_call_arguments(method: PouSymbol, args: list[ast.Argument]) -> list[as
 
 def destruct(b: Body, place: ir.Place, type_: t.FunctionBlock) -> None:
     """Call FB_Exit of an instance, most derived first (LDEC-107)."""
+    _call_all(b, place, life_cycle_methods(type_, "FB_EXIT")[::-1])
+
+
+def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol]) -> None:
     frozen = places.freeze(b, place, b.out)
-    for method in reversed(life_cycle_methods(type_, "FB_EXIT")):
+    for method in methods:
         prepared = calls.Prepared()
         calls.finish(b, prepared, method, [], places.address_of(frozen), False)
         b.out.extend(prepared.statements())

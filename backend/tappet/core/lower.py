@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from tappet.core import assign, builtins, calls, conversions, initial, ir, places
 from tappet.core.body import Body
-from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, data_symbol, export_name
+from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_value, data_symbol, export_name
 from tappet.core.scalars import scalar_of
 from tappet.core.statements import lower_statements
 from tappet.lang import ast
@@ -233,6 +233,7 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
     )
     b = Body(program, function, source)
     b.pou = pou
+    b.checks = b.checks and not unchecked(pou)
     _own_instance(b, pou)
     _result(b, pou)
     _parameters(b, pou)
@@ -242,6 +243,16 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
     copies = _input_copies(b)
     function.body = [*copies, *b.entry, *b.out]
     program.module.functions[function.name] = function
+
+
+def unchecked(pou: PouSymbol) -> bool:
+    """Whether a body, or the POU it belongs to, has attribute no_check."""
+    walk: PouSymbol | None = pou
+    while walk is not None:
+        if walk.pou is not None and attribute_value(walk.pou.attributes, "no_check") is not None:
+            return True
+        walk = walk.owner
+    return False
 
 
 def _own_instance(b: Body, pou: PouSymbol) -> None:

@@ -123,7 +123,7 @@ class Program:
         found = self.implementations.get(method.name.upper(), {})
         if len(found) == 1:
             return next(iter(found.values()))
-        return method if not found and method.pou is not None else None
+        return method if not found and method.owner is not None else None
 
     def library_function(self, name: str) -> PouSymbol | None:
         """A function of the conversion library that every application is built with."""
