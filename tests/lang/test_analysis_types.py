@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-
 from resolved import analysed, codes, messages, program, type_of, variable
+
 from tappet.lang import types as t
 from tappet.lang.analysis import AnalysisOptions
 from tappet.lang.source import Scope, Source
@@ -89,7 +89,8 @@ def test_inherited_members_keep_their_offsets() -> None:
     )
     assert codes(a) == []
     base, child = a.pous[1].instance, a.pous[0].instance
-    assert base is not None and child is not None
+    assert base is not None
+    assert child is not None
     assert [(m.name, m.offset) for m in child.members.values()] == [("__VFTABLE", 0), ("x", 8), ("y", 16)]
     assert child.base is base
     assert list(a.pous[0].vtable) == ["__BODY", "GET"]
@@ -98,7 +99,9 @@ def test_inherited_members_keep_their_offsets() -> None:
 def test_block_without_methods_has_no_virtual_table() -> None:
     a = analysed("FUNCTION_BLOCK FB\nVAR x : BYTE; END_VAR\nEND_FUNCTION_BLOCK")
     fb = a.pous[0].instance
-    assert fb is not None and list(fb.members) == ["X"] and fb.size == 1
+    assert fb is not None
+    assert list(fb.members) == ["X"]
+    assert fb.size == 1
 
 
 def test_instance_variable_of_a_method() -> None:
@@ -106,7 +109,8 @@ def test_instance_variable_of_a_method() -> None:
         "FUNCTION_BLOCK FB\nMETHOD M\nVAR_INST n : INT; END_VAR\nn := n + 1;\nEND_METHOD\nEND_FUNCTION_BLOCK"
     )
     fb = a.pous[0].instance
-    assert fb is not None and "M.N" in fb.members
+    assert fb is not None
+    assert "M.N" in fb.members
     assert a.pous[0].methods["M"].locals["N"].storage is Storage.INSTANCE
 
 
@@ -134,7 +138,8 @@ def test_what_contains_itself_is_an_error(texts: tuple[str, ...]) -> None:
 
 def test_pointer_to_the_own_type_is_legal() -> None:
     a = analysed("TYPE Node : STRUCT next : POINTER TO Node; value : INT; END_STRUCT END_TYPE")
-    assert codes(a) == [] and type_of(a, "Node").size == 16
+    assert codes(a) == []
+    assert type_of(a, "Node").size == 16
 
 
 def test_constants_in_bounds_lengths_and_other_constants() -> None:
@@ -207,7 +212,9 @@ def test_enumeration_values_by_constants_and_each_other() -> None:
         "TYPE E : (a := N, b := a + 1, c := 16#8000) DINT; END_TYPE VAR_GLOBAL CONSTANT N : INT := 3; END_VAR"
     )
     e = type_of(a, "E")
-    assert codes(a) == [] and isinstance(e, t.Enum) and e.values == {"a": 3, "b": 4, "c": 32768}
+    assert codes(a) == []
+    assert isinstance(e, t.Enum)
+    assert e.values == {"a": 3, "b": 4, "c": 32768}
 
 
 @pytest.mark.parametrize(
@@ -242,7 +249,9 @@ def test_subrange_and_alias() -> None:
     assert str(variable(a, "P.j").type) == "SubInt"
     assert variable(a, "P.m").type == t.String(50)
     decl = variable(a, "P.m").decl
-    assert decl is not None and decl.init is not None and decl.init.constant == b"hi"
+    assert decl is not None
+    assert decl.init is not None
+    assert decl.init.constant == b"hi"
 
 
 def test_direct_addresses_in_both_modes() -> None:
@@ -261,7 +270,8 @@ def test_direct_addresses_in_both_modes() -> None:
 def test_external_variable_is_the_global_one() -> None:
     gvl = Source("G", "VAR_GLOBAL x : INT := 12; END_VAR", name="G")
     a = program("VAR_EXTERNAL x : INT; END_VAR", "x := 1;", gvl)
-    assert codes(a) == [] and variable(a, "P.x") is variable(a, "G.x")
+    assert codes(a) == []
+    assert variable(a, "P.x") is variable(a, "G.x")
     assert codes(program("VAR_EXTERNAL x : DINT; END_VAR", "", gvl)) == ["E0212"]
 
 
@@ -309,7 +319,9 @@ def test_objects_hide_each_other_from_inside_out() -> None:
     for texts, type_ in (((library,), t.LREAL), ((library, pous), t.REAL), ((library, pous, own), t.INT)):
         a = program(call[0], call[1], *texts)
         found = a.scope["F"]
-        assert codes(a) == [] and isinstance(found, PouSymbol) and found.return_type is type_
+        assert codes(a) == []
+        assert isinstance(found, PouSymbol)
+        assert found.return_type is type_
         assert len({p.qualified_name for p in a.pous}) == len(a.pous)
 
 
@@ -341,7 +353,9 @@ def test_children_with_their_own_texts() -> None:
     fb = a.pous[0]
     assert (list(fb.methods), list(fb.actions), list(fb.properties)) == (["UP"], ["ZERO"], ["V"])
     getter = fb.properties["V"].getter
-    assert getter is not None and getter.result is not None and getter.result.name == "V"
+    assert getter is not None
+    assert getter.result is not None
+    assert getter.result.name == "V"
 
 
 def test_child_without_owner_is_reported() -> None:

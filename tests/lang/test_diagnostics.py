@@ -34,7 +34,8 @@ def test_entry_is_well_formed(entry: object) -> None:
     assert re.fullmatch(r"[a-z0-9_]+", entry.name)
     assert (entry.severity == "error") == (entry.code[0] == "E")
     assert entry.alias == "" or re.fullmatch(r"C\d{4}", entry.alias)
-    assert entry.message and not entry.message.endswith(".")
+    assert entry.message
+    assert not entry.message.endswith(".")
     for template in (entry.message, entry.advice):
         assert all(name is None or name.isidentifier() for _, name, _, _ in Formatter().parse(template))
 

@@ -71,6 +71,9 @@ def _is_constant(e: ast.Expr) -> bool:
 def _elements(b: Body, elements: list[ast.Expr], array: t.Array) -> int:
     """Resolves the values of an array; how many elements they fill."""
     element = array.element
+    for position, x in enumerate(elements):
+        if x.__class__ is ast.Call:
+            elements[position] = _named_repeat(b, x)  # type: ignore[arg-type]
     nested = isinstance(element, t.Array) and not any(
         isinstance(x, ast.ArrayInit)
         or (isinstance(x, ast.Repeat) and any(isinstance(v, ast.ArrayInit) for v in x.values))
@@ -88,6 +91,15 @@ def _elements(b: Body, elements: list[ast.Expr], array: t.Array) -> int:
             initialise(b, x, element, inside_structure=False)
             used += 1
     return used
+
+
+def _named_repeat(b: Body, e: ast.Call) -> ast.Expr:
+    """`N(7)` with a constant N looks like a call to the parser; only its name tells that it is a repetition."""
+    callee = e.callee
+    if isinstance(callee, ast.Name) and isinstance(b.lookup(callee.name), VarSymbol):
+        values = [arg.value for arg in e.args if arg.value is not None and arg.name is None]
+        return ast.Repeat(span=e.span, count=callee, values=values)
+    return e
 
 
 def _repeat(b: Body, e: ast.Repeat, array: t.Array) -> int:

@@ -165,8 +165,7 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
             b.report("E0202", operand.span, name=text_of(operand), hint="__NEW needs a type.")
             return
     length = e.args[1].value if len(e.args) > 1 else None
-    if length is not None and value(b, length) is not None:
-        require(b, length, t.UDINT)
+    count = t.UDINT if length is None else _count(b, length)
     b.session.complete(type_)
     if b.assigned is not e:
         b.report("E0519", e.span)
@@ -174,7 +173,20 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
         _check_dynamic(b, operand, type_)
     elif not isinstance(type_, (t.Struct, t.Array)) and length is None:
         b.report("E0520", e.span, type=type_)
-    finish(e, name, [None, t.UDINT][: len(e.args)], t.Pointer(type_))
+    finish(e, name, [None, count][: len(e.args)], t.Pointer(type_))
+
+
+def _count(b: Body, length: ast.Expr) -> Elementary:
+    """Type of the length of `__NEW`: any integer."""
+    type_ = value(b, length)
+    base = t.value_type(type_) if type_ is not None else t.UDINT
+    if not isinstance(base, Elementary) or not base.is_integer:
+        b.report("E0303", length.span, op="__NEW", type=type_, hint="The length must be an integer.")
+        return t.UDINT
+    if length.untyped:
+        require(b, length, t.UDINT)
+        return t.UDINT
+    return base
 
 
 def _check_dynamic(b: Body, operand: ast.Expr, type_: t.FunctionBlock) -> None:

@@ -19,6 +19,7 @@ from tappet.lang.types import Elementary, Kind, Type
 
 STATEMENTS: dict[type, Callable[[Body, Any], None]] = {}
 _AGGREGATES = (ast.ArrayInit, ast.StructInit)
+_TARGETS = frozenset({ast.Name, ast.Member, ast.Index, ast.Deref, ast.Call})
 
 
 def statements(b: Body, body: list[ast.Stmt]) -> None:
@@ -57,7 +58,7 @@ def _assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
     b.assigned = content
     if content.__class__ in _AGGREGATES:
         b.report("E0333", content.span, what=_aggregate_name(content))
-    elif value(b, content) is not None and type_ is not None:
+    elif value(b, content) is not None and type_ is not None and target.__class__ in _TARGETS:
         require(b, content, type_)
     b.assigned = None
     if target.__class__ is ast.Name and target.symbol.__class__ is VarSymbol:  # type: ignore[attr-defined]
