@@ -65,7 +65,6 @@ export class OnlineChannel {
   private cancelRetry: (() => void) | null = null;
   private closed = false;
   private lost = false;
-  private codeId: string | null = null;
 
   constructor(
     readonly board: ValueBoard,
@@ -149,14 +148,9 @@ export class OnlineChannel {
     const inner = typeof message.runtime === 'object' ? message.runtime : message;
     const state = inner as unknown as RuntimeState;
     this.events.state(state);
-    // Other code has other places in memory: everything is asked for anew.
-    if (state.code_id !== this.codeId) {
-      const known = this.codeId !== null;
-      this.codeId = state.code_id;
-      if (known) this.resubscribe();
-    }
   }
 
+  /** Also sent again under a known number when the places have changed: after a download or a lost runtime. */
   private subscribed(id: number, items: readonly SubscribedItem[]): void {
     const group = this.byId.get(id);
     if (group === undefined) return;

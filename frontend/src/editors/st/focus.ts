@@ -3,15 +3,22 @@ import { setCursor } from '@/workbench/selection';
 import type { CodeEditor } from './CodePane';
 import type { Part } from '../documents/documents';
 
+/** Undo and redo of a view that is no text editor but changes a text. */
+export interface PanelHistory {
+  undo: () => void;
+  redo: () => void;
+}
+
 interface PanelEditors {
   editors: Partial<Record<Part, CodeEditor>>;
   active: Part;
+  history: PanelHistory | null;
 }
 
 const panels = new Map<string, PanelEditors>();
 
 function panelOf(panelId: string): PanelEditors {
-  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const };
+  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const, history: null };
   panels.set(panelId, known);
   return known;
 }
@@ -30,6 +37,7 @@ export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor):
   };
   editor.onDidFocusEditorText(() => {
     panel.active = part;
+    panel.history = null;
     tell();
   });
   editor.onDidChangeCursorSelection(() => {
@@ -56,4 +64,13 @@ export function panelEditor(panelId: string | null | undefined): CodeEditor | nu
 
 export function panelEditorOf(panelId: string, part: Part): CodeEditor | null {
   return panels.get(panelId)?.editors[part] ?? null;
+}
+
+/** A table has the focus: undo and redo are its affair until a text editor is entered; null when it goes away. */
+export function setPanelHistory(panelId: string, history: PanelHistory | null): void {
+  panelOf(panelId).history = history;
+}
+
+export function panelHistory(panelId: string): PanelHistory | null {
+  return panels.get(panelId)?.history ?? null;
 }

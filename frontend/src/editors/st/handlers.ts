@@ -1,7 +1,7 @@
 /** What the delegated commands do in a text editor. */
 import type { Handlers } from '@/workbench/commands';
 import type { TextDocument } from '../documents/documents';
-import { panelEditor } from './focus';
+import { panelEditor, panelHistory } from './focus';
 
 const ACTIONS: Readonly<Record<string, string>> = {
   'edit.find': 'actions.find',
@@ -33,6 +33,11 @@ export function textHandlers(panelId: string, document: TextDocument): Handlers 
   });
   const history = (command: 'undo' | 'redo') => ({
     run: () => {
+      const table = panelHistory(panelId);
+      if (table !== null) {
+        table[command]();
+        return;
+      }
       const editor = panelEditor(panelId);
       if (editor?.getRawOptions().readOnly === true) return;
       editor?.focus();

@@ -1,0 +1,151 @@
+/**
+ * Everything that can be inserted in a text, by category: variables, types, POUs, keywords and operators.
+ * Gathered from the project's declarations and the libraries its library manager names. Pure functions.
+ */
+import type { LibraryReference, ObjectSummary } from '@/api/types';
+import { parseDeclaration } from '../declaration/parse';
+import { joinComments } from '../declaration/comments';
+import {
+  CONSTANT_KEYWORDS,
+  DECLARATION_KEYWORDS,
+  ELEMENTARY_TYPES,
+  OPERATOR_FUNCTIONS,
+  OPERATOR_KEYWORDS,
+  STATEMENT_KEYWORDS,
+} from '../st/keywords';
+
+export const CATEGORIES = ['variables', 'types', 'pous', 'keywords'] as const;
+export type Category = (typeof CATEGORIES)[number];
+
+export interface Entry {
+  readonly name: string;
+  /** What is put into the text. */
+  readonly insert: string;
+  /** Type of a variable, kind of a POU or type. */
+  readonly detail: string;
+  readonly comment: string;
+  /** Heading under which it is shown: the POU, list or library it comes from. */
+  readonly group: string;
+  readonly category: Category;
+}
+
+export interface Pin {
+  name: string;
+  type: string;
+  default: string;
+  comment: string;
+}
+
+export interface LibraryItem {
+  name: string;
+  kind: string;
+  summary: string;
+  inputs: Pin[];
+  outputs: Pin[];
+  in_out: Pin[];
+  members: Pin[];
+  values: { name: string; value: string; comment: string }[];
+  returns: string | null;
+}
+
+export interface LibraryDetail {
+  name: string;
+  version: string;
+  namespace: string;
+  items: LibraryItem[];
+}
+
+const TYPE_KINDS = new Set(['function_block', 'struct', 'union', 'enum', 'alias', 'interface', 'type']);
+
+/** The variables of one declaration; `prefix` goes in front of the name (a list's name, or nothing for locals). */
+export function variableEntries(declaration: string, group: string, prefix: string): Entry[] {
+  const model = parseDeclaration(declaration);
+  return model.rows
+    .filter((row) => row.special === null && !row.attributes.some((a) => /'hide'/.test(a.text)))
+    .map((row) => ({
+      name: row.name.text,
+      insert: prefix + row.name.text,
+      detail: [model.blocks[row.block]?.scope, row.type?.text].filter(Boolean).join(' · '),
+      comment: joinComments(row.comments.map((cell) => cell.text)),
+      group,
+      category: 'variables',
+    }));
+}
+
+/** Whether the variables of a list may be written without its name (GVL-06). */
+export function isQualifiedOnly(declaration: string): boolean {
+  return /\{\s*attribute\s+'qualified_only'/i.test(declaration);
+}
+
+const OBJECT_KINDS: Readonly<Record<string, Category | null>> = { pou: 'pous', dut: 'types', interface: 'types' };
+
+/** Types and POUs of the project. A function block is both: it is called, and it is the type of instances. */
+export function objectEntries(objects: readonly ObjectSummary[], group: string): Entry[] {
+  return objects.flatMap((object) => {
+    const category = OBJECT_KINDS[object.kind];
+    if (category == null) return [];
+    const entry: Entry = {
+      name: object.name,
+      insert: object.name,
+      detail: object.subkind ?? object.kind,
+      comment: '',
+      group,
+      category,
+    };
+    return object.subkind === 'function_block' ? [entry, { ...entry, category: 'types' as const }] : [entry];
+  });
+}
+
+export function libraryEntries(library: LibraryDetail): Entry[] {
+  return library.items.flatMap((item) => {
+    const entry = (category: Category): Entry => ({
+      name: item.name,
+      insert: item.name,
+      detail: item.kind,
+      comment: item.summary,
+      group: library.name,
+      category,
+    });
+    if (item.kind === 'function_block') return [entry('pous'), entry('types')];
+    return [entry(TYPE_KINDS.has(item.kind) ? 'types' : 'pous')];
+  });
+}
+
+/** Elementary types, keywords and operators of the language itself. */
+export function languageEntries(groups: { types: string; keywords: string; operators: string; functions: string }): Entry[] {
+  const make = (names: readonly string[], category: Category, group: string): Entry[] =>
+    names.map((name) => ({ name, insert: name, detail: '', comment: '', group, category }));
+  const conversions = ['BOOL', 'INT', 'DINT', 'UINT', 'UDINT', 'WORD', 'DWORD', 'REAL', 'LREAL', 'TIME', 'STRING'];
+  const converted = conversions.flatMap((from) => conversions.filter((to) => to !== from).map((to) => `${from}_TO_${to}`));
+  return [
+    ...make(ELEMENTARY_TYPES, 'types', groups.types),
+    ...make([...STATEMENT_KEYWORDS, ...DECLARATION_KEYWORDS, ...CONSTANT_KEYWORDS], 'keywords', groups.keywords),
+    ...make([...OPERATOR_KEYWORDS, ':=', '=>', 'REF=', 'S=', 'R=', '<>', '<=', '>='], 'keywords', groups.operators),
+    ...make([...OPERATOR_FUNCTIONS, ...converted], 'keywords', groups.functions),
+  ];
+}
+
+/** Entries of a category that fit what was typed: those that begin with it first, then those that hold it. */
+export function search(entries: readonly Entry[], category: Category | null, typed: string): readonly Entry[] {
+  const wanted = typed.trim().toUpperCase();
+  const rank = (entry: Entry) => {
+    const name = entry.name.toUpperCase();
+    if (wanted === '') return 0;
+    if (name.startsWith(wanted)) return 0;
+    if (name.includes(wanted)) return 1;
+    return entry.comment.toUpperCase().includes(wanted) || entry.group.toUpperCase() === wanted ? 2 : -1;
+  };
+  return entries
+    .filter((entry) => category === null || entry.category === category)
+    .map((entry, at) => ({ entry, at, rank: rank(entry) }))
+    .filter((found) => found.rank >= 0)
+    .sort((a, b) => a.rank - b.rank || a.at - b.at)
+    .map((found) => found.entry);
+}
+
+/** Libraries the project refers to; all installed ones where it has no library manager yet. */
+export function referenced(references: readonly LibraryReference[] | null, installed: readonly string[]): readonly string[] {
+  if (references === null) return installed;
+  const names = new Set(references.map((reference) => reference.name));
+  return installed.filter((name) => names.has(name));
+}

@@ -1,0 +1,74 @@
+import { useEffect, useState } from 'react';
+import { useText } from '@/i18n';
+import { openDialog } from '@/workbench/dialogs';
+import { Button } from '@/workbench/ui/Button';
+import { Dialog } from '@/workbench/ui/Dialog';
+import styles from './Dialogs.module.css';
+
+interface AttributesDialogProps {
+  /** One attribute or pragma a line, without braces (DECL-32). */
+  value: string;
+  close: (value?: string) => void;
+}
+
+export function AttributesDialog({ value, close }: AttributesDialogProps) {
+  const t = useText();
+  const [text, setText] = useState(value);
+  const wrong = text.split('\n').find((line) => /[{}]/.test(line.replace(/'[^']*'/g, '')));
+  const submit = () => {
+    if (wrong === undefined) close(text);
+  };
+  return (
+    <Dialog
+      title={t('decl.attributesTitle')}
+      description={t('decl.attributesText')}
+      width={520}
+      onClose={() => close()}
+      footer={
+        <>
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button variant="primary" disabledReason={wrong === undefined ? null : t('decl.noBraces')} onClick={submit}>
+            {t('st.ok')}
+          </Button>
+        </>
+      }
+    >
+      <textarea
+        className={styles.code}
+        aria-label={t('decl.attributesTitle')}
+        rows={7}
+        spellCheck={false}
+        data-autofocus
+        value={text}
+        placeholder="attribute 'hide'"
+        onChange={(event) => setText(event.target.value)}
+        onKeyDown={(event) => {
+          if (event.key === 'Enter' && event.ctrlKey) submit();
+        }}
+      />
+      {wrong !== undefined && (
+        <div className={styles.error} role="alert">
+          {t('decl.noBraces')}
+        </div>
+      )}
+    </Dialog>
+  );
+}
+
+/** The attributes cell has no field of its own: it opens the dialog at once. */
+export function AttributesCell({ value, onCommit, onCancel }: { value: string; onCommit: (value: string) => void; onCancel: () => void }) {
+  useEffect(() => {
+    let current = true;
+    void openDialog<string>((close) => <AttributesDialog value={value} close={close} />).then((text) => {
+      if (!current) return;
+      if (text === undefined) onCancel();
+      else onCommit(text);
+    });
+    return () => {
+      current = false;
+    };
+    // The dialog is asked once; what it answers goes to the cell as it was then.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, []);
+  return <span style={{ padding: '0 8px' }}>{value.split('\n')[0]}</span>;
+}

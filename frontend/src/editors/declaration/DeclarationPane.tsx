@@ -1,0 +1,81 @@
+import { Table2, TextInitial } from 'lucide-react';
+import { useCallback, useEffect, useState } from 'react';
+import type { ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { languageClient } from '@/lsp/session';
+import { useObjectSession } from '@/online/useObjectSession';
+import type { EditorProps } from '@/workbench/editors';
+import { IconButton } from '@/workbench/ui/Button';
+import type { OpenText } from '../documents/useTextDocument';
+import { OnlineDeclaration } from '../online/OnlineDeclaration';
+import { setEditorSettings, useEditorSettings, type DeclarationView } from '../settings';
+import { CodePane, type CodeEditor } from '../st/CodePane';
+import { addPanelEditor, removePanelEditor } from '../st/focus';
+import { useEditingLock } from '../st/useEditingLock';
+import styles from './DeclarationPane.module.css';
+import { DeclarationTable } from './DeclarationTable';
+import { useShorthand } from './useShorthand';
+
+type DeclarationPaneProps = EditorProps & OpenText & { object: ObjectSummary };
+
+/** The declaration of an object as text or as table; online the table shows values (DECL-03, DECL-40). */
+export function DeclarationPane(props: DeclarationPaneProps) {
+  const { object, reveal } = props;
+  const t = useText();
+  const session = useObjectSession(props.projectId, object);
+  const preferred = useEditorSettings((settings) => settings.declarationView);
+  // Online the values come first; who looks at the text then has chosen it for this editor only.
+  const [onlineView, setOnlineView] = useState<DeclarationView>('table');
+  const [jump, setJump] = useState<number | null>(null);
+  const online = session !== null;
+  const view = reveal?.part === 'declaration' && reveal.serial === jump ? 'text' : online ? onlineView : preferred;
+  useEffect(() => {
+    if (reveal?.part === 'declaration' && reveal.line !== undefined) setJump(reveal.serial);
+  }, [reveal]);
+
+  const choose = (next: DeclarationView) => {
+    setJump(null);
+    if (online) setOnlineView(next);
+    else setEditorSettings({ declarationView: next });
+  };
+  return (
+    <div className={styles.pane}>
+      <div className={styles.view}>
+        {view === 'text' && <DeclarationText {...props} />}
+        {view === 'table' && online && <OnlineDeclaration {...props} session={session} />}
+        {view === 'table' && !online && <DeclarationTable {...props} showText={() => choose('text')} />}
+      </div>
+      <div className={styles.switch} role="group" aria-label={t('decl.view')}>
+        <IconButton small icon={TextInitial} label={t('decl.viewText')} pressed={view === 'text'} onClick={() => choose('text')} />
+        <IconButton small icon={Table2} label={t('decl.viewTable')} pressed={view === 'table'} onClick={() => choose('table')} />
+      </div>
+    </div>
+  );
+}
+
+function DeclarationText({ panelId, projectId, object, monaco, document }: DeclarationPaneProps) {
+  const t = useText();
+  const [editor, setEditor] = useState<CodeEditor | null>(null);
+  const readOnly = useEditingLock(object, editor);
+  useShorthand(monaco, editor);
+  const onEditor = useCallback(
+    (made: CodeEditor | null) => {
+      if (made === null) removePanelEditor(panelId, 'declaration');
+      else {
+        addPanelEditor(panelId, 'declaration', made);
+        languageClient(monaco, projectId);
+      }
+      setEditor(made);
+    },
+    [panelId, monaco, projectId],
+  );
+  return (
+    <CodePane
+      monaco={monaco}
+      model={document.models.declaration}
+      label={t('st.declarationOf', { name: object.name })}
+      readOnly={readOnly}
+      onEditor={onEditor}
+    />
+  );
+}

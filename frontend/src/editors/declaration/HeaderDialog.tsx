@@ -1,0 +1,73 @@
+import { useState } from 'react';
+import { useText } from '@/i18n';
+import { openDialog } from '@/workbench/dialogs';
+import { Button } from '@/workbench/ui/Button';
+import { Dialog } from '@/workbench/ui/Dialog';
+import { Field, Select, TextInput } from '@/workbench/ui/Field';
+import { identifierProblem } from '../st/keywords';
+import { AttributesDialog } from './AttributesDialog';
+import styles from './Dialogs.module.css';
+import { keywordChoices, type HeaderValues } from './header';
+
+interface HeaderDialogProps {
+  values: HeaderValues;
+  close: (values?: HeaderValues) => void;
+}
+
+/** Edit Declaration Header: kind, name, comment and POU-wide attributes (DECL-30). */
+export function HeaderDialog({ values, close }: HeaderDialogProps) {
+  const t = useText();
+  const [keyword, setKeyword] = useState(values.keyword);
+  const [name, setName] = useState(values.name);
+  const [comment, setComment] = useState(values.comment);
+  const [attributes, setAttributes] = useState(values.attributes);
+  const problem = identifierProblem(name.trim());
+  const error = problem === null ? null : t(`decl.identifier.${problem}`, { name: name.trim() });
+  const choices = keywordChoices(values.keyword).map((choice) => ({ value: choice, text: choice }));
+  const editAttributes = async () => {
+    const text = await openDialog<string>((done) => <AttributesDialog value={attributes.join('\n')} close={done} />);
+    if (text !== undefined) setAttributes(text.split('\n').map((line) => line.trim()).filter((line) => line !== ''));
+  };
+  return (
+    <Dialog
+      title={t('decl.editHeader')}
+      width={480}
+      onClose={() => close()}
+      onSubmit={() => error === null && close({ keyword, name: name.trim(), comment, attributes })}
+      footer={
+        <>
+          <Button style={{ marginRight: 'auto' }} onClick={() => void editAttributes()}>
+            {t('decl.attributesButton', { count: attributes.length })}
+          </Button>
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button type="submit" variant="primary" disabledReason={error}>
+            {t('st.ok')}
+          </Button>
+        </>
+      }
+    >
+      <div className={styles.stack}>
+        <Field label={t('decl.headerKind')}>
+          {({ id }) => <Select id={id} value={keyword} choices={choices} onValue={setKeyword} disabled={choices.length === 1} />}
+        </Field>
+        <Field label={t('decl.column.name')} error={error}>
+          {(field) => <TextInput {...field} value={name} onValue={setName} data-autofocus />}
+        </Field>
+        <Field label={t('decl.column.comment')}>
+          {({ id }) => (
+            <textarea
+              id={id}
+              className={styles.code}
+              rows={4}
+              value={comment}
+              onChange={(event) => setComment(event.target.value)}
+              onKeyDown={(event) => {
+                if (event.key === 'Enter') event.stopPropagation();
+              }}
+            />
+          )}
+        </Field>
+      </div>
+    </Dialog>
+  );
+}

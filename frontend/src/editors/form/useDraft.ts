@@ -1,0 +1,116 @@
+import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
+import { saveObject, StaleObject, useObject } from '@/api/queries';
+import type { ProjectObject } from '@/api/types';
+import { t } from '@/i18n';
+import { useCommandContext } from '@/workbench/context';
+import { confirm } from '@/workbench/dialogs';
+import { explain, notify, notifyError } from '@/workbench/notices';
+import { mayEdit } from '@/workbench/rights';
+import { reasonText } from '@/workbench/run';
+import { setDirty } from '@/workbench/selection';
+import { useHandlers } from '@/workbench/useHandlers';
+
+const SAVE_AFTER_MS = 700;
+
+export interface Draft<Data> {
+  object: ProjectObject<Data> | undefined;
+  /** What the form shows: the stored data with the changes made here. */
+  data: Data | undefined;
+  /** Why nothing can be changed, or null. */
+  readOnly: string | null;
+  /** The server's words about data it did not take; null when all is stored. */
+  refused: string | null;
+  error: unknown;
+  change: (data: Data) => void;
+}
+
+/**
+ * The data of an object being edited in a form. Changes are saved by themselves a moment later, and at once by
+ * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through the changes of this visit.
+ */
+export function useDraft<Data>(panelId: string, projectId: string, objectId: string, valid: (data: Data) => boolean): Draft<Data> {
+  const { data: object, error } = useObject<Data>(projectId, objectId);
+  const [draft, setDraft] = useState<{ data: Data; revision: number } | null>(null);
+  const [refused, setRefused] = useState<string | null>(null);
+  const [history, setHistory] = useState<{ past: readonly Data[]; future: readonly Data[] }>({ past: [], future: [] });
+  const allowed = mayEdit(useCommandContext());
+  const readOnly = allowed === true ? null : reasonText(allowed);
+  const data = draft?.data ?? object?.data;
+  const latest = useRef({ draft, object, valid });
+  useEffect(() => {
+    latest.current = { draft, object, valid };
+  });
+
+  const save = useCallback(async () => {
+    const { draft: present, object: base, valid: fits } = latest.current;
+    if (!present || !base || !fits(present.data)) return;
+    try {
+      await saveObject(projectId, objectId, present.revision, present.data);
+      setRefused(null);
+      // Typed on while it was being saved: the newer draft stands on the revision just made.
+      setDraft((now) => (now?.data === present.data ? null : now && { ...now, revision: base.revision + 1 }));
+    } catch (failure) {
+      if (failure instanceof StaleObject) {
+        const stale = failure as StaleObject<Data>;
+        const mine = await confirm({
+          title: t('conflict.title', { name: stale.current.name }),
+          text: t('conflict.text'),
+          action: t('conflict.overwrite'),
+        });
+        if (mine) setDraft({ data: present.data, revision: stale.current.revision });
+        else setDraft(null);
+      } else {
+        setRefused(explain(failure).text ?? explain(failure).title);
+        notifyError(failure);
+      }
+    }
+  }, [projectId, objectId]);
+
+  const dirty = draft !== null;
+  useEffect(() => setDirty(panelId, dirty), [panelId, dirty]);
+  useEffect(() => {
+    if (!draft) return;
+    const timer = setTimeout(() => void save(), SAVE_AFTER_MS);
+    return () => clearTimeout(timer);
+  }, [draft, save]);
+
+  const set = useCallback((next: Data) => {
+    const { draft: present, object: base } = latest.current;
+    if (base) setDraft({ data: next, revision: present?.revision ?? base.revision });
+  }, []);
+
+  const change = useCallback(
+    (next: Data) => {
+      const before = latest.current.draft?.data ?? latest.current.object?.data;
+      if (before === undefined) return;
+      setHistory((steps) => ({ past: [...steps.past, before].slice(-100), future: [] }));
+      set(next);
+    },
+    [set],
+  );
+
+  const handlers = useMemo(() => {
+    const step = (from: 'past' | 'future', to: 'past' | 'future', take: number) => () => {
+      const target = history[from].at(take);
+      if (target === undefined || data === undefined) return;
+      const rest = take === 0 ? history[from].slice(1) : history[from].slice(0, -1);
+      const kept = to === 'future' ? [data, ...history[to]] : [...history[to], data];
+      setHistory({ ...history, [from]: rest, [to]: kept });
+      set(target);
+    };
+    const blocked = allowed !== true ? allowed : null;
+    return {
+      'file.save': { run: save },
+      'edit.undo': { run: step('past', 'future', -1), enabled: blocked ?? (history.past.length ? (true as const) : ('reason.nothingToUndo' as const)) },
+      'edit.redo': { run: step('future', 'past', 0), enabled: blocked ?? (history.future.length ? (true as const) : ('reason.nothingToRedo' as const)) },
+    };
+  }, [history, data, save, set, allowed]);
+  useHandlers(panelId, handlers);
+
+  return { object, data, readOnly, refused, error, change };
+}
+
+/** Told once a form could not be saved because of a field: where to look. */
+export function notifyFaulty(name: string): void {
+  notify({ tone: 'warn', title: t('form.faulty', { name }) });
+}

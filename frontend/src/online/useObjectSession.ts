@@ -1,0 +1,16 @@
+import { useObjects } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
+import { useOnline, type OnlineSession } from '@/workbench/onlineSession';
+import { useProject } from '@/workbench/project';
+import { ancestorOfKind } from '@/workbench/tree/model';
+
+/**
+ * The online session that shows an object's values: of the application it belongs to, or of the active one for
+ * objects of the POUs view. Null while logged out.
+ */
+export function useObjectSession(projectId: string | null, object: ObjectSummary | undefined): OnlineSession | null {
+  const { data: objects } = useObjects(projectId);
+  const active = useProject((state) => state.applicationId);
+  const own = object && objects ? (ancestorOfKind(objects, object.id, 'application')?.id ?? active) : active;
+  return useOnline((state) => (own === null ? null : (state.sessions[own] ?? null)));
+}
