@@ -44,7 +44,9 @@ class Report:
         for row in self.rows:
             base = f"{row.baseline:12.3f}" if row.baseline is not None else f"{'-':>12}"
             ratio = f"{row.ratio:6.2f}" if row.ratio is not None else f"{'-':>6}"
-            lines.append(f"  {row.name:{width}}  {row.ours:12.3f}  {base}  {row.unit:8} {ratio}  {row.note}".rstrip())
+            lines.append(
+                f"  {row.name:{width}}  {row.ours:12.3f}  {base}  {row.unit:8} {ratio}  {row.note}".rstrip()
+            )
         ratios = [row.ratio for row in self.rows if row.ratio]
         if len(ratios) > 1:
             mean = math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios))

@@ -41,7 +41,9 @@ def load(name: str) -> LoadedApplication:
     source = Source(uri=path.name, text=path.read_text(encoding="utf-8"), name=name)
     result = build_application([source], [TaskSpec("Task", programs=("Main",))])
     if result.package is None:
-        raise ValueError("\n".join(f"{d.uri}:{d.span.line + 1}: {d.code} {d.message}" for d in result.diagnostics))
+        raise ValueError(
+            "\n".join(f"{d.uri}:{d.span.line + 1}: {d.code} {d.message}" for d in result.diagnostics)
+        )
     application = LoadedApplication(result.package)
     application.start()
     return application

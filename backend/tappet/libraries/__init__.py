@@ -9,6 +9,7 @@ import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from tappet.lang.source import Scope, Source
 
@@ -31,9 +32,19 @@ class Library:
     sources: tuple[Source, ...]
 
 
-def names() -> list[str]:
-    """Names of the installed libraries, sorted."""
+@cache
+def names() -> tuple[str, ...]:
+    """Names of the libraries to choose from, sorted; those that only the compiler calls are left out."""
+    return tuple(name for name in _installed() if not _facts(name).get("internal", False))
+
+
+def _installed() -> list[str]:
     return sorted(path.parent.name for path in ROOT.glob("*/library.json"))
+
+
+def _facts(name: str) -> dict[str, Any]:
+    facts: dict[str, Any] = json.loads((ROOT / name / "library.json").read_text(encoding="utf-8"))
+    return facts
 
 
 @cache
@@ -42,12 +53,12 @@ def load(name: str, version: str = "*", namespace: str | None = None) -> Library
 
     Raises UnknownLibraryError, with the names that are installed, when there is no such library or version.
     """
-    by_name = {known.upper(): known for known in names()}
+    by_name = {known.upper(): known for known in _installed()}
     found = by_name.get(name.upper())
     if found is None:
         raise UnknownLibraryError(f"library '{name}' is not installed; installed are {', '.join(names())}")
     folder = ROOT / found
-    facts = json.loads((folder / "library.json").read_text(encoding="utf-8"))
+    facts = _facts(found)
     if version not in ("*", facts["version"]):
         raise UnknownLibraryError(
             f"library '{found}' is installed in version {facts['version']}, not {version}; "

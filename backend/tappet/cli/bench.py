@@ -1,0 +1,24 @@
+"""`tappet bench`: the product's own benchmarks, each with its baseline in the same run."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from tappet.cli.output import FormatOption, OutputFormat, UsageError
+
+
+def bench(
+    name: Annotated[str | None, typer.Argument(help="scan, jitter or build; all of them if left out")] = None,
+    output: FormatOption = OutputFormat.TEXT,
+) -> None:
+    """Measure scan speed, task jitter and build speed as ratios to a baseline."""
+    from tappet.bench import build, jitter, scan
+
+    known = {"scan": scan.run, "jitter": jitter.run, "build": build.run}
+    if name is not None and name not in known:
+        raise UsageError(f"there is no benchmark '{name}'; there are {', '.join(known)}")
+    for benchmark in [name] if name else list(known):
+        report = known[benchmark]()
+        typer.echo(report.json() if output is OutputFormat.JSON else report.text())

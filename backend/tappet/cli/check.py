@@ -1,0 +1,51 @@
+"""`tappet check`: compile only."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tappet.cli.inputs import applications
+from tappet.cli.output import FormatOption, OutputFormat, show_json
+from tappet.codegen.check import check_application, format_diagnostic
+from tappet.lang.diagnostics import Diagnostic
+
+
+def check(
+    paths: Annotated[
+        list[Path], typer.Argument(metavar="PATH...", help="project folder, or .st files and folders of them")
+    ],
+    output: FormatOption = OutputFormat.TEXT,
+    application: Annotated[str | None, typer.Option(help="only this application of the project")] = None,
+) -> None:
+    """Check programs without running them: one `file:line:column: severity code: message` a finding."""
+    found: list[Diagnostic] = []
+    for item in applications(paths, application):
+        found += check_application(item.sources, item.tasks, item.options)
+    errors = sum(diagnostic.severity == "error" for diagnostic in found)
+    warnings = sum(diagnostic.severity == "warning" for diagnostic in found)
+    if output is OutputFormat.JSON:
+        show_json({"ok": errors == 0, "diagnostics": [as_json(diagnostic) for diagnostic in found]})
+    else:
+        for diagnostic in found:
+            typer.echo(format_diagnostic(diagnostic))
+        typer.echo(f"{errors} error(s), {warnings} warning(s)", err=bool(errors))
+    raise typer.Exit(1 if errors else 0)
+
+
+def as_json(diagnostic: Diagnostic) -> dict[str, object]:
+    """A diagnostic for machines; lines and columns count from 1."""
+    span = diagnostic.span
+    return {
+        "file": diagnostic.uri,
+        "line": span.line + 1,
+        "column": span.column + 1,
+        "end_line": span.end_line + 1,
+        "end_column": span.end_column + 1,
+        "severity": diagnostic.severity,
+        "code": diagnostic.code,
+        "message": diagnostic.message,
+        "advice": diagnostic.advice,
+    }

@@ -1,0 +1,144 @@
+"""PATH arguments: a project folder, or plain `.st` files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tappet import libraries
+from tappet.cli.output import UsageError
+from tappet.codegen.build import BuildOptions, LibraryReference, as_source
+from tappet.codegen.package import TaskSpec, WatchdogSpec
+from tappet.lang import ast
+from tappet.lang.parser import parse
+from tappet.lang.source import Source
+from tappet.project import folder
+from tappet.project import sources as project_sources
+from tappet.project.errors import ProjectError
+from tappet.project.folder.layout import PROJECT_FILE
+from tappet.project.model import Project
+
+BARE_TASK_INTERVAL_NS = 10_000_000
+"""A PROGRAM of a bare .st file runs every 10 ms (DESIGN section 3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class ApplicationInput:
+    """One application as `build_application` takes it."""
+
+    name: str
+    sources: tuple[Source, ...]
+    tasks: tuple[TaskSpec, ...]
+    options: BuildOptions
+
+
+def is_project(path: Path) -> bool:
+    """Whether the path is a project folder."""
+    return (path / PROJECT_FILE).is_file()
+
+
+def load_project(path: Path) -> Project:
+    """The project in a folder; raises UsageError naming the file that cannot be read."""
+    if not is_project(path):
+        raise UsageError(f"{path} is no project folder: it has no {PROJECT_FILE}")
+    try:
+        return folder.load(path)
+    except ProjectError as error:
+        raise UsageError(str(error)) from error
+
+
+def applications(paths: Sequence[Path], only: str | None = None) -> list[ApplicationInput]:
+    """The applications that the paths hold: those of a project folder, or one of all `.st` files together.
+
+    Raises UsageError when a path is neither, or when `only` names no application.
+    """
+    if len(paths) == 1 and is_project(paths[0]):
+        found = project_applications(load_project(paths[0]))
+    else:
+        found = [_plain_files(paths)]
+    if only is not None:
+        chosen = [application for application in found if application.name.casefold() == only.casefold()]
+        if not chosen:
+            names = ", ".join(application.name for application in found)
+            raise UsageError(f"there is no application '{only}'; there is {names or 'none'}")
+        return chosen
+    return found
+
+
+def one_application(paths: Sequence[Path], only: str | None = None) -> ApplicationInput:
+    """The single application that the paths hold; raises UsageError when there are several."""
+    found = applications(paths, only)
+    if len(found) != 1:
+        names = ", ".join(application.name for application in found)
+        raise UsageError(f"choose one application with --application: {names or 'the project has none'}")
+    return found[0]
+
+
+def project_applications(project: Project) -> list[ApplicationInput]:
+    """Every application of a project with its libraries and tasks."""
+    return [
+        ApplicationInput(
+            application.name,
+            tuple(as_source(text) for text in project_sources.application_sources(project, application.id)),
+            tuple(_task(task) for task in project_sources.tasks(project, application.id)),
+            BuildOptions(application.name, libraries=_libraries(project, application.id)),
+        )
+        for application in project.applications()
+    ]
+
+
+def _libraries(project: Project, application_id: str) -> tuple[LibraryReference, ...]:
+    return tuple(
+        LibraryReference(reference.name, reference.version, reference.namespace or None)
+        for reference in project_sources.libraries(project, application_id)
+    )
+
+
+def _task(task: project_sources.TaskDefinition) -> TaskSpec:
+    watchdog = task.watchdog
+    return TaskSpec(
+        name=task.name,
+        kind=task.kind,
+        interval_ns=task.interval_ns,
+        priority=task.priority,
+        event=task.event,
+        watchdog=WatchdogSpec(watchdog.time_ns, watchdog.sensitivity) if watchdog else None,
+        programs=task.programs,
+    )
+
+
+def _plain_files(paths: Sequence[Path]) -> ApplicationInput:
+    files: list[Path] = []
+    for path in paths:
+        if path.is_dir():
+            files += sorted(path.rglob("*.st"))
+        elif path.is_file():
+            files.append(path)
+        else:
+            raise UsageError(f"{path} does not exist")
+    if not files:
+        raise UsageError(f"no .st file in {', '.join(str(path) for path in paths)}")
+    sources = [_read(path) for path in files]
+    programs = [
+        declaration.name
+        for source in sources
+        for declaration in parse(source).unit.declarations
+        if isinstance(declaration, ast.Pou) and declaration.kind == "PROGRAM"
+    ]
+    tasks = (
+        (TaskSpec("Task", interval_ns=BARE_TASK_INTERVAL_NS, programs=tuple(programs)),) if programs else ()
+    )
+    options = BuildOptions(
+        files[0].stem, libraries=tuple(LibraryReference(name) for name in libraries.names())
+    )
+    return ApplicationInput(files[0].stem, tuple(sources), tasks, options)
+
+
+def _read(path: Path) -> Source:
+    raw = path.read_bytes()
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    return Source(uri=str(path), text=text, name=path.stem)
