@@ -71,7 +71,7 @@ def _watchdog(task: Any, found: list[Diagnostic]) -> WatchdogSpec | None:
     definition = getattr(task, "watchdog", None)
     if definition is None:
         return None
-    if definition.time_ns <= 0 or definition.sensitivity < 1:
+    if definition.time_ns <= 0 or definition.sensitivity < 0:
         found.append(report("E0710", "", NOWHERE, task=task.name))
         return None
     return WatchdogSpec(definition.time_ns, definition.sensitivity)
