@@ -13,6 +13,7 @@ from elftools.construct import ConstructError
 from elftools.dwarf.die import DIE
 from elftools.elf.elffile import ELFFile
 
+from tappet.codegen.emit_text import PREFIX
 from tappet.codegen.faults import Fault, fault_message
 from tappet.runtime.executive.records import Record
 from tappet.runtime.link import CodeSection, LinkedCode, ObjectSymbol, read_symbols
@@ -157,7 +158,7 @@ class Locator:
         at = address - section.base
         for s in symbols:
             if s.function and s.section == section.section and s.value <= at < s.value + max(s.size, 1):
-                return s.name
+                return s.name.removeprefix(PREFIX)
         return "?"
 
     def _debug_frames(self, section: CodeSection, address: int, function: str) -> list[CallFrame]:

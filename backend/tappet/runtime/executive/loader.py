@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from importlib import metadata
 from pathlib import Path
 
-from tappet.codegen.optimise import ObjectCache, OptimiseOptions, compile_text
+from tappet.codegen.optimise import ObjectCache
 from tappet.lang.source import Scope, Source
 from tappet.runtime import posix
 from tappet.runtime.executive.records import Block, Layout, MemberPlace, Record
@@ -46,17 +46,19 @@ HOST_FUNCTIONS = (
 )  # fmt: skip
 """What the executive itself takes from the C library."""
 
-_REGISTRY_TEXT = """
-define i64 @tappet_registry() "frame-pointer"="all" {{
-  ret i64 {address}
-}}
-"""
+REGISTRY_SYMBOL = "tappet.data.PROCESS"
+"""The global variable list `process.st`; its only member is the registry."""
+_LISTS = {"process.st": "Process"}
+_SIGNED = {"DINT", "LINT", "INT", "SINT"}
 
 
 def sources() -> list[Source]:
     """The ST texts of the executive."""
     files = sorted(FOLDER.glob("*.st"))
-    return [Source(f"executive/{f.name}", f.read_text(encoding="utf-8"), scope=Scope.LIBRARY) for f in files]
+    return [
+        Source(f"executive/{f.name}", f.read_text(encoding="utf-8"), Scope.LIBRARY, name=_LISTS.get(f.name))
+        for f in files
+    ]
 
 
 def _cache_folder() -> Path | None:
@@ -80,7 +82,11 @@ def build_executive() -> tuple[bytes, dict[str, Layout]]:
     from tappet.codegen import build  # the compiler is needed only when the cache is empty
 
     system = build.build_system(texts)
-    rows = {n: [system.size_of(n), system.members_of(n)] for n in STRUCTURES}
+    rows: dict[str, list[object]] = {}
+    for structure in STRUCTURES:
+        members = system.members_of(structure)
+        places = {k: (offset, size, kind in _SIGNED) for k, (offset, size, kind) in members.items()}
+        rows[structure] = [system.size_of(structure), places]
     cache.write(name, system.object)
     cache.write(name + "-layout", json.dumps(rows).encode())
     return system.object, _layouts_from_table(rows)
@@ -126,9 +132,8 @@ class Executive:
         self._registry_block = Block(self.layouts["EXECUTIVE_REGISTRY"].size)
         self.registry = Record(self.layouts["EXECUTIVE_REGISTRY"], self._registry_block.address)
         self._fill_registry()
-        self._anchor = self._link_anchor()
         imports = {name: posix.symbol_address(name) for name in HOST_FUNCTIONS}
-        imports["tappet_registry"] = self._anchor["tappet_registry"]
+        imports[REGISTRY_SYMBOL] = self.registry.address
         self._code: LinkedCode = self.linker.link([code], (*ENTRIES, *SERVICES), imports)
         self.services = {name: self._code[name] for name in SERVICES}
         self.entries = {name: self._code[name] for name in ENTRIES}
@@ -156,11 +161,6 @@ class Executive:
             mask &= ~(1 << signal - 1)
         blocked = mask.to_bytes(8, "little") + b"\xff" * 120
         posix.write_memory(registry.place("signalMask"), blocked)
-
-    def _link_anchor(self) -> LinkedCode:
-        """The one function that cannot be ST: it returns the address of the registry of this process."""
-        text = _REGISTRY_TEXT.format(address=self.registry.address)
-        return self.linker.link([compile_text(text, OptimiseOptions())], ["tappet_registry"], {})
 
     def _install_handlers(self) -> None:
         handler = self.entries["tappet_signal"]

@@ -1,0 +1,73 @@
+"""Builds small ST applications for the runtime tests."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+from tappet.codegen.build import BuildOptions, build_application
+from tappet.codegen.package import CodePackage, TaskSpec, WatchdogSpec
+from tappet.lang.source import Source
+
+MS = 1_000_000
+MAIN = (TaskSpec("Main", interval_ns=10 * MS, programs=("PLC_PRG",)),)
+
+TASK_FUNCTIONS = """
+{attribute 'tappet_external' := 'tappet_sleep_ns'}
+FUNCTION SleepNs
+VAR_INPUT duration : LINT; END_VAR
+END_FUNCTION
+
+{attribute 'tappet_external' := 'tappet_task_current'}
+FUNCTION TaskCurrent : LWORD
+END_FUNCTION
+
+{attribute 'tappet_external' := 'tappet_watchdog_disable'}
+FUNCTION DisableWatchdog : DINT
+VAR_INPUT task : LWORD; END_VAR
+END_FUNCTION
+
+{attribute 'tappet_external' := 'tappet_watchdog_enable'}
+FUNCTION EnableWatchdog : DINT
+VAR_INPUT task : LWORD; END_VAR
+END_FUNCTION
+"""
+"""What CmpIecTask and SysTask are made of."""
+
+
+def build(
+    text: str,
+    tasks: Sequence[TaskSpec] = MAIN,
+    *,
+    gvls: dict[str, str] | None = None,
+    previous: CodePackage | None = None,
+    name: str = "App",
+) -> CodePackage:
+    """A package of one ST text and global variable lists; fails the test with the diagnostics."""
+    lists = tuple(sorted((gvls or {}).items()))
+    if previous is None:
+        return _build(text, tuple(tasks), lists, name)
+    return _compile(text, tuple(tasks), lists, name, previous)
+
+
+@cache
+def _build(text: str, tasks: tuple[TaskSpec, ...], gvls: tuple[tuple[str, str], ...], name: str) -> CodePackage:
+    return _compile(text, tasks, gvls, name, None)
+
+
+def _compile(
+    text: str,
+    tasks: tuple[TaskSpec, ...],
+    gvls: tuple[tuple[str, str], ...],
+    name: str,
+    previous: CodePackage | None,
+) -> CodePackage:
+    sources = [Source("PLC_PRG", text), *(Source(n, t, name=n) for n, t in gvls)]
+    result = build_application(sources, list(tasks), BuildOptions(application=name), previous)
+    assert result.package is not None, [d for d in result.diagnostics if d.severity == "error"]
+    return CodePackage.from_bytes(result.package.to_bytes())
+
+
+def watchdog(time_ms: int, sensitivity: int) -> WatchdogSpec:
+    """A watchdog as in the task dialog."""
+    return WatchdogSpec(time_ms * MS, sensitivity)

@@ -1,0 +1,215 @@
+"""States, resets and what survives what (gvl_dut_symbols.md PERS-01, PERS-02, EX-07)."""
+
+from pathlib import Path
+
+import pytest
+from plc_programs import build
+
+from tappet.runtime.plc import Event, PlcError, SoftPlc
+
+TEXT = """
+PROGRAM PLC_PRG
+VAR RETAIN iRem1 : INT; END_VAR
+VAR
+    iNorm : INT;
+    {attribute 'no_init'}
+    iKept : INT;
+    n : DINT;
+END_VAR
+n := n + 1;
+END_PROGRAM
+"""
+PERSISTENT = "VAR_GLOBAL PERSISTENT RETAIN\n iVarPers1 : DINT;\n bVarPers : BOOL;\nEND_VAR"
+NAMES = ("PLC_PRG.iRem1", "Persistent.iVarPers1", "Persistent.bVarPers", "PLC_PRG.iNorm")
+
+
+def package(persistent: str = PERSISTENT):
+    return build(TEXT, gvls={"Persistent": persistent})
+
+
+@pytest.fixture
+def plc(tmp_path: Path):
+    plc = SoftPlc(tmp_path)
+    yield plc
+    plc.close()
+
+
+def put(plc: SoftPlc) -> None:
+    from tappet.runtime.forces import PlacedValue
+    from tappet.runtime.places import Place
+
+    symbols = plc.symbols()
+    values = []
+    for path, value in zip((*NAMES, "PLC_PRG.iKept"), (11, 22, True, 33, 44), strict=True):
+        ref = symbols.resolve(path)
+        values.append(PlacedValue(Place(ref.offset, ref.size, ref.bit), symbols.encode(ref, value)))
+    done = plc.write(values)
+    while not done():
+        pass
+
+
+def get(plc: SoftPlc, names: tuple[str, ...] = NAMES) -> list[object]:
+    symbols = plc.symbols()
+    refs = [symbols.resolve(n) for n in names]
+    return [symbols.decode(r, d) for r, d in zip(refs, plc.read([(r.offset, r.size) for r in refs]), strict=True)]
+
+
+def test_ex_07_resets_and_download(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    put(plc)
+    plc.reset("warm")
+    assert get(plc) == [11, 22, True, 0]
+    put(plc)
+    plc.reset("cold")
+    assert get(plc) == [0, 22, True, 0]
+    plc.download(package().to_bytes())
+    assert get(plc) == [0, 22, True, 0]
+    plc.reset("origin")
+    assert plc.state == "empty"
+    plc.download(package().to_bytes())
+    assert get(plc) == [0, 0, False, 0]
+
+
+def test_ex_07_reboot(tmp_path: Path) -> None:
+    first = SoftPlc(tmp_path)
+    first.download(package().to_bytes())
+    put(first)
+    first.start()
+    first.close()
+    second = SoftPlc(tmp_path)
+    assert second.boot()
+    assert second.state == "run"
+    assert get(second) == [11, 22, True, 0]
+    second.close()
+
+
+def test_ex_07_appended_variable_keeps_the_others(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    put(plc)
+    longer = PERSISTENT.replace("END_VAR", " p3 : INT;\nEND_VAR")
+    plc.download(package(longer).to_bytes())
+    assert get(plc, ("Persistent.iVarPers1", "Persistent.bVarPers", "Persistent.p3")) == [22, True, 0]
+
+
+def test_ex_07_renamed_or_retyped_variable_is_initialised_and_logged(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    put(plc)
+    changed = "VAR_GLOBAL PERSISTENT RETAIN\n iOther : DINT;\n bVarPers : INT;\nEND_VAR"
+    plc.download(package(changed).to_bytes())
+    assert get(plc, ("Persistent.iOther", "Persistent.bVarPers")) == [0, 0]
+    assert any("PERSISTENT.IVARPERS1" in e.message for e in plc.log.since())
+
+
+def test_another_application_does_not_inherit(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    put(plc)
+    plc.download(build(TEXT, gvls={"Persistent": PERSISTENT}, name="Other").to_bytes())
+    assert get(plc) == [0, 0, False, 0]
+
+
+def test_no_init_survives_resets(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    put(plc)
+    plc.reset("cold")
+    assert get(plc, ("PLC_PRG.iKept",)) == [44]
+
+
+def test_origin_removes_everything(plc: SoftPlc, tmp_path: Path) -> None:
+    plc.download(package().to_bytes())
+    put(plc)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["boot.tappet", "retain.live"]
+    plc.reset("origin")
+    assert list(tmp_path.iterdir()) == []
+    assert not plc.boot()
+
+
+def test_stop_and_run_keep_values(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    plc.start()
+    put(plc)
+    plc.stop()
+    stopped = get(plc, ("PLC_PRG.n",))
+    assert get(plc) == [11, 22, True, 33]
+    plc.start()
+    plc.stop()
+    assert get(plc, ("PLC_PRG.n",)) >= stopped
+
+
+def test_states_and_events(plc: SoftPlc) -> None:
+    events: list[Event] = []
+    plc.on_event = events.append
+    plc.download(package().to_bytes())
+    plc.start()
+    plc.stop()
+    plc.reset("cold")
+    assert [(e.kind, e.state) for e in events] == [
+        ("application", "stop"), ("state", "run"), ("state", "stop"), ("state", "stop"),
+    ]  # fmt: skip
+
+
+def test_commands_without_an_application_are_refused(plc: SoftPlc) -> None:
+    for command in (plc.start, plc.stop, plc.symbols, plc.tasks, lambda: plc.reset("warm")):
+        with pytest.raises(PlcError, match="download one first"):
+            command()
+
+
+def test_a_refused_package_leaves_the_old_application(plc: SoftPlc) -> None:
+    plc.download(package().to_bytes())
+    plc.start()
+    with pytest.raises(PlcError, match="refused"):
+        plc.download(b"TAPPET-PKG\x01garbage")
+    assert plc.state == "run"
+
+
+def test_damaged_boot_application_is_reported(plc: SoftPlc, tmp_path: Path) -> None:
+    (tmp_path / "boot.tappet").write_bytes(b"TAPPET-PKG\x01\x80")
+    assert not plc.boot()
+    assert plc.state == "empty"
+    assert "damaged" in plc.log.since()[-1].message
+
+
+def test_unknown_reset_is_named(plc: SoftPlc) -> None:
+    with pytest.raises(PlcError, match="known are warm, cold and origin"):
+        plc.reset("hot")
+
+
+def test_memory_does_not_grow_over_downloads(plc: SoftPlc) -> None:
+    data = package().to_bytes()
+
+    def resident() -> int:
+        with open("/proc/self/statm", encoding="ascii") as file:
+            return int(file.read().split()[1]) * 4096
+
+    def rounds(count: int) -> None:
+        for _ in range(count):
+            plc.download(data)
+            plc.start()
+
+    rounds(10)
+    before = resident()
+    rounds(60)
+    assert resident() - before < 8 << 20
+
+
+def test_fb_exit_runs_before_a_download() -> None:
+    text = """
+    FUNCTION_BLOCK FB_Exiting
+    VAR x : INT; END_VAR
+    METHOD FB_Exit : BOOL
+    VAR_INPUT bInCopyCode : BOOL; END_VAR
+    left := left + 1;
+    END_METHOD
+    END_FUNCTION_BLOCK
+    PROGRAM PLC_PRG
+    VAR fb : FB_Exiting; END_VAR
+    fb();
+    END_PROGRAM
+    """
+    lists = {"Persistent": "VAR_GLOBAL PERSISTENT left : DINT; END_VAR"}
+    plc = SoftPlc(None)
+    plc.load(build(text, gvls=lists))
+    application = plc.application
+    assert application is not None
+    assert application.run_exit() is None
+    assert get(plc, ("Persistent.left",)) == [1]
+    plc.close()

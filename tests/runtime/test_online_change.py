@@ -1,0 +1,112 @@
+"""Online change: values stay, code changes, forces and recorders find their variables again."""
+
+from pathlib import Path
+
+import pytest
+from plc_programs import MS, build
+
+from tappet.codegen.package import TaskSpec
+from tappet.runtime.local import LocalRuntime
+from tappet.runtime.online_change import OnlineChangeError, check_change
+from tappet.runtime.plc import PlcError
+
+ONE = """
+PROGRAM PLC_PRG
+VAR n : DINT; other : DINT := 5; END_VAR
+n := n + 1;
+END_PROGRAM
+"""
+CODE_ONLY = ONE.replace("n := n + 1;", "n := n + 100;")
+MORE_DATA = """
+PROGRAM PLC_PRG
+VAR fresh : LREAL := 2.5; arr : ARRAY [0..99] OF INT := [100(7)]; n : DINT; other : DINT := 5; END_VAR
+n := n + 10;
+END_PROGRAM
+"""
+
+
+def change(runtime: LocalRuntime, text: str) -> None:
+    runtime.plc.download(build(text, previous=runtime.package).to_bytes(), "online_change")
+
+
+def test_code_changes_while_values_stay() -> None:
+    with LocalRuntime(build(ONE)) as runtime:
+        runtime.run(cycles=3)
+        change(runtime, CODE_ONLY)
+        runtime.run(cycles=1)
+        assert runtime.read("PLC_PRG.n") == 103
+        assert "code exchanged while running" in runtime.plc.log.since()[-1].message
+
+
+def test_data_moves_and_new_variables_are_initialised() -> None:
+    with LocalRuntime(build(ONE)) as runtime:
+        runtime.run(cycles=3)
+        runtime.write("PLC_PRG.other", 77)
+        change(runtime, MORE_DATA)
+        runtime.run(cycles=1)
+        assert [runtime.read(f"PLC_PRG.{v}") for v in ("n", "other", "fresh", "arr[99]")] == [13, 77, 2.5, 7]
+
+
+def test_forces_and_traces_follow_their_variables() -> None:
+    with LocalRuntime(build(ONE)) as runtime:
+        trace = runtime.trace(["PLC_PRG.n"])
+        runtime.force("PLC_PRG.other", 9)
+        runtime.run(cycles=2)
+        change(runtime, MORE_DATA)
+        runtime.run(cycles=2)
+        assert [s.values["PLC_PRG.n"] for s in trace.samples] == [1, 2, 12, 22]
+        assert [path for _, path in runtime.plc.forces()] == ["PLC_PRG.other"]
+        assert runtime.read("PLC_PRG.other") == 9
+
+
+def test_force_of_a_removed_variable_is_released_and_logged() -> None:
+    with LocalRuntime(build(ONE)) as runtime:
+        runtime.force("PLC_PRG.other", 9)
+        change(runtime, "PROGRAM PLC_PRG VAR n : DINT; END_VAR n := n + 1; END_PROGRAM")
+        assert runtime.plc.forces() == []
+        assert any("their variables are gone" in e.message for e in runtime.plc.log.since())
+
+
+def test_many_changes_in_real_time_lose_no_cycle() -> None:
+    task = TaskSpec("Main", interval_ns=1 * MS, programs=("PLC_PRG",))
+    text = """
+    PROGRAM PLC_PRG
+    VAR n : LINT; last : LINT; jumps : DINT; END_VAR
+    n := n + 1;
+    IF n <> last + 1 THEN jumps := jumps + 1; END_IF
+    last := n;
+    END_PROGRAM
+    """
+    with LocalRuntime(build(text, (task,)), virtual=False) as runtime:
+        for number in range(10):
+            changed = text.replace("VAR n", f"VAR v{number} : LREAL := {number}.5; n")
+            package = build(changed, (task,), previous=runtime.package)
+            runtime.plc.download(package.to_bytes(), "online_change")
+            runtime.run(cycles=5)
+            assert runtime.read(f"PLC_PRG.v{number}") == number + 0.5
+        assert runtime.read("PLC_PRG.jumps") == 0
+
+
+def test_a_package_for_another_base_is_refused() -> None:
+    with LocalRuntime(build(ONE)) as runtime:
+        other = build(MORE_DATA, previous=build(CODE_ONLY))
+        with pytest.raises(PlcError, match="another application than the running one"):
+            runtime.plc.download(other.to_bytes(), "online_change")
+        runtime.run(cycles=1)
+
+
+def test_a_plain_package_is_no_online_change() -> None:
+    with pytest.raises(OnlineChangeError, match="not built as an online change"):
+        check_change(build(ONE), build(CODE_ONLY))
+
+
+def test_the_changed_application_boots(tmp_path: Path) -> None:
+    with LocalRuntime(build(ONE), folder=tmp_path) as runtime:
+        change(runtime, MORE_DATA)
+        code_id = runtime.package.code_id
+    from tappet.runtime.plc import SoftPlc
+
+    plc = SoftPlc(tmp_path, virtual=True)
+    assert plc.boot()
+    assert plc.info().code_id == code_id
+    plc.close()
