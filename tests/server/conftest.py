@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from fake_plc import FakePlc
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, HOST, PASSWORD, ROLES, browser, script
+from server_clients import CHEAP, PASSWORD, ROLES, browser, script, serving
 
 from tappet.server.app import create_app
 from tappet.server.services import Services
@@ -17,14 +19,34 @@ from tappet.server.settings import ServerSettings
 
 @pytest.fixture
 def settings(tmp_path: Path) -> ServerSettings:
-    return ServerSettings(data_dir=tmp_path, password_cost=CHEAP)
+    return ServerSettings(data_dir=tmp_path, password_cost=CHEAP, reconnect_seconds=0.02)
 
 
 @pytest.fixture
-def app(settings: ServerSettings) -> Iterator[FastAPI]:
-    app = create_app(settings)
-    with TestClient(app, base_url=HOST):
+def plc() -> FakePlc:
+    """A soft PLC with an application, stopped."""
+    return FakePlc()
+
+
+@pytest.fixture
+def app(settings: ServerSettings, plc: FakePlc) -> Iterator[FastAPI]:
+    app = create_app(settings, plc.connect)
+    with serving(app):
         yield app
+
+
+@pytest.fixture
+def runtime_id(app: FastAPI, admin: TestClient) -> str:
+    """The soft PLC, known to the server and connected."""
+    body = {"name": "test stand", "url": "ws://plc:11740", "token": "t"}
+    answer = admin.post("/api/v1/runtimes", json=body)
+    assert answer.status_code == 201, answer.text
+    url = f"/api/v1/runtimes/{answer.json()['id']}"
+    end = time.monotonic() + 5
+    while not admin.get(url).json()["connected"]:
+        assert time.monotonic() < end
+        time.sleep(0.005)
+    return answer.json()["id"]
 
 
 @pytest.fixture

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from fake_plc import FakePlc
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from hypothesis import given
 from hypothesis import strategies as st
-from server_clients import HOST, PAGE
+from server_clients import HOST, PAGE, bare, serving
 from starlette.requests import HTTPConnection
 
 from tappet.server.app import create_app
@@ -19,7 +20,7 @@ from tappet.server.settings import ServerSettings
 
 
 def _foreign(app: FastAPI, admin: TestClient, **headers: str) -> TestClient:
-    client = TestClient(app, base_url=HOST, headers=headers)
+    client = bare(app, headers=headers)
     client.cookies.set("tappet_session", admin.cookies["tappet_session"])
     return client
 
@@ -55,10 +56,10 @@ def test_reading_by_link_still_works(app: FastAPI, admin: TestClient) -> None:
 
 
 def test_foreign_page_cannot_log_the_browser_in(app: FastAPI, admin: TestClient) -> None:
-    evil = TestClient(app, base_url=HOST, headers={"Origin": "http://evil.example"})
+    evil = bare(app, headers={"Origin": "http://evil.example"})
     body = {"username": "admin", "password": "correct horse battery"}
     assert evil.post("/api/v1/auth/login", json=body).status_code == 403
-    form = TestClient(app, base_url=HOST).post(
+    form = bare(app).post(
         "/api/v1/auth/login",
         content='{"username":"admin","password":"x"}',
         headers={"Content-Type": "text/plain"},
@@ -70,27 +71,25 @@ def test_foreign_page_cannot_log_the_browser_in(app: FastAPI, admin: TestClient)
     "host", ["evil.example", "evil.example:8080", "10.0.0.5:8080", "localhost.evil.example", ""]
 )
 def test_rebound_names_are_refused_on_loopback(app: FastAPI, host: str) -> None:
-    answer = TestClient(app, base_url=HOST).get("/api/v1/health", headers={"Host": host})
+    answer = bare(app).get("/api/v1/health", headers={"Host": host})
     assert answer.status_code == 421
     assert answer.headers["content-type"] == "application/problem+json"
 
 
 @pytest.mark.parametrize("host", ["localhost:8080", "127.0.0.1", "[::1]:8080", "LOCALHOST"])
 def test_loopback_names_pass(app: FastAPI, host: str) -> None:
-    assert TestClient(app, base_url=HOST).get("/api/v1/health", headers={"Host": host}).status_code == 200
+    assert bare(app).get("/api/v1/health", headers={"Host": host}).status_code == 200
 
 
 def test_configured_names_pass(settings: ServerSettings) -> None:
-    named = create_app(
-        replace(settings, host="0.0.0.0", allowed_hosts=("plc.plant",)),
-    )
-    with TestClient(named, base_url=HOST) as client:
+    named = create_app(replace(settings, host="0.0.0.0", allowed_hosts=("plc.plant",)), FakePlc().connect)
+    with serving(named) as client:
         assert client.get("/api/v1/health", headers={"Host": "plc.plant"}).status_code == 200
         assert client.get("/api/v1/health", headers={"Host": "evil.example"}).status_code == 421
 
 
 def test_answers_carry_security_headers(app: FastAPI) -> None:
-    answer = TestClient(app, base_url=HOST, headers=PAGE).get("/api/v1/health")
+    answer = bare(app, headers=PAGE).get("/api/v1/health")
     assert answer.headers["x-content-type-options"] == "nosniff"
     assert "script-src 'self'" in answer.headers["content-security-policy"]
     assert answer.headers["cache-control"] == "no-store"

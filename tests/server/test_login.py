@@ -5,9 +5,10 @@ from __future__ import annotations
 from datetime import UTC, datetime, timedelta
 
 import pytest
+from fake_plc import FakePlc
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, HOST, PAGE, PASSWORD, browser
+from server_clients import CHEAP, PAGE, PASSWORD, bare, browser, serving
 from sqlalchemy import select, update
 
 from tappet.server import tables
@@ -54,8 +55,8 @@ def test_weak_password_does_not_use_up_the_token(app: FastAPI, services: Service
 def test_token_is_gone_after_restart_with_accounts(
     app: FastAPI, admin: TestClient, settings: ServerSettings
 ) -> None:
-    again = create_app(settings)
-    with TestClient(again, base_url=HOST):
+    again = create_app(settings, FakePlc().connect)
+    with serving(again):
         assert again.state.services.first_account_token is None
 
 
@@ -70,9 +71,11 @@ def test_cookie_is_protected(app: FastAPI, admin: TestClient) -> None:
 
 
 def test_cookie_is_secure_behind_https(settings: ServerSettings) -> None:
-    secured = create_app(ServerSettings(data_dir=settings.data_dir, password_cost=CHEAP, https=True))
-    with TestClient(secured, base_url=HOST):
-        client = TestClient(
+    secured = create_app(
+        ServerSettings(data_dir=settings.data_dir, password_cost=CHEAP, https=True), FakePlc().connect
+    )
+    with serving(secured):
+        client = bare(
             secured, base_url="https://127.0.0.1:8080", headers={**PAGE, "Origin": "https://127.0.0.1:8080"}
         )
         body = {"token": secured.state.services.first_account_token, "username": "a", "password": PASSWORD}
@@ -186,7 +189,7 @@ def test_local_link_expires(app: FastAPI, services: Services) -> None:
 def test_local_link_only_from_this_machine(app: FastAPI, services: Services) -> None:
     services.login.ensure_local_user()
     token = services.one_time.issue(LOCAL_LINK, timedelta(minutes=10))
-    stranger = TestClient(app, base_url=HOST, client=("192.168.1.20", 50000))
+    stranger = bare(app, client=("192.168.1.20", 50000))
     assert stranger.get("/api/v1/auth/link", params={"token": token}).status_code == 403
     here = browser(app).get("/api/v1/auth/link", params={"token": token}, follow_redirects=False)
     assert here.status_code == 303, "a refused attempt does not use it up"

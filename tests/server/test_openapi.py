@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from fake_plc import FakePlc
 
 from tappet.server import openapi
 from tappet.server.app import create_app
@@ -16,12 +17,12 @@ KEPT = Path(__file__).parents[2] / "frontend" / "src" / "api" / "openapi.json"
 def test_kept_document_is_current() -> None:
     if not KEPT.parent.exists():
         pytest.skip("no front end in this checkout")
-    text = openapi.text(create_app(ServerSettings()))
+    text = openapi.text(create_app(ServerSettings(), FakePlc().connect))
     assert KEPT.read_text(encoding="utf-8") == text, "run: make generate"
 
 
 def test_references_resolve_and_operations_are_described() -> None:
-    document = openapi.document(create_app(ServerSettings()))
+    document = openapi.document(create_app(ServerSettings(), FakePlc().connect))
     schemas = document["components"]["schemas"]
 
     def references(node: object) -> list[str]:

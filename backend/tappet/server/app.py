@@ -11,15 +11,23 @@ from starlette.concurrency import run_in_threadpool
 from starlette.middleware import Middleware
 
 from tappet import __version__
+from tappet.runtime.client import RuntimeClient
 from tappet.server import (
     openapi,
     problems,
     routes_auth,
+    routes_build,
     routes_health,
+    routes_libraries,
+    routes_metrics,
+    routes_online,
+    routes_runtimes,
     routes_settings,
     routes_users,
+    routes_values,
 )
 from tappet.server.guard import RequestGuard
+from tappet.server.plc_client import Connect
 from tappet.server.services import open_services
 from tappet.server.settings import ServerSettings
 
@@ -29,6 +37,12 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_auth.router,
     routes_users.router,
     routes_settings.router,
+    routes_metrics.router,
+    routes_runtimes.router,
+    routes_values.router,
+    routes_online.router,
+    routes_build.router,
+    routes_libraries.router,
 )
 """One router per resource, all below `API`."""
 
@@ -38,12 +52,13 @@ def _operation_id(route: APIRoute) -> str:
     return route.name
 
 
-def create_app(settings: ServerSettings) -> FastAPI:
+def create_app(settings: ServerSettings, connect: Connect = RuntimeClient.connect) -> FastAPI:
     """The application for `settings`. Nothing is opened before its lifespan starts."""
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.services = services = await run_in_threadpool(open_services, settings)
+        app.state.services = services = await run_in_threadpool(open_services, settings, connect)
+        await services.start()
         try:
             yield
         finally:

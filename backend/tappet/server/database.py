@@ -8,7 +8,7 @@ from typing import TypeVar
 from sqlalchemy import Connection, Engine
 from starlette.concurrency import run_in_threadpool
 
-from tappet.project.store.engine import WRITES
+from tappet.project.store.engine import reading
 
 T = TypeVar("T")
 
@@ -19,16 +19,16 @@ class Database:
 
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
-        self._writing = engine.execution_options(**{WRITES: True})
+        self._reading = reading(engine)
 
     def read(self, work: Callable[[Connection], T]) -> T:
         """Calls `work`, which must not write. Blocks."""
-        with self.engine.begin() as connection:
+        with self._reading.begin() as connection:
             return work(connection)
 
     def write(self, work: Callable[[Connection], T]) -> T:
         """Calls `work`, which may write; SQLite lets one such call run at a time. Blocks."""
-        with self._writing.begin() as connection:
+        with self.engine.begin() as connection:
             return work(connection)
 
     async def read_async(self, work: Callable[[Connection], T]) -> T:

@@ -12,10 +12,13 @@ from fastapi import Depends
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
+from tappet.project.store import Store
 from tappet.server.auth import identity as identities
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
+from tappet.server.commissioning import Commissioning
 from tappet.server.database import Database
+from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 
@@ -68,9 +71,34 @@ require_operator = RequireRole(Role.OPERATOR)
 require_engineer = RequireRole(Role.ENGINEER)
 require_admin = RequireRole(Role.ADMIN)
 
+
+async def store_of(connection: HTTPConnection) -> Store:
+    """The project store; its methods block, so routes that use it are plain functions."""
+    return (await services_of(connection)).store
+
+
+async def runtimes_of(connection: HTTPConnection) -> RuntimeRegistry:
+    """The runtimes of the running server."""
+    return (await services_of(connection)).runtimes
+
+
+async def commissioning_of(connection: HTTPConnection) -> Commissioning:
+    """Build, login and download."""
+    return (await services_of(connection)).commissioning
+
+
+async def link_of(runtime_id: str, connection: HTTPConnection) -> RuntimeLink:
+    """The runtime that the path names; raises a 404 problem."""
+    return (await runtimes_of(connection)).get(runtime_id)
+
+
 ServicesDep = Annotated[Services, Depends(services_of)]
 SettingsDep = Annotated[ServerSettings, Depends(settings_of)]
 DatabaseDep = Annotated[Database, Depends(database_of)]
+StoreDep = Annotated[Store, Depends(store_of)]
+RuntimesDep = Annotated[RuntimeRegistry, Depends(runtimes_of)]
+CommissioningDep = Annotated[Commissioning, Depends(commissioning_of)]
+LinkDep = Annotated[RuntimeLink, Depends(link_of)]
 MaybeIdentity = Annotated[Identity | None, Depends(optional_identity)]
 Viewer = Annotated[Identity, Depends(require_viewer)]
 Operator = Annotated[Identity, Depends(require_operator)]

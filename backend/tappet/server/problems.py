@@ -15,6 +15,9 @@ from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse
 from starlette.websockets import WebSocket
 
+from tappet.project.errors import ProjectError
+from tappet.project.store import StaleRevision
+
 MEDIA_TYPE = "application/problem+json"
 log = logging.getLogger(__name__)
 
@@ -100,6 +103,26 @@ async def _on_invalid(connection: HTTPConnection, error: Exception) -> Any:
     return await _answer(connection, Problem(422, "invalid-request", detail, errors=errors))
 
 
+PROJECT_STATUS = {
+    "unknown_object": 404,
+    "unknown_project": 404,
+    "unknown_revision": 404,
+    "name_taken": 409,
+    "stale_revision": 409,
+    "store": 503,
+}
+"""HTTP status of errors of the project room by their code; all others are 422."""
+
+
+async def _on_project_error(connection: HTTPConnection, error: Exception) -> Any:
+    assert isinstance(error, ProjectError)
+    fields: dict[str, Any] = {}
+    if isinstance(error, StaleRevision):
+        fields = {"current": error.current, "yours": error.yours, "author": error.author}
+    status = PROJECT_STATUS.get(error.code, 422)
+    return await _answer(connection, Problem(status, error.code.replace("_", "-"), str(error), **fields))
+
+
 async def _on_crash(request: Request, error: Exception) -> JSONResponse:
     reference = secrets.token_hex(4)
     log.error("request %s %s failed (%s)", request.method, request.url.path, reference, exc_info=error)
@@ -114,6 +137,7 @@ async def _on_crash(request: Request, error: Exception) -> JSONResponse:
 def install(app: FastAPI) -> None:
     """Makes every error of `app` a problem."""
     app.add_exception_handler(Problem, _on_problem)
+    app.add_exception_handler(ProjectError, _on_project_error)
     app.add_exception_handler(HTTPException, _on_http_exception)
     app.add_exception_handler(RequestValidationError, _on_invalid)
     app.add_exception_handler(WebSocketRequestValidationError, _on_invalid)

@@ -46,7 +46,9 @@ class SceneView:
         self._draw(server, dark)
 
     def _draw(self, server: viser.ViserServer, dark: bool) -> None:
-        server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark, control_layout="collapsible")
+        server.gui.configure_theme(
+            show_logo=False, show_share_button=False, dark_mode=dark, control_layout="collapsible"
+        )
         server.gui.set_panel_label("3D")
         server.scene.set_up_direction("+z")
         server.scene.add_grid(

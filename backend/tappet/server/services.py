@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tappet.project.store.engine import migrate, open_engine
+from sqlalchemy import Connection, select
+
+from tappet.project.store import Store
 from tappet.server.auth import accounts
 from tappet.server.auth.login import FIRST_ACCOUNT, Login
 from tappet.server.auth.one_time import OneTimeSecrets
 from tappet.server.auth.passwords import Passwords
+from tappet.server.builder import Builder
+from tappet.server.commissioning import Commissioning
 from tappet.server.database import Database
-from tappet.server.settings import ServerSettings
+from tappet.server.local_runtime import LocalRuntime
+from tappet.server.metrics import Metrics
+from tappet.server.online.sampler import SamplerPool
+from tappet.server.packages import PackageStore
+from tappet.server.plc_client import Connect
+from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
+from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
+from tappet.server.tables import runtimes as runtimes_table
 
 
 @dataclass(slots=True)
@@ -18,28 +29,81 @@ class Services:
     """Everything that lives as long as the server."""
 
     settings: ServerSettings
+    store: Store
     database: Database
     passwords: Passwords
     one_time: OneTimeSecrets
     login: Login
+    runtimes: RuntimeRegistry
+    commissioning: Commissioning
+    metrics: Metrics = field(default_factory=Metrics)
     first_account_token: str | None = field(default=None, repr=False)
     """Shown on the console at start-up while there is no account."""
+    local_runtime: LocalRuntime | None = None
+    _samplers: dict[RuntimeLink, SamplerPool] = field(default_factory=dict)
+
+    def samplers(self, link: RuntimeLink) -> SamplerPool:
+        """The samplers of a runtime, shared by all who watch it."""
+        for gone in [known for known in self._samplers if known not in self.runtimes.all()]:
+            del self._samplers[gone]
+        if link not in self._samplers:
+            self._samplers[link] = SamplerPool(link)
+        return self._samplers[link]
+
+    async def start(self) -> None:
+        """Begins the work in the background."""
+        if self.settings.local_runtime:
+            link = self.runtimes.add("Local", "", "", LOCAL_RUNTIME)
+            folder = self.settings.data_dir / "runtime"
+            self.local_runtime = LocalRuntime(link, folder, self.settings.local_runtime_options)
+        for row in await self.database.read_async(_stored_runtimes):
+            self.runtimes.add(row.name, row.url, row.token, row.id)
 
     async def close(self) -> None:
         """Ends everything."""
-        self.database.engine.dispose()
+        await self.commissioning.builder.close()
+        await self.runtimes.close()
+        if self.local_runtime is not None:
+            await self.local_runtime.close()
+        self.store.close()
 
 
-def open_services(settings: ServerSettings) -> Services:
+@dataclass(frozen=True, slots=True)
+class _StoredRuntime:
+    id: str
+    name: str
+    url: str
+    token: str
+
+
+def _stored_runtimes(db: Connection) -> list[_StoredRuntime]:
+    c = runtimes_table.c
+    rows = db.execute(select(c.id, c.name, c.url, c.token).order_by(c.created_at))
+    return [_StoredRuntime(*row) for row in rows]
+
+
+def open_services(settings: ServerSettings, connect: Connect) -> Services:
     """Opens the database, brings its schema up to date and puts the parts together. Blocks."""
     if settings.database_url is None:
         settings.data_dir.mkdir(parents=True, exist_ok=True)
-    engine = open_engine(settings.url)
-    migrate(engine)
-    database = Database(engine)
+    store = Store(settings.url)
+    database = Database(store.engine)
     passwords = Passwords(settings.password_cost)
     one_time = OneTimeSecrets()
-    services = Services(settings, database, passwords, one_time, Login(database, passwords, one_time))
+    services = Services(
+        settings=settings,
+        store=store,
+        database=database,
+        passwords=passwords,
+        one_time=one_time,
+        login=Login(database, passwords, one_time),
+        runtimes=RuntimeRegistry(connect, settings.reconnect_seconds),
+        commissioning=Commissioning(
+            store,
+            Builder(settings.build_workers, settings.data_dir / "objects"),
+            PackageStore(settings.data_dir / "packages"),
+        ),
+    )
     if database.read(accounts.count) == 0:
         services.first_account_token = one_time.issue(FIRST_ACCOUNT)
     return services

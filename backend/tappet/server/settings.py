@@ -38,6 +38,10 @@ class ServerSettings:
     max_body_bytes: int = 8 * 1024 * 1024
     """Largest JSON request; imports state their own limit."""
     password_cost: HashCost = field(default_factory=HashCost)
+    local_runtime: bool = False
+    """Start a runtime on this machine, with its data in `data_dir`."""
+    local_runtime_options: tuple[str, ...] = ()
+    """Further arguments of `tappet runtime`."""
     build_workers: int = 1
     """Compiler processes; each keeps the caches of the projects it serves."""
     reconnect_seconds: float = 1.0

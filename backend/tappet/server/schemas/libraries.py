@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from tappet.server.schemas.base import Reply
 
@@ -16,39 +14,49 @@ class LibrarySummary(Reply):
     version: str
     namespace: str
     company: str
-    title: str
     description: str
-    item_count: int
 
 
 class Pin(Reply):
-    """A parameter or member."""
-
-    model_config = ConfigDict(extra="allow")
+    """A parameter of a POU, or a member of a structure."""
 
     name: str
     type: str
-    default: str | None = None
-    comment: str = ""
+    default: str
+    comment: str
+
+
+class NamedValue(Reply):
+    """A value of an enumeration; `value` is empty where it counts on from the one before."""
+
+    name: str
+    value: str
+    comment: str
 
 
 class LibraryItem(Reply):
-    """A function, function block, type or enumeration."""
-
-    model_config = ConfigDict(extra="allow")
+    """A POU or a type of a library."""
 
     name: str
-    kind: str
-    comment: str = ""
-    inputs: list[Pin] = Field(default_factory=list)
-    outputs: list[Pin] = Field(default_factory=list)
-    in_out: list[Pin] = Field(default_factory=list)
-    members: list[Pin] = Field(default_factory=list)
-    values: list[dict[str, Any]] = Field(default_factory=list)
-    returns: str | None = None
+    kind: str = Field(description="function, function_block, program, struct, union, enum, alias, interface.")
+    summary: str
+    inputs: list[Pin]
+    outputs: list[Pin]
+    in_out: list[Pin]
+    members: list[Pin]
+    values: list[NamedValue]
+    returns: str | None
+    methods: list[LibraryItem]
 
 
-class Library(LibrarySummary):
+class LibraryDetail(LibrarySummary):
     """A library with everything in it."""
 
     items: list[LibraryItem]
+
+
+class LibrarySource(Reply):
+    """The ST text of an item."""
+
+    uri: str
+    text: str

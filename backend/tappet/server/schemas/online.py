@@ -1,7 +1,7 @@
 """Messages of the WebSocket `/api/v1/online`.
 
 Samples are binary frames, little endian: u32 subscription, u32 flags (0), u64 cycle, i64 nanoseconds since
-1970, then the values as raw bytes at the offsets of the `subscribed` message, counted from the frame's begin.
+1970, then the values as raw bytes; the offsets of the `subscribed` message count from the end of this header.
 """
 
 from __future__ import annotations
@@ -39,15 +39,19 @@ ClientMessage = Annotated[Subscribe | Unsubscribe, Field(discriminator="op")]
 
 
 class Item(Reply):
-    """How to read one value of the frames; `kind` is `error` when there is none."""
+    """How to read one value of the frames. `kind` is `error` when there is none; structures and arrays have
+    no bytes of their own (size 0)."""
 
     expression: str
-    offset: int = Field(description="Bytes from the beginning of the frame.")
+    offset: int = Field(description="Bytes from the end of the frame's header.")
     size: int
     type: str
     kind: str = Field(description="bool bits int uint real time date ... enum string wstring error.")
-    enum: dict[str, int] | None = None
-    bit: int | None = None
+    enum: dict[str, int] | None = Field(default=None, description="Numbers of an enumeration by name.")
+    base: str | None = Field(default=None, description="int, uint or bits below an enumeration.")
+    bit: int | None = Field(default=None, description="Bit of the byte, counted from 0.")
+    flags: str = Field(default="", description="Space separated of CONSTANT, RETAIN, PERSISTENT.")
+    section: str = ""
     error: str | None = None
 
 

@@ -10,7 +10,7 @@ from pydantic import Field, StringConstraints
 from tappet.server.schemas.base import Reply, Request
 
 RuntimeName = Annotated[str, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
-RuntimeUrl = Annotated[str, StringConstraints(pattern=r"^wss?://[^\s/?#]+(/[^\s]*)?$", max_length=500)]
+RuntimeUrl = Annotated[str, StringConstraints(pattern=r"^wss?://[^\s/?#@]+(/[^\s?#]*)?$", max_length=500)]
 Activity = Literal["empty", "stop", "run", "exception"]
 
 
@@ -36,6 +36,7 @@ class RuntimeException(Reply):
     """Why an application stopped."""
 
     code: int | str
+    name: str = ""
     message: str
     task: str
     pou: str | None
@@ -69,22 +70,26 @@ class ResetOrder(Request):
 
 
 class TaskState(Reply):
-    """Statistics of one task; times in µs."""
+    """Statistics of one task since its start or the last reset of them; times in µs (TASK-50 .. TASK-59)."""
 
     name: str
-    kind: str | None = None
-    priority: int | None = None
-    status: str | None = None
-    interval_us: float | None = None
-    cycles: int = 0
-    last_us: float | None = None
-    mean_us: float | None = None
-    min_us: float | None = None
-    max_us: float | None = None
-    jitter_us: float | None = Field(default=None, description="Last lateness against the ideal start.")
-    min_jitter_us: float | None = None
-    max_jitter_us: float | None = None
-    overruns: int | None = None
+    kind: str
+    priority: int
+    status: str
+    interval_us: float
+    iec_cycles: int = Field(description="Cycles that ran the programs.")
+    cycles: int = Field(description="Cycles altogether, those of a stopped application too.")
+    last_us: float
+    average_us: float
+    min_us: float
+    max_us: float
+    jitter_us: float = Field(description="Lateness of the last start.")
+    min_jitter_us: float
+    max_jitter_us: float
+    average_jitter_us: float
+    p999_jitter_us: float = Field(description="99.9 % of the starts were not later than this.")
+    overruns: int = Field(description="Cycles that were still running when the next was due.")
+    missed: int = Field(description="Starts dropped because of that.")
 
 
 class LogEntry(Reply):

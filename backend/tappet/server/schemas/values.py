@@ -53,6 +53,7 @@ class UnforceOrder(Request):
     """Forced variables to release; null: all."""
 
     expressions: Annotated[list[Expression], Field(max_length=MAX_EXPRESSIONS)] | None
+    restore: bool = Field(default=False, description="Give the variables back what they held before.")
 
 
 class Forces(Reply):

@@ -1,0 +1,298 @@
+"""Builds applications in compiler processes, off the event loop; a build can be cancelled."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import logging
+import sys
+from collections import OrderedDict
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import msgpack
+
+from tappet.project import sources as texts
+from tappet.project.model import Project
+from tappet.project.sources import SourceText, TaskDefinition
+from tappet.server.build_worker import LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
+from tappet.server.problems import Problem
+from tappet.server.schemas.build import BuildReport, Diagnostic, Part, Severity
+
+log = logging.getLogger(__name__)
+KEPT_BUILDS = 32
+"""Newest build of so many applications stay at hand."""
+WORKER = (sys.executable, "-m", "tappet.server.build_worker")
+
+
+class BuildCrashedError(RuntimeError):
+    """The compiler process died or failed; a fault of the product, not of the program."""
+
+
+@dataclass(frozen=True, slots=True)
+class Application:
+    """An application of a project as it is to be built: its texts, tasks and libraries."""
+
+    project_id: str
+    application_id: str
+    name: str
+    sources: tuple[SourceText, ...]
+    tasks: tuple[TaskDefinition, ...]
+    libraries: tuple[tuple[str, str, str], ...]
+    paths: dict[str, str]
+    """Path in the tree of each object with code, by id."""
+
+    @classmethod
+    def of(cls, project_id: str, project: Project, application_id: str) -> Application:
+        """Raises UnknownObjectError when the id is no application."""
+        found = tuple(texts.application_sources(project, application_id))
+        tasks = tuple(texts.tasks(project, application_id))
+        ids = {segment.object_id for source in found for segment in source.segments}
+        ids |= {task.object_id for task in tasks if task.object_id} | {application_id}
+        return cls(
+            project_id,
+            application_id,
+            project.get(application_id).name,
+            found,
+            tasks,
+            tuple((r.name, r.version, r.namespace) for r in texts.libraries(project, application_id)),
+            {id: project.path_of(id) for id in ids},
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """A finished build."""
+
+    application: Application
+    fingerprint: str
+    report: BuildReport
+    package: bytes | None
+    change_base: str | None
+    """Code id of the package that this one can be changed over from."""
+    change_reasons: tuple[str, ...]
+
+
+class Builder:
+    """Orders builds, one at a time per application, and remembers the newest of each."""
+
+    def __init__(self, workers: int, cache: Path, command: Sequence[str] = WORKER) -> None:
+        self._cache = cache
+        self._workers = [_Worker(command) for _ in range(max(1, workers))]
+        self._built: OrderedDict[tuple[str, str], Built] = OrderedDict()
+        self._running: dict[tuple[str, str], tuple[str, asyncio.Task[Built]]] = {}
+
+    async def build(self, application: Application, previous: tuple[str, bytes] | None) -> Built:
+        """The build of exactly these texts on top of `previous` (code id, package), from memory if known.
+
+        Raises problems: 409 when it was cancelled, 500 when the compiler crashed.
+        """
+        key = (application.project_id, application.application_id)
+        order = self._order(application, previous)
+        fingerprint = _fingerprint(order, previous[0] if previous else None)
+        known = self._built.get(key)
+        if known is not None and known.fingerprint == fingerprint:
+            self._built.move_to_end(key)
+            return known
+        while key in self._running:
+            running, task = self._running[key]
+            if running == fingerprint:
+                return await self._wait(task)
+            with suppress(asyncio.CancelledError, BuildCrashedError):
+                await asyncio.shield(task)
+        task = asyncio.create_task(self._run(key, application, order, fingerprint))
+        self._running[key] = (fingerprint, task)
+        task.add_done_callback(lambda done: self._finished(key, done))
+        return await self._wait(task)
+
+    def cancel(self, project_id: str, application_id: str) -> bool:
+        """Ends the running build of an application; False when there is none."""
+        running = self._running.get((project_id, application_id))
+        return running is not None and running[1].cancel()
+
+    def newest(self, project_id: str, application_id: str) -> Built | None:
+        """The newest finished build."""
+        return self._built.get((project_id, application_id))
+
+    async def close(self) -> None:
+        """Ends the compiler processes."""
+        for _, task in list(self._running.values()):
+            task.cancel()
+        await asyncio.gather(*(worker.close() for worker in self._workers))
+
+    async def _wait(self, task: asyncio.Task[Built]) -> Built:
+        try:
+            return await asyncio.shield(task)
+        except asyncio.CancelledError:
+            if task.cancelled():
+                raise Problem(409, "build-cancelled", "The build was cancelled.") from None
+            raise
+        except BuildCrashedError as error:
+            raise Problem(500, "compiler-crashed", f"The compiler failed: {error}.") from error
+
+    def _finished(self, key: tuple[str, str], task: asyncio.Task[Built]) -> None:
+        if self._running.get(key, (None, None))[1] is task:
+            del self._running[key]
+        if not task.cancelled() and task.exception() is not None:
+            log.error("build of %s failed", key, exc_info=task.exception())
+
+    def _order(self, application: Application, previous: tuple[str, bytes] | None) -> BuildOrder:
+        return BuildOrder(
+            key=f"{application.project_id}/{application.application_id}",
+            application=application.name,
+            sources=tuple(_source_fields(source) for source in application.sources),
+            tasks=tuple(asdict(task) for task in application.tasks),
+            libraries=application.libraries,
+            previous=previous[1] if previous else None,
+            cache=str(self._cache),
+        )
+
+    async def _run(
+        self, key: tuple[str, str], application: Application, order: BuildOrder, fingerprint: str
+    ) -> Built:
+        number = int(hashlib.sha256(order.key.encode()).hexdigest(), 16) % len(self._workers)
+        outcome = await self._workers[number].build(order)
+        built = Built(
+            application,
+            fingerprint,
+            _report(application, outcome),
+            outcome["package"],
+            outcome["change_base"],
+            tuple(outcome["change_reasons"]),
+        )
+        self._built[key] = built
+        self._built.move_to_end(key)
+        while len(self._built) > KEPT_BUILDS:
+            self._built.popitem(last=False)
+        return built
+
+
+class _Worker:
+    """One compiler process, started when it is first needed and anew after it was killed."""
+
+    def __init__(self, command: Sequence[str]) -> None:
+        self._command = tuple(command)
+        self._process: asyncio.subprocess.Process | None = None
+        self._turn = asyncio.Lock()
+
+    async def build(self, order: BuildOrder) -> dict[str, Any]:
+        """One build; when this call is cancelled, the process is killed and its caches with it."""
+        async with self._turn:
+            process = await self._start()
+            try:
+                return await self._exchange(process, order)
+            except BaseException:
+                await self._kill()
+                raise
+
+    async def _start(self) -> asyncio.subprocess.Process:
+        if self._process is None or self._process.returncode is not None:
+            self._process = await asyncio.create_subprocess_exec(
+                *self._command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
+            )
+        return self._process
+
+    async def _exchange(self, process: asyncio.subprocess.Process, order: BuildOrder) -> dict[str, Any]:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        frame = await asyncio.to_thread(pack_frame, asdict(order))
+        try:
+            process.stdin.write(frame)
+            await process.stdin.drain()
+            head = await process.stdout.readexactly(LENGTH.size)
+            body = await process.stdout.readexactly(LENGTH.unpack(head)[0])
+        except (OSError, asyncio.IncompleteReadError):
+            raise BuildCrashedError("its process ended") from None
+        outcome: dict[str, Any] = await asyncio.to_thread(
+            msgpack.unpackb, body, raw=False, max_bin_len=LARGEST_FRAME
+        )
+        if "crash" in outcome:
+            raise BuildCrashedError(outcome["crash"])
+        return outcome
+
+    async def _kill(self) -> None:
+        process, self._process = self._process, None
+        if process is not None and process.returncode is None:
+            with suppress(ProcessLookupError):
+                process.kill()
+            await process.wait()
+
+    async def close(self) -> None:
+        await self._kill()
+
+
+def _source_fields(source: SourceText) -> dict[str, Any]:
+    names = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line")
+    return {name: getattr(source, name) for name in names}
+
+
+def _fingerprint(order: BuildOrder, previous_code: str | None) -> str:
+    content = asdict(order) | {"previous": previous_code}
+    return hashlib.blake2b(msgpack.packb(content), digest_size=16).hexdigest()
+
+
+def _report(application: Application, outcome: dict[str, Any]) -> BuildReport:
+    by_uri: dict[str, SourceText] = {}
+    for source in application.sources:
+        if source.uri.upper() not in by_uri or source.scope == "application":
+            by_uri[source.uri.upper()] = source
+    return BuildReport(
+        ok=outcome["package"] is not None,
+        diagnostics=[_diagnostic(application, by_uri, item) for item in outcome["diagnostics"]],
+        code_id=outcome["code_id"],
+        data_id=outcome["data_id"],
+        code_size=outcome["code_size"] if outcome["package"] is not None else None,
+        data_size=outcome["data_size"] if outcome["package"] is not None else None,
+        seconds=round(outcome["seconds"], 4),
+    )
+
+
+def _diagnostic(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
+    """The message with its place in the project; lines and columns then count from 1."""
+    source = by_uri.get(item["uri"].upper())
+    fields: dict[str, Any] = {
+        "code": item["code"],
+        "severity": Severity(item["severity"]),
+        "message": item["message"],
+        "advice": item["advice"] or None,
+    }
+    if source is None:
+        return Diagnostic(**fields, **_place_without_text(application, item))
+    begin, end = source.locate(item["line"]), source.locate(item["end_line"])
+    same_part = (end.object_id, end.part) == (begin.object_id, begin.part)
+    return Diagnostic(
+        **fields,
+        object_id=begin.object_id,
+        object_path=application.paths[begin.object_id],
+        part=Part(begin.part),
+        line=begin.line + 1,
+        column=item["column"] + 1,
+        end_line=(end.line if same_part else begin.line) + 1,
+        end_column=(item["end_column"] if same_part else item["column"] + 1) + 1,
+    )
+
+
+def _place_without_text(application: Application, item: dict[str, Any]) -> dict[str, Any]:
+    """A task that the message names, a library text, or the application as a whole."""
+    object_id: str | None = None
+    path = item["uri"]
+    if not path:
+        object_id = next(
+            (t.object_id for t in application.tasks if t.object_id and f"'{t.name}'" in item["message"]),
+            application.application_id,
+        )
+        path = application.paths[object_id]
+    line = item["line"] + 1 if item["uri"] else None
+    column = item["column"] + 1 if item["uri"] else None
+    return {
+        "object_id": object_id,
+        "object_path": path,
+        "part": None,
+        "line": line,
+        "column": column,
+        "end_line": item["end_line"] + 1 if item["uri"] else None,
+        "end_column": item["end_column"] + 1 if item["uri"] else None,
+    }

@@ -1,0 +1,167 @@
+"""One browser's socket: subscriptions in, state, forces and frames out."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+import anyio
+from pydantic import BaseModel, TypeAdapter, ValidationError
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from tappet.runtime.recorder import Frame
+from tappet.server.online.layout import HEADER, lay_out
+from tappet.server.online.outbox import Outbox
+from tappet.server.online.sampler import SamplerPool, Sink
+from tappet.server.runtimes import Change, RuntimeLink
+from tappet.server.schemas.online import (
+    ClientMessage,
+    ForcesChanged,
+    OnlineError,
+    StateChanged,
+    Subscribe,
+    Subscribed,
+)
+
+MOST_SUBSCRIPTIONS = 100
+"""Of one socket."""
+CHECK_EVERY_S = 30.0
+"""How soon a socket notices that its session has ended."""
+SESSION_ENDED = 4401
+"""Close code when the session behind the socket has ended."""
+RUNTIME_REMOVED = 4404
+_MESSAGE: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
+
+
+@dataclass(slots=True)
+class _Subscription:
+    order: Subscribe
+    detach: Callable[[], None] = field(default=lambda: None)
+
+
+class OnlineChannel:
+    """Serves one socket until it closes."""
+
+    def __init__(
+        self,
+        socket: WebSocket,
+        link: RuntimeLink,
+        pool: SamplerPool,
+        still_allowed: Callable[[], Awaitable[bool]],
+    ) -> None:
+        self._socket = socket
+        self._link = link
+        self._pool = pool
+        self._still_allowed = still_allowed
+        self._subscriptions: dict[int, _Subscription] = {}
+        self.outbox = Outbox()
+
+    async def run(self) -> None:
+        """Accepts the socket and serves it. Never raises for what the browser sends or how it leaves."""
+        await self._socket.accept()
+        self._tell(StateChanged(**self._link.state().model_dump()))
+        self._tell(ForcesChanged(expressions=sorted(self._link.forced.values())))
+        ignore = self._link.listen(self._on_change)
+        try:
+            async with anyio.create_task_group() as group:
+                for work in (self._read, self._send, self._check):
+                    group.start_soon(self._until_end, work, group.cancel_scope)
+        finally:
+            ignore()
+            for subscription in self._subscriptions.values():
+                subscription.detach()
+
+    async def _until_end(self, work: Callable[[], Awaitable[None]], scope: anyio.CancelScope) -> None:
+        """When one part of the channel ends, all do; a browser that went away is no error."""
+        with suppress(WebSocketDisconnect, OSError):
+            await work()
+        scope.cancel()
+
+    # -- in ------------------------------------------------------------------------------------------
+
+    async def _read(self) -> None:
+        while True:
+            await self.outbox.wait_for_room()
+            message = await self._socket.receive()
+            if message["type"] == "websocket.disconnect":
+                return
+            text = message.get("text")
+            if text is None:
+                self._error(None, "Messages to this channel are JSON text, not binary.")
+            else:
+                self._serve(text)
+
+    def _serve(self, text: str) -> None:
+        try:
+            order = _MESSAGE.validate_json(text)
+        except ValidationError as error:
+            first = error.errors(include_url=False, include_input=False, include_context=False)[0]
+            place = ".".join(str(part) for part in first["loc"])
+            self._error(None, f"{place}: {first['msg']}" if place else first["msg"])
+            return
+        if isinstance(order, Subscribe):
+            self._subscribe(order)
+        else:
+            self._unsubscribe(order.id)
+
+    def _subscribe(self, order: Subscribe, *, renewed: bool = False) -> None:
+        self._unsubscribe(order.id)
+        if len(self._subscriptions) >= MOST_SUBSCRIPTIONS:
+            self._error(order.id, f"One socket carries at most {MOST_SUBSCRIPTIONS} subscriptions.")
+            return
+        try:
+            layout = lay_out(self._link.symbols, order.expressions)
+        except ValueError as error:
+            self._error(order.id, str(error))
+            return
+        self._tell(Subscribed(id=order.id, items=list(layout.items), renewed=renewed))
+        subscription = self._subscriptions[order.id] = _Subscription(order)
+        if layout.places and self._link.connected:
+            subscription.detach = self._pool.attach(layout.places, order.interval_ms, self._sink(order.id))
+
+    def _sink(self, subscription: int) -> Sink:
+        def sink(frame: Frame) -> None:
+            header = HEADER.pack(subscription, 0, frame.cycle, frame.timestamp_ns)
+            self.outbox.put_frame(subscription, header + frame.data)
+
+        return sink
+
+    def _unsubscribe(self, subscription: int) -> None:
+        known = self._subscriptions.pop(subscription, None)
+        if known is not None:
+            known.detach()
+        self.outbox.drop_frame(subscription)
+
+    # -- out -----------------------------------------------------------------------------------------
+
+    def _on_change(self, change: Change) -> None:
+        if change is Change.STATE:
+            self._tell(StateChanged(**self._link.state().model_dump()))
+        elif change is Change.FORCES:
+            self._tell(ForcesChanged(expressions=sorted(self._link.forced.values())))
+        elif change is Change.APPLICATION:
+            for subscription in list(self._subscriptions.values()):
+                self._subscribe(subscription.order, renewed=True)
+
+    async def _send(self) -> None:
+        while True:
+            item = await self.outbox.take()
+            if isinstance(item, str):
+                await self._socket.send_text(item)
+            else:
+                await self._socket.send_bytes(item)
+
+    async def _check(self) -> None:
+        """Closes the socket when its session ends."""
+        while True:
+            await anyio.sleep(CHECK_EVERY_S)
+            if not await self._still_allowed():
+                await self._socket.close(SESSION_ENDED, "The session has ended.")
+                return
+
+    def _tell(self, message: BaseModel) -> None:
+        self.outbox.put_message(message.model_dump_json())
+
+    def _error(self, subscription: int | None, detail: str) -> None:
+        self._tell(OnlineError(id=subscription, detail=detail))

@@ -1,0 +1,24 @@
+"""A compiler process that does what its first source says: sleep, die, fail, or answer."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+
+from tappet.server.build_worker import pack_frame, read_frame
+
+builds = 0
+while (order := read_frame(sys.stdin.buffer)) is not None:
+    builds += 1
+    text = order["sources"][0]["text"] if order["sources"] else ""
+    if "die" in text:
+        os._exit(3)
+    if "sleep" in text:
+        time.sleep(60)
+    answer = {"package": b"package", "code_id": str(builds), "data_id": "d", "code_size": 1, "data_size": 2}
+    answer |= {"change_base": None, "change_reasons": [], "diagnostics": [], "timings": {}, "seconds": 0.1}
+    if "fail" in text:
+        answer = {"crash": "KeyError: 'x'"}
+    sys.stdout.buffer.write(pack_frame(answer))
+    sys.stdout.buffer.flush()

@@ -1,0 +1,78 @@
+"""Compiler processes: shared results, cancelling, and what happens when one dies."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from pathlib import Path
+
+import pytest
+
+from tappet.project.sources import Segment, SourceText
+from tappet.server.builder import Application, Builder
+from tappet.server.packages import KEEP, PackageStore
+from tappet.server.problems import Problem
+
+FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))
+
+
+def application(text: str, id: str = "a") -> Application:
+    source = SourceText(
+        "PLC_PRG", text, "application", None, None, None, None, 0, "o", (Segment(0, "o", "declaration"),)
+    )
+    return Application("p", id, "Application", (source,), (), (), {"o": "PLC_PRG", id: "Application"})
+
+
+@pytest.fixture
+async def builder(tmp_path: Path):
+    builder = Builder(1, tmp_path, FAKE)
+    yield builder
+    await builder.close()
+
+
+async def test_equal_texts_are_built_once(builder: Builder) -> None:
+    first, second = await asyncio.gather(*(builder.build(application("x"), None) for _ in range(2)))
+    third = await builder.build(application("x"), None)
+    assert first.report.code_id == second.report.code_id == third.report.code_id == "1"
+    assert (await builder.build(application("y"), None)).report.code_id == "2"
+    assert (await builder.build(application("y"), ("base", b""))).report.code_id == "3"
+
+
+async def test_a_cancelled_build_ends_at_once_and_the_next_works(builder: Builder) -> None:
+    waiting = asyncio.create_task(builder.build(application("sleep"), None))
+    await asyncio.sleep(0.3)
+    assert builder.cancel("p", "a")
+    with pytest.raises(Problem) as caught:
+        await asyncio.wait_for(waiting, 10)
+    assert caught.value.kind == "build-cancelled"
+    assert (await builder.build(application("x"), None)).report.ok
+    assert not builder.cancel("p", "a")
+
+
+async def test_who_only_waits_may_leave(builder: Builder) -> None:
+    """A browser that closes must not end the build that another waits for."""
+    first = asyncio.create_task(builder.build(application("x"), None))
+    second = asyncio.create_task(builder.build(application("x"), None))
+    await asyncio.sleep(0.01)
+    first.cancel()
+    assert (await second).report.ok
+
+
+@pytest.mark.parametrize(("text", "words"), [("die", "its process ended"), ("fail", "KeyError")])
+async def test_a_dead_compiler_is_a_problem_and_is_replaced(builder: Builder, text: str, words: str) -> None:
+    with pytest.raises(Problem, match=words):
+        await builder.build(application(text), None)
+    assert (await builder.build(application("x"), None)).report.ok
+
+
+def test_package_store_keeps_the_newest(tmp_path: Path) -> None:
+    store = PackageStore(tmp_path)
+    assert store.find("c1") is None
+    assert store.latest("p", "a") is None
+    for n in range(KEEP + 3):
+        store.put("p", "a", f"c{n}", b"no package")
+    assert len(list(tmp_path.glob("*.package"))) == KEEP
+    assert store.find(f"c{KEEP}") is None, "what is no package is not offered"
+    assert store.find("../../etc/passwd") is None
+    with pytest.raises(ValueError, match="no id"):
+        store.put("../p", "a", "c", b"")

@@ -1,0 +1,134 @@
+"""The whole way with nothing replaced: store, compiler process, runtime process, online channel."""
+
+from __future__ import annotations
+
+import os
+import signal
+import struct
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import pytest
+from fastapi import FastAPI
+from fastapi.testclient import TestClient
+from server_clients import PASSWORD, SOCKETS, browser, serving
+
+from tappet.server.app import create_app
+from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
+
+RUNTIME = f"/api/v1/runtimes/{LOCAL_RUNTIME}"
+DECLARATION = "PROGRAM PLC_PRG\nVAR\n  n : DINT;\n  half : DINT;\n  d : DINT := 1;\nEND_VAR"
+
+
+@pytest.fixture
+def app(settings: ServerSettings) -> Iterator[FastAPI]:
+    app = create_app(
+        replace(settings, local_runtime=True, local_runtime_options=("--no-realtime",), reconnect_seconds=0.1)
+    )
+    with serving(app):
+        yield app
+
+
+@pytest.fixture
+def engineer(app: FastAPI) -> TestClient:
+    client = browser(app)
+    body = {"token": app.state.services.first_account_token, "username": "ann", "password": PASSWORD}
+    assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
+    _until(lambda: client.get(RUNTIME).json()["connected"], 90)
+    return client
+
+
+def _until(condition: Callable[[], bool], seconds: float = 20) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "did not happen"
+        time.sleep(0.02)
+
+
+def _value(client: TestClient, path: str):
+    answer = client.post(f"{RUNTIME}/values/read", json={"expressions": [path]})
+    assert answer.status_code == 200, answer.text
+    return answer.json()["values"][0]["value"]
+
+
+def _save(app: FastAPI, project_id: str, implementation: str, declaration: str = DECLARATION) -> None:
+    store = app.state.services.store
+    item = next(o for o in store.load(project_id).objects.values() if o.name == "PLC_PRG")
+    data = {"declaration": declaration, "implementation": implementation}
+    store.save(project_id, item.id, item.revision, data, "ann")
+
+
+def test_from_text_to_live_values_and_back(app: FastAPI, engineer: TestClient) -> None:
+    store = app.state.services.store
+    info = store.create_project("Real", "ann")
+    application = store.load(info.id).applications()[0]
+    url = f"/api/v1/projects/{info.id}/applications/{application.id}"
+    target = {"runtime_id": LOCAL_RUNTIME}
+    _save(app, info.id, "n := n + 1;\nhalf := n / 2;")
+
+    assert engineer.post(f"{url}/login", json=target).json()["relation"] == "empty"
+    order = {**target, "mode": "download", "start": True}
+    done = engineer.post(f"{url}/download", json=order)
+    assert done.status_code == 200, done.text
+    assert done.json()["state"] == "run"
+    _until(lambda: _value(engineer, "PLC_PRG.n") > 3)
+
+    with engineer.websocket_connect(f"{SOCKETS}/api/v1/online?runtime={LOCAL_RUNTIME}") as socket:
+        wish = {"op": "subscribe", "id": 4, "expressions": ["PLC_PRG.n", "PLC_PRG.half"], "interval_ms": 50}
+        socket.send_json(wish)
+        frames = []
+        while len(frames) < 4:
+            data = socket.receive().get("bytes")
+            if data is not None:
+                frames.append(struct.unpack("<IIQqii", data))
+        assert {frame[0] for frame in frames} == {4}
+        assert all(half == n // 2 for *_, n, half in frames), "values of one cycle belong together"
+        assert frames[-1][4] > frames[0][4]
+        assert abs(frames[-1][3] / 1e9 - time.time()) < 60
+
+    write = {"values": [{"expression": "PLC_PRG.d", "value": "16#10"}]}
+    assert engineer.post(f"{RUNTIME}/values/write", json=write).json()["values"][0]["value"] == 16
+    force = {"values": [{"expression": "PLC_PRG.n", "value": 100}]}
+    assert engineer.post(f"{RUNTIME}/values/force", json=force).json()["values"][0]["literal"] == "100"
+    _until(lambda: _value(engineer, "PLC_PRG.n") in (100, 101))
+    assert engineer.post(f"{RUNTIME}/values/unforce", json={"expressions": None}).json()["values"] == []
+
+    _save(app, info.id, "n := n - 1;\nhalf := n / 2;")
+    assert engineer.post(f"{url}/login", json=target).json()["relation"] == "online_change"
+    changed = engineer.post(f"{url}/download", json={**order, "mode": "online_change"})
+    assert changed.status_code == 200, changed.text
+    assert changed.json()["state"] == "run"
+    assert _value(engineer, "PLC_PRG.d") == 16, "an online change keeps values"
+    before = _value(engineer, "PLC_PRG.n")
+    _until(lambda: _value(engineer, "PLC_PRG.n") < before)
+    assert engineer.post(f"{url}/login", json=target).json()["relation"] == "same"
+    tasks = engineer.get(f"{RUNTIME}/tasks").json()
+    assert tasks[0]["iec_cycles"] > 0
+
+    _save(app, info.id, "d := 0;\nn := n / d;")
+    assert engineer.post(f"{url}/download", json={**order, "mode": "online_change"}).status_code == 200
+    _until(lambda: engineer.get(RUNTIME).json()["state"] == "exception")
+    report = engineer.get(RUNTIME).json()["exception"]
+    assert report["name"] == "DIV_ZERO"
+    assert report["pou"] == "PLC_PRG"
+    assert report["object_id"]
+    assert (report["part"], report["line"]) == ("implementation", 2)
+
+
+def test_a_killed_runtime_comes_back_with_its_application(app: FastAPI, engineer: TestClient) -> None:
+    store = app.state.services.store
+    info = store.create_project("Boot", "ann")
+    application = store.load(info.id).applications()[0]
+    url = f"/api/v1/projects/{info.id}/applications/{application.id}"
+    _save(app, info.id, "n := n + 1;")
+    order = {"runtime_id": LOCAL_RUNTIME, "mode": "download", "start": True}
+    assert engineer.post(f"{url}/download", json=order).status_code == 200
+    first = engineer.get(RUNTIME).json()
+    os.kill(app.state.services.local_runtime._process.endpoint.pid, signal.SIGKILL)
+    _until(lambda: not engineer.get(RUNTIME).json()["connected"])
+    assert "SIGKILL" in engineer.get(RUNTIME).json()["problem"]
+    _until(lambda: engineer.get(RUNTIME).json()["connected"], 60)
+    again = engineer.get(RUNTIME).json()
+    assert (again["state"], again["code_id"]) == ("run", first["code_id"])
+    assert engineer.post(f"{url}/login", json={"runtime_id": LOCAL_RUNTIME}).json()["relation"] == "same"
