@@ -42,6 +42,9 @@ def run(
         Path | None, typer.Option(metavar="FILE", help="CSV of the printed values, a row a cycle")
     ] = None,
     stats: Annotated[bool, typer.Option("--stats", help="cycles and execution times of each task")] = False,
+    cycle_limit: Annotated[
+        float, typer.Option(min=0.01, help="seconds after which a cycle counts as stuck")
+    ] = 3.0,
     application: Annotated[str | None, typer.Option(help="which application of the project")] = None,
     output: FormatOption = OutputFormat.TEXT,
 ) -> None:
@@ -53,7 +56,7 @@ def run(
     time_ns = _duration(time) if time is not None else None
     package = _build(path, application, output)
     expressions = show or []
-    with LocalRuntime(package, virtual=virtual, start=False) as runtime:
+    with LocalRuntime(package, virtual=virtual, start=False, cycle_limit_s=cycle_limit) as runtime:
         try:
             _assign(runtime, assign or [])
             recorded = runtime.trace(expressions) if trace is not None else None
