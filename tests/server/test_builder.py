@@ -12,7 +12,9 @@ from tappet.project.sources import Segment, SourceText
 from tappet.server.builder import Application, Builder
 from tappet.server.packages import KEEP, PackageStore
 from tappet.server.problems import Problem
+from tappet.server.source_places import SourcePlaces
 
+PLACES = SourcePlaces("p", {}, {})
 FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))
 
 
@@ -70,9 +72,9 @@ def test_package_store_keeps_the_newest(tmp_path: Path) -> None:
     assert store.find("c1") is None
     assert store.latest("p", "a") is None
     for n in range(KEEP + 3):
-        store.put("p", "a", f"c{n}", b"no package")
+        store.put("p", "a", f"c{n}", b"no package", PLACES)
     assert len(list(tmp_path.glob("*.package"))) == KEEP
     assert store.find(f"c{KEEP}") is None, "what is no package is not offered"
     assert store.find("../../etc/passwd") is None
     with pytest.raises(ValueError, match="no id"):
-        store.put("../p", "a", "c", b"")
+        store.put("../p", "a", "c", b"", PLACES)

@@ -13,6 +13,7 @@ from tappet.server.plc_client import LoadMode
 from tappet.server.problems import Problem
 from tappet.server.runtimes import RuntimeLink
 from tappet.server.schemas.build import LoginReport, Relation
+from tappet.server.source_places import SourcePlaces
 
 
 @dataclass(slots=True)
@@ -97,12 +98,12 @@ class Commissioning:
                 diagnostics=[d.model_dump() for d in built.report.diagnostics if d.severity == "error"],
             )
         assert built.report.code_id is not None
+        places = SourcePlaces.of(project_id, built.application.sources, built.application.paths)
+        code_id = built.report.code_id
+        # Kept first: without it the next login would take the application for a stranger's.
+        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, built.package, places)
         async with link.client() as client:
             await client.download(built.package, mode)
-            # Kept before anything else can fail: without it the next login would find a stranger.
-            await run_in_threadpool(
-                self.packages.put, project_id, application_id, built.report.code_id, built.package
-            )
             if start and mode == "download":
                 await client.start()
         await link.refresh()

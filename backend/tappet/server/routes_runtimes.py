@@ -143,7 +143,7 @@ async def get_exception(who: Viewer, link: LinkDep) -> RuntimeException | None:
     """Why the application stopped, with call stack and values; null when it did not."""
     async with link.client() as client:
         report = await client.exception()
-    return exception_state(report) if report is not None else None
+    return exception_state(report, link.places) if report is not None else None
 
 
 @router.get("/{runtime_id}/log")

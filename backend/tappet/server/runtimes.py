@@ -9,6 +9,9 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from datetime import UTC, datetime
 from enum import StrEnum
+from typing import Any
+
+from starlette.concurrency import run_in_threadpool
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import ForcedValue, RuntimeEvent, RuntimeRefused
@@ -17,12 +20,17 @@ from tappet.runtime.plc import RuntimeInfo
 from tappet.server.plc_client import Connect, PlcClient
 from tappet.server.problems import Problem, not_found
 from tappet.server.schemas.runtimes import CallFrame, RuntimeException, RuntimeState
+from tappet.server.source_places import SourcePlaces
 
 log = logging.getLogger(__name__)
 LONGEST_PAUSE_S = 15.0
 """Between two attempts to reach a lost runtime."""
 PATIENCE_S = 10.0
 """How long an attempt to connect may take."""
+
+
+FindPlaces = Callable[[str], SourcePlaces | None]
+"""From a code id; may block."""
 
 
 class Change(StrEnum):
@@ -39,7 +47,14 @@ class RuntimeLink:
     """One runtime. Listeners are called in the event loop, after the facts are up to date."""
 
     def __init__(
-        self, id: str, name: str, url: str, token: str, connect: Connect, first_pause_s: float
+        self,
+        id: str,
+        name: str,
+        url: str,
+        token: str,
+        connect: Connect,
+        find_places: FindPlaces,
+        first_pause_s: float,
     ) -> None:
         self.id = id
         self.name = name
@@ -47,12 +62,15 @@ class RuntimeLink:
         self.info: RuntimeInfo | None = None
         self.exception: ExceptionReport | None = None
         self.symbols: SymbolMap | None = None
+        self.places: SourcePlaces | None = None
+        """Where the lines of the loaded application come from, if this server has downloaded it."""
         self.forced: dict[tuple[int, int | None], str] = {}
         """Paths of the forced variables by (offset, bit)."""
         self.since = datetime.now(UTC)
         self.problem: str | None = None
         self._token = token
         self._connect = connect
+        self._find_places = find_places
         self._first_pause_s = first_pause_s
         self._client: PlcClient | None = None
         self._listeners: list[Callable[[Change], None]] = []
@@ -139,7 +157,7 @@ class RuntimeLink:
             application=info.application if info else None,
             code_id=info.code_id if info else None,
             data_id=info.data_id if info else None,
-            exception=exception_state(self.exception) if self.exception else None,
+            exception=exception_state(self.exception, self.places) if self.exception else None,
             scheduling="; ".join(info.scheduling) or None if info else None,
             problem=self.problem,
         )
@@ -200,6 +218,7 @@ class RuntimeLink:
         symbols = self.symbols
         if other:
             symbols = await client.symbols() if info.code_id else None
+            self.places = await run_in_threadpool(self._find_places, info.code_id) if info.code_id else None
         forces = await client.forces() if symbols is not None else []
         self.info, self.exception, self.symbols = info, exception, symbols
         self.forced = {(force.offset, force.bit): path_of(force) for force in forces}
@@ -245,14 +264,17 @@ class RuntimeLink:
 class RuntimeRegistry:
     """All runtimes by id."""
 
-    def __init__(self, connect: Connect, first_pause_s: float) -> None:
+    def __init__(self, connect: Connect, find_places: FindPlaces, first_pause_s: float) -> None:
         self._connect = connect
+        self._find_places = find_places
         self._first_pause_s = first_pause_s
         self._links: dict[str, RuntimeLink] = {}
 
     def add(self, name: str, url: str, token: str, id: str | None = None) -> RuntimeLink:
         """Begins to keep a connection."""
-        link = RuntimeLink(id or uuid.uuid4().hex, name, url, token, self._connect, self._first_pause_s)
+        link = RuntimeLink(
+            id or uuid.uuid4().hex, name, url, token, self._connect, self._find_places, self._first_pause_s
+        )
         self._links[link.id] = link
         link.start()
         return link
@@ -280,22 +302,33 @@ class RuntimeRegistry:
         await asyncio.gather(*(link.close() for link in self._links.values()))
 
 
-def exception_state(report: ExceptionReport) -> RuntimeException:
-    """The report for clients."""
+def exception_state(report: ExceptionReport, places: SourcePlaces | None) -> RuntimeException:
+    """The report for clients, with the places in the editors where they are known."""
     return RuntimeException(
         code=report.code,
         name=report.name,
         message=report.message,
         task=report.task,
         pou=report.pou or None,
-        uri=report.uri or None,
-        line=report.line or None,
+        **_place(places, report.uri, report.line),
         call_stack=[
-            CallFrame(pou=frame.pou, uri=frame.uri or None, line=frame.line or None)
-            for frame in report.call_stack
+            CallFrame(pou=frame.pou, **_place(places, frame.uri, frame.line)) for frame in report.call_stack
         ],
         values=dict(report.values),
     )
+
+
+def _place(places: SourcePlaces | None, uri: str, line: int) -> dict[str, Any]:
+    found = places.locate(uri, line) if places is not None else None
+    if found is None:
+        return {"uri": uri or None, "line": line or None}
+    return {
+        "uri": uri,
+        "object_id": found.object_id,
+        "object_path": found.object_path,
+        "part": found.part,
+        "line": found.line,
+    }
 
 
 def path_of(force: ForcedValue) -> str:

@@ -90,6 +90,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
     database = Database(store.engine)
     passwords = Passwords(settings.password_cost)
     one_time = OneTimeSecrets()
+    packages = PackageStore(settings.data_dir / "packages")
     services = Services(
         settings=settings,
         store=store,
@@ -97,11 +98,11 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         passwords=passwords,
         one_time=one_time,
         login=Login(database, passwords, one_time),
-        runtimes=RuntimeRegistry(connect, settings.reconnect_seconds),
+        runtimes=RuntimeRegistry(connect, packages.places, settings.reconnect_seconds),
         commissioning=Commissioning(
             store,
             Builder(settings.build_workers, settings.data_dir / "objects"),
-            PackageStore(settings.data_dir / "packages"),
+            packages,
         ),
     )
     if database.read(accounts.count) == 0:

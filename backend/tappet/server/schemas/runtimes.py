@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
 from tappet.server.schemas.base import Reply, Request
+from tappet.server.schemas.build import Part
 
 RuntimeName = Annotated[str, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
 RuntimeUrl = Annotated[str, StringConstraints(pattern=r"^wss?://[^\s/?#@]+(/[^\s?#]*)?$", max_length=500)]
@@ -24,26 +25,34 @@ class NewRuntime(Request):
     )
 
 
-class CallFrame(Reply):
-    """One level of the call stack."""
+class CodePlace(Reply):
+    """A place in the program. Object and part are known for applications that this server downloaded."""
 
-    pou: str
-    uri: str | None
-    line: int | None = Field(description="From 1, in the text that the compiler read.")
+    pou: str | None
+    uri: str | None = None
+    object_id: str | None = None
+    object_path: str | None = None
+    part: Part | None = None
+    line: int | None = Field(
+        default=None, description="From 1: in the part, or in the whole text where no part is known."
+    )
 
 
-class RuntimeException(Reply):
+class CallFrame(CodePlace):
+    """One level of the call stack, the innermost first."""
+
+
+class RuntimeException(CodePlace):
     """Why an application stopped."""
 
     code: int | str
-    name: str = ""
+    name: str = Field(default="", description="Name of the code, such as `DIV_ZERO`.")
     message: str
     task: str
-    pou: str | None
-    line: int | None = Field(description="From 1, in declaration and implementation taken together.")
-    uri: str | None = None
     call_stack: list[CallFrame] = Field(default_factory=list)
-    values: dict[str, Any] = Field(default_factory=dict)
+    values: dict[str, str] = Field(
+        default_factory=dict, description="Numbers of the fault and variables of the programs, as literals."
+    )
 
 
 class RuntimeState(Reply):
