@@ -53,7 +53,8 @@ class Expr(Node):
     """Folded value when the expression is constant, else None (use `is_constant`)."""
     is_constant: bool = False
     untyped: bool = False
-    """Constant made of literals without type prefix only: it adapts to the type its context needs (LOPR-02)."""
+    """Constant made of literals without type prefix only: it adapts to the type its context needs
+    (LOPR-02)."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -120,7 +121,8 @@ class Unary(Expr):
 
 @dataclass(slots=True, kw_only=True)
 class Binary(Expr):
-    """Two operands; `op` upper case: + - * / MOD ** AND OR XOR AND_THEN OR_ELSE = <> < > <= >=  (& becomes AND)."""
+    """Two operands; `op` upper case: + - * / MOD ** AND OR XOR AND_THEN OR_ELSE = <> < > <= >=  (& becomes
+    AND)."""
 
     op: str
     left: Expr
@@ -132,7 +134,8 @@ class Binary(Expr):
 
 @dataclass(slots=True, kw_only=True)
 class Argument(Node):
-    """One actual parameter: `x`, `name := x`, `name => x`; value None for `name =>` or `name :=` left empty."""
+    """One actual parameter: `x`, `name := x`, `name => x`; value None for `name =>` or `name :=` left
+    empty."""
 
     name: str | None
     value: Expr | None
@@ -151,7 +154,8 @@ class Call(Expr):
     target: Symbol | None = None
     """PouSymbol for functions, methods, programs and the body of an FB; BuiltinSymbol for operators."""
     expansion: Expr | None = None
-    """The same in operator form, for operators in functional form: `ADD(a, b)` is `a + b`, `MOVE(x)` is `x`."""
+    """The same in operator form, for operators in functional form: `ADD(a, b)` is `a + b`, `MOVE(x)` is
+    `x`."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -188,7 +192,8 @@ class Super(Expr):
 
 @dataclass(slots=True, kw_only=True)
 class AssignExpr(Expr):
-    """Assignment inside an expression (ExST): `a := b := c`, `IF (x := f()) THEN`; op `:=`, `S=`, `R=`, `REF=`."""
+    """Assignment inside an expression (ExST): `a := b := c`, `IF (x := f()) THEN`; op `:=`, `S=`, `R=`,
+    `REF=`."""
 
     op: str
     target: Expr
@@ -213,7 +218,8 @@ class Stmt(Node):
 
 @dataclass(slots=True, kw_only=True)
 class Assign(Stmt):
-    """`target op value`; op is `:=`, `S=`, `R=` or `REF=`. Chained assignments nest as AssignExpr in `value`."""
+    """`target op value`; op is `:=`, `S=`, `R=` or `REF=`. Chained assignments nest as AssignExpr in
+    `value`."""
 
     op: str
     target: Expr

@@ -1,6 +1,7 @@
 """One manual page for each diagnostic, made from `diagnostics.csv` and the docstrings of the rules.
 
-`python -m tappet.lang.diagnostic_pages [DIR]` writes `<code>.md` for every code and an index to DIR, by default
+`python -m tappet.lang.diagnostic_pages [DIR]` writes `<code>.md` for every code and an index to DIR, by
+default
 docs/diagnostics, and removes pages of codes that are gone. A test fails when they are not what this writes.
 """
 
@@ -109,9 +110,8 @@ def _index() -> str:
         if heading != group:
             lines += ["", f"## {heading}", "", "| Code | Severity | Message |", "|---|---|---|"]
             group = heading
-        lines.append(
-            f"| [{code}]({code}.md) | {entry.severity} | {_plain(entry.message).replace('|', chr(92) + '|')} |"
-        )
+        message = _plain(entry.message).replace("|", r"\|")
+        lines.append(f"| [{code}]({code}.md) | {entry.severity} | {message} |")
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)) + "\n"
 
 

@@ -34,7 +34,8 @@ class Source:
     namespace: str | None = None
     """Namespace under which the library is referenced; its objects are visible with and without it."""
     body_line: int = 0
-    """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one text."""
+    """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one
+    text."""
 
 
 class Span(NamedTuple):

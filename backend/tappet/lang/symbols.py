@@ -52,7 +52,8 @@ class VarSymbol(Symbol):
     constant: ast.Constant = None
     is_constant: bool = False
     home: Storage = Storage.LOCAL
-    """The storage without regard to being constant: GLOBAL, PROGRAM, INSTANCE or LOCAL; same as `storage` otherwise."""
+    """The storage without regard to being constant: GLOBAL, PROGRAM, INSTANCE or LOCAL; same as `storage`
+    otherwise."""
 
 
 @dataclass(eq=False, slots=True)
@@ -84,7 +85,8 @@ class PouSymbol(Symbol):
     return_type: Type | None = None
     parameters: list[VarSymbol] = field(default_factory=list)
     locals: dict[str, VarSymbol] = field(default_factory=dict)
-    """Every variable visible by its plain name in the body, by upper-case name (own, and inherited or of the owner)."""
+    """Every variable visible by its plain name in the body, by upper-case name (own, and inherited or of
+    the owner)."""
     instance: FunctionBlock | None = None
     """Instance type of programs, function blocks and of the owner for methods and actions."""
     methods: dict[str, PouSymbol] = field(default_factory=dict)
@@ -98,7 +100,8 @@ class PouSymbol(Symbol):
     result: VarSymbol | None = None
     """The variable that holds the return value (storage RESULT)."""
     vtable: dict[str, PouSymbol] = field(default_factory=dict)
-    """Function blocks: what a virtual call by upper-case name reaches, in slot order: `__BODY` (the block itself),
+    """Function blocks: what a virtual call by upper-case name reaches, in slot order: `__BODY` (the block
+    itself),
     methods, actions, `__GETX`, `__SETX`; inherited ones first, a derived block keeps the slots of its base.
     Empty when nothing of the block is virtual; then its instances have no `__VFTABLE`."""
 
@@ -144,7 +147,8 @@ class NamespaceSymbol(Symbol):
 class BuiltinSymbol(Symbol):
     """An operator known without a library, resolved for one call: ADD, SEL, SIZEOF, TRUNC ... (LOPR-*).
 
-    `name` is the operation in upper case; every `<T1>_TO_<T2>`, `TO_<T>`, `ANY_TO_<T>` has the name `CONVERT`.
+    `name` is the operation in upper case; every `<T1>_TO_<T2>`, `TO_<T>`, `ANY_TO_<T>` has the name
+    `CONVERT`.
     """
 
     parameter_types: tuple[Type | None, ...] = ()

@@ -113,7 +113,8 @@ class String:
 
 @dataclass(frozen=True, slots=True)
 class Array:
-    """ARRAY with constant bounds; the last index runs fastest. `bounds` is empty for ARRAY[*] (`open_dims`)."""
+    """ARRAY with constant bounds; the last index runs fastest. `bounds` is empty for ARRAY[*]
+    (`open_dims`)."""
 
     element: Type
     bounds: tuple[tuple[int, int], ...]
@@ -231,7 +232,8 @@ class Enum:
 
 @dataclass(frozen=True, slots=True)
 class Subrange:
-    """Integer type with bounds; they are checked at run time only through the CheckRange functions (LTYP-122)."""
+    """Integer type with bounds; they are checked at run time only through the CheckRange functions
+    (LTYP-122)."""
 
     base: Elementary
     low: int

@@ -1,4 +1,5 @@
-"""A value meets the type its context needs: literals adapt, everything else converts by the table or is reported."""
+"""A value meets the type its context needs: literals adapt, everything else converts by the table or is
+reported."""
 
 from __future__ import annotations
 
@@ -30,14 +31,14 @@ def require(b: Body, e: ast.Expr, target: Type) -> bool:
     if source is target:
         return True
     if target.__class__ is t.Reference:
-        target = target.base  # type: ignore[union-attr]
+        target = target.base
         if source is target:
             return True
     code = conversion.verdict(source, target)
     if e.is_constant:
         value = e.constant
         if target.__class__ is t.Subrange and isinstance(value, int):
-            return _constant_in_subrange(b, e, target, value)  # type: ignore[arg-type]
+            return _constant_in_subrange(b, e, target, value)
         if code and isinstance(value, (int, float)) and not isinstance(value, bool):
             base = t.value_type(target)
             if isinstance(base, Elementary) and _constant_fits(value, source, base):
@@ -123,10 +124,10 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
     if target.__class__ is Elementary:
         base: Type = target
     elif target.__class__ is t.Subrange:
-        base = target.base  # type: ignore[union-attr]
-        if isinstance(e.constant, int) and not isinstance(e.constant, bool):
-            if not _constant_in_subrange(b, e, target, e.constant):  # type: ignore[arg-type]
-                return False
+        base = target.base
+        number = e.constant
+        if number.__class__ is int and not _constant_in_subrange(b, e, target, int(number)):
+            return False
     else:
         base = t.value_type(target)
         if isinstance(target, t.Enum) and target.strict:
@@ -142,11 +143,11 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
             return False
         complain(b, e.span, source, target, conversion.ERROR)
         return False
-    if isinstance(base, (t.Pointer, t.Interface)) and e.constant.__class__ is int:
-        if e.constant == 0 or isinstance(base, t.Pointer):
-            e.type = t.LWORD
-            e.constant = folding.wrap(e.constant, t.LWORD)
-            return True
+    nothing = isinstance(base, t.Interface) and e.constant == 0
+    if e.constant.__class__ is int and (nothing or isinstance(base, t.Pointer)):
+        e.type = t.LWORD
+        e.constant = folding.wrap(e.constant, t.LWORD)
+        return True
     if isinstance(base, t.String) and isinstance(source, t.String) and base.wide == source.wide:
         if isinstance(e.constant, (bytes, str)):
             _check_string_length(b, e, base, e.constant)
@@ -160,7 +161,7 @@ def retype(e: ast.Expr, target: Elementary) -> bool:
     value = e.constant
     if isinstance(value, (bytes, str)):
         return False
-    if e.type.__class__ is Elementary and e.type.kind in (Kind.TIME, Kind.DATE):  # type: ignore[union-attr]
+    if e.type.__class__ is Elementary and e.type.kind in (Kind.TIME, Kind.DATE):
         return _retype_duration(e, target)
     if value.__class__ is float:
         if target.kind is not Kind.REAL:
@@ -202,7 +203,7 @@ def _retype_duration(e: ast.Expr, target: Elementary) -> bool:
     if source is target:
         e.untyped = False
         return True
-    longer = _DURATION_TO_LONG.get(source.name)  # type: ignore[union-attr]
+    longer = _DURATION_TO_LONG.get(str(source))
     if longer is None or longer[0] is not target or not isinstance(e.constant, int):
         return False
     e.constant *= longer[1]

@@ -1,6 +1,7 @@
 """Direct addresses `%IX7.2`, `%MD48` (spec language_declarations.md section 4).
 
-In IEC mode a number counts in units of its size and bits are `word.bit`; in byte mode numbers are byte offsets
+In IEC mode a number counts in units of its size and bits are `word.bit`; in byte mode numbers are byte
+offsets
 and bits are `byte.bit` (LDEC-59).
 """
 

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import builtins, conversion
+from tappet.lang.analysis import conversion
 from tappet.lang.analysis.adaptation import complain, require
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.analysis.scope import describe
+from tappet.lang.analysis.type_conversions import find_operator
 from tappet.lang.rules import EXPRESSION_RULES
 from tappet.lang.source import Span
 from tappet.lang.symbols import PouSymbol, PropertySymbol, Storage, Symbol, TypeSymbol, VarSymbol
@@ -26,23 +27,23 @@ def call(b: Body, e: ast.Call) -> None:
     e.type = e.constant = e.target = e.expansion = None
     e.is_constant = e.untyped = False
     callee = e.callee
-    if callee.__class__ is ast.Name and not callee.leading_dot:  # type: ignore[attr-defined]
-        key = callee.name.upper()  # type: ignore[attr-defined]
+    if callee.__class__ is ast.Name and not callee.leading_dot:
+        key = callee.name.upper()
         symbol = b.locals.get(key) or b.names.get(key)
         if symbol is None:
-            resolve = builtins.find(key)
+            resolve = find_operator(key)
             if resolve is not None:
                 callee.type = None
                 resolve(b, e, key)
-                callee.symbol = e.target  # type: ignore[attr-defined]
+                callee.symbol = e.target
                 for check in _CALL_RULES:
                     check(b, e)
                 return
-        elif symbol.__class__ is VarSymbol and symbol.storage is Storage.RESULT:  # type: ignore[attr-defined]
+        elif symbol.__class__ is VarSymbol and symbol.storage is Storage.RESULT:
             own = b.pou
             if own is not None and own.result is symbol:
                 callee.type = None
-                callee.symbol = own  # type: ignore[attr-defined]
+                callee.symbol = own
                 _bind(b, e, own)
                 return
     type_ = evaluate(b, callee)
@@ -88,7 +89,7 @@ def _bind(b: Body, e: ast.Call, target: PouSymbol) -> None:
     """Connects the arguments with the parameters of `target`."""
     e.target = target
     result = target.return_type
-    e.type = result.base if result.__class__ is t.Reference else result  # type: ignore[union-attr]
+    e.type = result.base if result.__class__ is t.Reference else result
     b.session.called.add(id(target))
     b.called.append((target, text_of(e.callee), e.span))
     bind_arguments(b, e.args, target.parameters, target.name, e.span, target.kind)
@@ -216,9 +217,9 @@ def bind_reference(b: Body, content: ast.Expr, type_: t.Reference) -> None:
     assert own is not None
     if own == type_.base:
         return
-    if isinstance(own, t.FunctionBlock) and isinstance(type_.base, t.FunctionBlock):
-        if conversion.derives(own, type_.base):
-            return
+    blocks = isinstance(own, t.FunctionBlock) and isinstance(type_.base, t.FunctionBlock)
+    if blocks and conversion.verdict(own, type_.base) == conversion.OK:
+        return
     b.report("E0301", content.span, source=own, target=type_, hint="A reference needs exactly its type.")
 
 
@@ -250,9 +251,7 @@ def _protected(content: ast.Expr) -> bool:
         symbol = getattr(e, "symbol", None)
         if isinstance(symbol, VarSymbol) and ("CONSTANT" in symbol.flags or symbol.area == "I"):
             return True
-        if isinstance(e, ast.Member):
-            e = e.base
-        elif isinstance(e, ast.Index) and not isinstance(e.base.type, t.Pointer):
+        if isinstance(e, ast.Member) or (isinstance(e, ast.Index) and not isinstance(e.base.type, t.Pointer)):
             e = e.base
         else:
             return False

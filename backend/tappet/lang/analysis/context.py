@@ -50,8 +50,19 @@ class Body:
     """One text as the passes see it: what its names mean and where its messages go."""
 
     __slots__ = (
-        "session", "source", "uri", "pou", "locals", "names", "loops", "labels", "jumps", "loop_variables",
-        "called", "assigned", "loop_writes",
+        "assigned",
+        "called",
+        "jumps",
+        "labels",
+        "locals",
+        "loop_variables",
+        "loop_writes",
+        "loops",
+        "names",
+        "pou",
+        "session",
+        "source",
+        "uri",
     )  # fmt: skip
 
     def __init__(

@@ -1,13 +1,17 @@
 """Implicit conversions and common operand types (spec language_operators.md section 1, LOPR-01..LOPR-03).
 
-Decision on LOPR-03: integers narrower than 32 bit are computed in DINT, which holds all their values; operands of
-different sign are computed in the smallest signed type that holds both, so that `-1 < udi` is TRUE. The static
+Decision on LOPR-03: integers narrower than 32 bit are computed in DINT, which holds all their values;
+operands of
+different sign are computed in the smallest signed type that holds both, so that `-1 < udi` is TRUE. The
+static
 type of the result is that of the larger operand (of equal size: the signed one), which decides the messages.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from tappet.lang import types as t
 from tappet.lang.types import Elementary, Kind, Type
@@ -157,7 +161,7 @@ def _to_block(source: Type, target: t.FunctionBlock) -> str:
     return OK if isinstance(source, t.FunctionBlock) and derives(source, target) else ERROR
 
 
-_BY_TARGET = {
+_BY_TARGET: dict[type, Callable[[Any, Any], str]] = {
     Elementary: _to_elementary,
     t.String: _to_string,
     t.Enum: _to_enum,

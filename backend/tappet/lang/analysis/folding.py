@@ -1,4 +1,4 @@
-"""Constant arithmetic as the compiled code would do it: wrapped integers, single precision REAL, truncating division."""
+"""Constant arithmetic as the compiled code does it: wrapped integers, single precision, cut quotients."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import math
 import operator
 import struct
 from collections.abc import Callable
+from typing import Any
 
 from tappet.lang.analysis.conversion import RANGES
 from tappet.lang.ast import Constant
 from tappet.lang.types import Elementary, Kind
 
 
-class DivisionByZero(ArithmeticError):
+class ConstantDivisionError(ArithmeticError):
     """A constant integer was divided by zero."""
 
 
@@ -74,17 +75,17 @@ def fits(value: int, to: Elementary) -> bool:
 
 
 def divide_integers(left: int, right: int) -> int:
-    """Quotient cut towards zero (LOPR-13). Raises DivisionByZero."""
+    """Quotient cut towards zero (LOPR-13). Raises ConstantDivisionError."""
     if right == 0:
-        raise DivisionByZero
+        raise ConstantDivisionError
     quotient = abs(left) // abs(right)
     return quotient if (left < 0) == (right < 0) else -quotient
 
 
 def modulo_integers(left: int, right: int) -> int:
-    """Remainder with the sign of the dividend (LOPR-14). Raises DivisionByZero."""
+    """Remainder with the sign of the dividend (LOPR-14). Raises ConstantDivisionError."""
     if right == 0:
-        raise DivisionByZero
+        raise ConstantDivisionError
     remainder = abs(left) % abs(right)
     return -remainder if left < 0 else remainder
 
@@ -153,7 +154,7 @@ _REAL: dict[str, Callable[[float, float], float]] = {
     "/": divide_reals,
     "**": power,
 }
-_COMPARE: dict[str, Callable[[object, object], bool]] = {
+_COMPARE: dict[str, Callable[[Any, Any], bool]] = {
     "=": operator.eq,
     "<>": operator.ne,
     "<": operator.lt,
@@ -164,14 +165,19 @@ _COMPARE: dict[str, Callable[[object, object], bool]] = {
 
 
 def arithmetic(op: str, left: Constant, right: Constant, computed: Elementary | None) -> Constant:
-    """`left op right` computed in `computed`; None means exact (untyped literals). Raises DivisionByZero."""
+    """`left op right` computed in `computed`; None means exact.
+
+    Raises ConstantDivisionError.
+    """
     if computed is not None:
         left, right = wrap(left, computed), wrap(right, computed)
     if isinstance(left, float) or isinstance(right, float) or op == "**":
-        assert isinstance(left, (int, float)) and isinstance(right, (int, float))
+        assert isinstance(left, (int, float))
+        assert isinstance(right, (int, float))
         value: Constant = _REAL[op](float(left), float(right))
     else:
-        assert isinstance(left, int) and isinstance(right, int)
+        assert isinstance(left, int)
+        assert isinstance(right, int)
         value = _INTEGER[op](left, right)
         if isinstance(left, bool) and isinstance(right, bool):
             value = bool(value)

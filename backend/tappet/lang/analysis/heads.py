@@ -1,4 +1,4 @@
-"""Between collecting and resolving: bases and interfaces are linked, and every POU gets its view of the names."""
+"""Between collecting and resolving: bases and interfaces are linked, every POU gets its view of names."""
 
 from __future__ import annotations
 
@@ -243,8 +243,9 @@ class _Views:
         own = self.found.own[id(pou)]
         for variable in own.externals:
             self._external(pou, body, variable)
-        for variable in (*own.variables.values(), pou.result):
-            if variable is not None and variable.decl is not None and variable.section != "VAR_EXTERNAL":
+        results = () if pou.result is None else (pou.result,)
+        for variable in (*own.variables.values(), *results):
+            if variable.decl is not None and variable.section != "VAR_EXTERNAL":
                 self.declarations.variables[id(variable)] = (variable, body)
 
     def _external(self, pou: PouSymbol, body: Body, variable: VarSymbol) -> None:
@@ -255,9 +256,8 @@ class _Views:
         if isinstance(target, VarSymbol):
             pou.locals[key] = target
             body.locals[key] = target
-            if variable.decl is not None:
-                if variable.decl.initial is not None:
-                    body.report("W1207", span, name=variable.name)
+            if variable.decl is not None and variable.decl.initial is not None:
+                body.report("W1207", span, name=variable.name)
         else:
             body.report("E0211", span, name=variable.name)
 

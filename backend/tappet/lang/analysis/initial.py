@@ -1,4 +1,4 @@
-"""Initial values: constants, expressions, and the aggregates `[1, 3(7)]` and `(a := 1)` (LTYP-91..93, LTYP-102)."""
+"""Initial values: expressions and the aggregates `[1, 3(7)]`, `(a := 1)` (LTYP-91..93, LTYP-102)."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ def _check_constant(b: Body, e: ast.Expr) -> None:
         return
     if isinstance(e, (ast.Name, ast.Member)):
         symbol = e.symbol
-        if isinstance(symbol, VarSymbol) and "CONSTANT" not in symbol.flags:
-            if symbol.storage is not Storage.PARAMETER:
-                b.report("E0329", e.span)
+        changing = isinstance(symbol, VarSymbol) and "CONSTANT" not in symbol.flags
+        if changing and symbol.storage is not Storage.PARAMETER:  # type: ignore[union-attr]
+            b.report("E0329", e.span)
     elif isinstance(e, ast.Unary):
         _check_constant(b, e.operand)
     elif isinstance(e, ast.Binary):
@@ -73,7 +73,7 @@ def _elements(b: Body, elements: list[ast.Expr], array: t.Array) -> int:
     element = array.element
     for position, x in enumerate(elements):
         if x.__class__ is ast.Call:
-            elements[position] = _named_repeat(b, x)  # type: ignore[arg-type]
+            elements[position] = _named_repeat(b, x)
     nested = isinstance(element, t.Array) and not any(
         isinstance(x, ast.ArrayInit)
         or (isinstance(x, ast.Repeat) and any(isinstance(v, ast.ArrayInit) for v in x.values))
@@ -94,7 +94,8 @@ def _elements(b: Body, elements: list[ast.Expr], array: t.Array) -> int:
 
 
 def _named_repeat(b: Body, e: ast.Call) -> ast.Expr:
-    """`N(7)` with a constant N looks like a call to the parser; only its name tells that it is a repetition."""
+    """`N(7)` with a constant N looks like a call to the parser; only its name tells that it is a
+    repetition."""
     callee = e.callee
     if isinstance(callee, ast.Name) and isinstance(b.lookup(callee.name), VarSymbol):
         values = [arg.value for arg in e.args if arg.value is not None and arg.name is None]

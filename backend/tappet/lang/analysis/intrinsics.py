@@ -218,7 +218,8 @@ def _query(b: Body, e: ast.Call, name: str) -> None:
     if not count_fits(b, e, name, 2, 2):
         return
     source, destination = e.args[0].value, e.args[1].value
-    assert source is not None and destination is not None
+    assert source is not None
+    assert destination is not None
     if value(b, source) is None or value(b, destination) is None:
         return
     if not isinstance(source.type, (t.Interface, t.FunctionBlock)):
@@ -226,7 +227,8 @@ def _query(b: Body, e: ast.Call, name: str) -> None:
         return
     wanted = t.Interface if name == "__QUERYINTERFACE" else t.Pointer
     if not isinstance(destination.type, wanted):
-        hint = f"The second operand must be a variable of {'an interface' if wanted is t.Interface else 'a pointer'}."
+        what = "an interface" if wanted is t.Interface else "a pointer"
+        hint = f"The second operand must be a variable of {what}."
         b.report("E0521", destination.span, name=name, type=destination.type, hint=hint)
         return
     writable(b, destination)
@@ -237,7 +239,8 @@ def _bound(b: Body, e: ast.Call, name: str) -> None:
     if not count_fits(b, e, name, 2, 2):
         return
     array, dimension = e.args[0].value, e.args[1].value
-    assert array is not None and dimension is not None
+    assert array is not None
+    assert dimension is not None
     type_ = value(b, array)
     value(b, dimension)
     e.type = t.DINT

@@ -50,7 +50,8 @@ class Placement:
 
 
 def pack_of(pragmas: Iterable[Pragma]) -> tuple[int, str | None]:
-    """Largest alignment after 'pack_mode', and the faulty value of the attribute if it is none of 0 1 2 4 8."""
+    """Largest alignment after 'pack_mode', and the faulty value of the attribute if it is none of 0 1 2 4
+    8."""
     mode = attribute(pragmas, "pack_mode")
     if mode is None:
         return NATURAL, None

@@ -1,4 +1,4 @@
-"""Unary and binary operators: operand types, result types and folding (spec language_operators.md 2, 3, 6)."""
+"""Unary and binary operators: operand types, result types, folding (language_operators.md 2, 3, 6)."""
 
 from __future__ import annotations
 
@@ -119,11 +119,11 @@ def _meet(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> conversion
         return None
     if left.untyped != right.untyped:
         if left.untyped:
-            if retype(left, rt):  # type: ignore[arg-type]
+            if retype(left, rt):
                 lt = rt
-        elif retype(right, lt):  # type: ignore[arg-type]
+        elif retype(right, lt):
             rt = lt
-    return conversion.OPERANDS.get((lt.name, rt.name))  # type: ignore[union-attr]
+    return conversion.OPERANDS.get((lt.name, rt.name))
 
 
 def _warn(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr, meeting: conversion.Operands) -> None:
@@ -227,11 +227,11 @@ def _bits(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
     if lt.__class__ is Elementary and rt.__class__ is Elementary:
         if left.untyped != right.untyped:
             if left.untyped:
-                if retype(left, rt):  # type: ignore[arg-type]
+                if retype(left, rt):
                     lt = rt
-            elif retype(right, lt):  # type: ignore[arg-type]
+            elif retype(right, lt):
                 rt = lt
-        result = conversion.BIT_OPERANDS.get((lt.name, rt.name))  # type: ignore[union-attr]
+        result = conversion.BIT_OPERANDS.get((lt.name, rt.name))
         if result is not None:
             e.type = e.operand_type = result
             e.untyped = left.untyped and right.untyped
@@ -260,8 +260,7 @@ def _lazy(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
 
 def _power(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
     lt, rt = t.value_type(left.type), t.value_type(right.type)  # type: ignore[arg-type]
-    numbers = isinstance(lt, Elementary) and isinstance(rt, Elementary)
-    if not numbers or (lt.name, rt.name) not in conversion.OPERANDS:  # type: ignore[union-attr]
+    if (str(lt), str(rt)) not in conversion.OPERANDS:
         _incompatible(b, e, left, right)
         return
     computed = t.REAL if lt is t.REAL and (right.untyped or rt is not t.LREAL) else t.LREAL
@@ -294,14 +293,14 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
     if lt.__class__ is Elementary and rt.__class__ is Elementary:
         if left.untyped != right.untyped:
             if left.untyped:
-                if retype(left, rt):  # type: ignore[arg-type]
+                if retype(left, rt):
                     lt = rt
-            elif retype(right, lt):  # type: ignore[arg-type]
+            elif retype(right, lt):
                 rt = lt
         if lt == rt:
             e.operand_type = lt
             return
-        meeting = conversion.OPERANDS.get((lt.name, rt.name))  # type: ignore[union-attr]
+        meeting = conversion.OPERANDS.get((lt.name, rt.name))
         if meeting is not None:
             e.operand_type = meeting.computed
             if left.untyped and right.untyped:
@@ -309,14 +308,13 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
             elif meeting.warnings != ("", ""):
                 _warn(b, e, left, right, meeting)
             return
-        if _bool_with_number(e, left, right, lt, rt):  # type: ignore[arg-type]
+        if _bool_with_number(e, left, right, lt, rt):
             return
     elif isinstance(lt, t.String) and isinstance(rt, t.String) and lt.wide == rt.wide:
         e.operand_type = lt if lt.length >= rt.length else rt
         return
-    elif isinstance(lt, (t.Pointer, t.Interface)) or isinstance(rt, (t.Pointer, t.Interface)):
-        if _addresses(e, left, right, lt, rt):
-            return
+    elif _holds_address(lt, rt) and _addresses(e, left, right, lt, rt):
+        return
     _incompatible(b, e, left, right)
 
 
@@ -327,6 +325,10 @@ def _bool_with_number(e: ast.Binary, left: ast.Expr, right: ast.Expr, lt: Elemen
             e.operand_type = t.LINT
             return True
     return False
+
+
+def _holds_address(lt: Type, rt: Type) -> bool:
+    return isinstance(lt, (t.Pointer, t.Interface)) or isinstance(rt, (t.Pointer, t.Interface))
 
 
 def _addresses(e: ast.Binary, left: ast.Expr, right: ast.Expr, lt: Type, rt: Type) -> bool:
@@ -381,7 +383,7 @@ def _fold(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
                 else:
                     _name_untyped(b, e)
                 return
-    except folding.DivisionByZero:
+    except folding.ConstantDivisionError:
         b.report("E0316", right.span)
         e.type = None
         return

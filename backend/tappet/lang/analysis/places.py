@@ -44,9 +44,9 @@ def mark_written(b: Body, e: ast.Expr) -> None:
     written = b.session.written
     while True:
         if e.__class__ in (ast.Name, ast.Member):
-            written.add(id(e.symbol))  # type: ignore[attr-defined]
+            written.add(id(e.symbol))
         if e.__class__ in (ast.Member, ast.Index):
-            e = e.base  # type: ignore[attr-defined]
+            e = e.base
         else:
             return
 
@@ -139,9 +139,9 @@ def _access_allowed(b: Body, e: ast.Member, symbol: VarSymbol) -> bool:
         inner = base.base.__class__ if isinstance(base, ast.Deref) else None
         if inner is ast.This or inner is ast.Super:
             return True
-        owner = base.type.pou.symbol if base.type.pou is not None else None  # type: ignore[union-attr]
+        owner = base.type.pou.symbol if base.type.pou is not None else None
     elif base.type is None and base.__class__ in (ast.Name, ast.Member):
-        owner = base.symbol  # type: ignore[attr-defined]
+        owner = base.symbol
         if not isinstance(owner, PouSymbol):
             return True
     else:

@@ -11,8 +11,8 @@ from tappet.lang.analysis.calls import bind_arguments
 from tappet.lang.analysis.collect import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
-from tappet.lang.analysis.expressions import find_member
 from tappet.lang.analysis.heads import plain_body
+from tappet.lang.analysis.members import find_member
 from tappet.lang.analysis.result import ConfiguredAddress
 from tappet.lang.rules import PROGRAM_RULES
 from tappet.lang.source import Scope, Source, Span
@@ -330,11 +330,13 @@ def _walk_type(
                 if variable.home is Storage.INSTANCE and variable.owner is not None:
                     _walk(paths, concerned, variable, variable.type, owner, offset + variable.offset, path)
     elif isinstance(type_, t.Array) and len(type_.bounds) == 1:
-        if isinstance(type_.element, t.FunctionBlock) and _concerns(concerned, type_.element):
-            low, high = type_.bounds[0]
-            for index in range(low, high + 1):
-                start = offset + (index - low) * type_.element.size
-                _walk_type(paths, concerned, type_.element, owner, start, f"{path}[{index}]")
+        element = type_.element
+        if not isinstance(element, t.FunctionBlock) or not _concerns(concerned, element):
+            return
+        low, high = type_.bounds[0]
+        for index in range(low, high + 1):
+            start = offset + (index - low) * element.size
+            _walk_type(paths, concerned, element, owner, start, f"{path}[{index}]")
 
 
 def _concerns(concerned: dict[int, bool], type_: t.FunctionBlock) -> bool:
@@ -353,9 +355,9 @@ def _concerns(concerned: dict[int, bool], type_: t.FunctionBlock) -> bool:
             inner: Type | None = variable.type
             while isinstance(inner, t.Array):
                 inner = inner.element
-            if isinstance(inner, t.FunctionBlock) and variable.section != "VAR_IN_OUT":
-                if _concerns(concerned, inner):
-                    result = True
-                    break
+            stored = variable.section != "VAR_IN_OUT"
+            if stored and isinstance(inner, t.FunctionBlock) and _concerns(concerned, inner):
+                result = True
+                break
     concerned[id(type_)] = result
     return result

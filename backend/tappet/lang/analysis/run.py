@@ -11,9 +11,7 @@ from collections.abc import Iterable, Sequence
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import calls as _calls  # registers its node classes
-from tappet.lang.analysis import intrinsics as _intrinsics  # registers its operators
-from tappet.lang.analysis import layout, program
+from tappet.lang.analysis import calls, intrinsics, layout, members, program, selection
 from tappet.lang.analysis.collect import Collected, collect
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
@@ -26,7 +24,8 @@ from tappet.lang.rules import POU_RULES
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
-_REGISTERED = (_calls, _intrinsics)
+REGISTERED = (calls, members, intrinsics, selection)
+"""Modules that enter their handlers into the tables when they are imported."""
 _DEFAULT_SLOT = 50000
 
 
@@ -188,7 +187,8 @@ def _fill(session: Session, found: Collected, declarations: Declarations) -> Non
 
 
 def _make_unique(found: Collected) -> None:
-    """Objects of one name in several scopes get different link names: the outer ones carry their namespace."""
+    """Objects of one name in several scopes get different link names: the outer ones carry their
+    namespace."""
     seen: set[str] = set()
     order = {Scope.APPLICATION: 0, Scope.POUS: 1, Scope.LIBRARY: 2}
     entries: list[PouSymbol | GvlSymbol] = [p for p, _ in found.pous]

@@ -1,4 +1,4 @@
-"""Which names a text sees: its own object's, the application's, the POUs view's, the libraries' (CON-06..CON-09)."""
+"""Which names a text sees: those of the application, the POUs view, the libraries (CON-06..CON-09)."""
 
 from __future__ import annotations
 

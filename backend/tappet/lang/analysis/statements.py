@@ -61,8 +61,8 @@ def _assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
     elif value(b, content) is not None and type_ is not None and target.__class__ in _TARGETS:
         require(b, content, type_)
     b.assigned = None
-    if target.__class__ is ast.Name and target.symbol.__class__ is VarSymbol:  # type: ignore[attr-defined]
-        symbol = target.symbol  # type: ignore[attr-defined]
+    if target.__class__ is ast.Name and target.symbol.__class__ is VarSymbol:
+        symbol = target.symbol
         if "CONSTANT" not in symbol.flags and symbol.area != "I":
             b.session.written.add(id(symbol))
             if b.loop_variables and symbol in b.loop_variables:
@@ -185,7 +185,8 @@ def _for(b: Body, s: ast.For) -> None:
 
 
 def _bound(b: Body, bound: ast.Expr, type_: Type | None, base: Elementary) -> None:
-    """A bound of a loop must fit its variable; other integers of a wider type convert with the usual message."""
+    """A bound of a loop must fit its variable; other integers of a wider type convert with the usual
+    message."""
     assert type_ is not None
     if bound.untyped:
         if retype(bound, base):

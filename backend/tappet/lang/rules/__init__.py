@@ -49,7 +49,8 @@ RULES: tuple[ModuleType, ...] = (
     unreachable,
     unused_variable,
 )
-"""Every rule has CODES, and the function of its kind: `check_statement` with NODES, `check_expression` with NODES,
+"""Every rule has CODES, and the function of its kind: `check_statement` with NODES, `check_expression` with
+NODES,
 `check_list` (statements that follow each other), `check_pou`, or `check_program`."""
 
 Check = Callable[[Any, Any], None]

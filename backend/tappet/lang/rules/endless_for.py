@@ -1,6 +1,7 @@
 """The bound of a FOR loop is not the limit of the type of its variable.
 
-The variable is compared after the step has been added; at the limit of its type it wraps and the loop never ends.
+The variable is compared after the step has been added; at the limit of its type it wraps and the loop never
+ends.
 
 Source: spec LST-29.
 

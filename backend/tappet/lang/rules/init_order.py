@@ -51,9 +51,7 @@ def _names(e: ast.Expr) -> Iterator[ast.Name]:
         yield from _names(e.right)
     elif isinstance(e, ast.Unary):
         yield from _names(e.operand)
-    elif isinstance(e, ast.Member):
-        yield from _names(e.base)
-    elif isinstance(e, ast.Index):
+    elif isinstance(e, (ast.Member, ast.Index)):
         yield from _names(e.base)
     elif isinstance(e, ast.Call):
         if isinstance(e.callee, ast.Name) and e.callee.name.upper() in ("ADR", "SIZEOF"):

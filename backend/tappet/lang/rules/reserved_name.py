@@ -18,7 +18,27 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1206",)
-_IL_OPERATORS = frozenset("CAL CALC CALCN JMPC JMPCN LD LDN RET RETC RETCN S ST STN R ANDN ORN XORN".split())
+_IL_OPERATORS = frozenset(
+    [
+        "CAL",
+        "CALC",
+        "CALCN",
+        "JMPC",
+        "JMPCN",
+        "LD",
+        "LDN",
+        "RET",
+        "RETC",
+        "RETCN",
+        "S",
+        "ST",
+        "STN",
+        "R",
+        "ANDN",
+        "ORN",
+        "XORN",
+    ]
+)
 
 
 def check_pou(b: Body) -> None:

@@ -1,6 +1,7 @@
 """A local variable is used.
 
-Inputs, outputs, and variables at an address belong to the interface of the POU or the machine and are left out.
+Inputs, outputs, and variables at an address belong to the interface of the POU or the machine and are left
+out.
 
 Source: spec LDEC-20.
 
@@ -40,7 +41,8 @@ def check_program(session: Session) -> None:
 
 
 def _check(session: Session, pou: PouSymbol) -> None:
-    assert pou.pou is not None and pou.source is not None
+    assert pou.pou is not None
+    assert pou.source is not None
     used = session.used
     for block in pou.pou.blocks:
         if block.section not in ("VAR", "VAR_TEMP", "VAR_STAT"):
