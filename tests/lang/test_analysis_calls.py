@@ -16,9 +16,11 @@ FUNCTION = (
     "VAR_OUTPUT o : DINT; END_VAR\nFct := a + c; io := a; o := a;\nEND_FUNCTION"
 )
 BLOCK = (
-    "FUNCTION_BLOCK FB\nVAR_INPUT a : INT; t : TIME; END_VAR VAR_OUTPUT q : BOOL; END_VAR VAR n : INT; END_VAR\n"
+    "FUNCTION_BLOCK FB\nVAR_INPUT a : INT; t : TIME; END_VAR VAR_OUTPUT q : BOOL; END_VAR VAR n : "
+    "INT; END_VAR\n"
     "q := a > n; n := a;\nMETHOD Up : INT\nVAR_INPUT by : INT; END_VAR\nn := n + by; Up := n;\nEND_METHOD\n"
-    "ACTION Zero\nn := 0;\nEND_ACTION\nPROPERTY Level : INT\nGET\nLevel := n;\nEND_GET\nSET\nn := Level;\nEND_SET\n"
+    "ACTION Zero\nn := 0;\nEND_ACTION\nPROPERTY Level : INT\nGET\nLevel := n;\nEND_GET\nSET\nn := "
+    "Level;\nEND_SET\n"
     "END_PROPERTY\nPROPERTY Only : INT\nGET\nOnly := n;\nEND_GET\nEND_PROPERTY\nEND_FUNCTION_BLOCK"
 )
 VARIABLES = "VAR x, y : INT; d : DINT; b : BOOL; f : FB; p : POINTER TO FB; r : REAL; END_VAR"
@@ -81,7 +83,8 @@ def test_calls(body: str, expected: list[str]) -> None:
 def test_arguments_name_their_parameters() -> None:
     analysis = program(VARIABLES, "x := Fct(1, io := y, o => d);", FUNCTION, BLOCK)
     call = value_of(analysis)
-    assert isinstance(call, ast.Call) and isinstance(call.target, PouSymbol)
+    assert isinstance(call, ast.Call)
+    assert isinstance(call.target, PouSymbol)
     assert [a.parameter.name for a in call.args if a.parameter is not None] == ["a", "io", "o"]
     assert (call.type, call.target.kind) == (t.INT, "FUNCTION")
 
@@ -95,7 +98,9 @@ def test_targets_of_instances_methods_and_properties() -> None:
         ("ACTION", "FB.Zero"),
     ]
     read = value_of(analysis, 3)
-    assert isinstance(read, ast.Member) and isinstance(read.symbol, PropertySymbol) and read.type is t.INT
+    assert isinstance(read, ast.Member)
+    assert isinstance(read.symbol, PropertySymbol)
+    assert read.type is t.INT
 
 
 def test_in_out_of_strings_and_open_arrays() -> None:
@@ -151,8 +156,10 @@ def test_methods_see_their_block() -> None:
 
 def test_inheritance_super_and_this() -> None:
     texts = (
-        "FUNCTION_BLOCK Base\nVAR n : INT; END_VAR\nn := 1;\nMETHOD M : INT\nM := n;\nEND_METHOD\nEND_FUNCTION_BLOCK",
-        "FUNCTION_BLOCK Child EXTENDS Base\nVAR k : INT; END_VAR\nSUPER^(); k := SUPER^.M() + THIS^.M() + M() + n;\n"
+        "FUNCTION_BLOCK Base\nVAR n : INT; END_VAR\nn := 1;\nMETHOD M : INT\nM := "
+        "n;\nEND_METHOD\nEND_FUNCTION_BLOCK",
+        "FUNCTION_BLOCK Child EXTENDS Base\nVAR k : INT; END_VAR\nSUPER^(); k := SUPER^.M() + "
+        "THIS^.M() + M() + n;\n"
         "METHOD M : INT\nM := SUPER^.M() + k;\nEND_METHOD\nEND_FUNCTION_BLOCK",
     )
     declaration = "VAR c : Child; p : POINTER TO Base; b : Base; x : INT; END_VAR"
@@ -177,7 +184,8 @@ def test_inheritance_super_and_this() -> None:
             "E0426",
         ),
         (
-            "FUNCTION_BLOCK ABSTRACT A\nEND_FUNCTION_BLOCK\nFUNCTION_BLOCK B\nVAR a : A; END_VAR\nEND_FUNCTION_BLOCK",
+            "FUNCTION_BLOCK ABSTRACT A\nEND_FUNCTION_BLOCK\nFUNCTION_BLOCK B\nVAR a : A; "
+            "END_VAR\nEND_FUNCTION_BLOCK",
             "E0425",
         ),
         (
@@ -191,7 +199,8 @@ def test_inheritance_super_and_this() -> None:
             "E0419",
         ),
         (
-            "FUNCTION_BLOCK A\nVAR x : INT; END_VAR\nMETHOD M\nEND_METHOD\nMETHOD m\nEND_METHOD\nEND_FUNCTION_BLOCK",
+            "FUNCTION_BLOCK A\nVAR x : INT; END_VAR\nMETHOD M\nEND_METHOD\nMETHOD "
+            "m\nEND_METHOD\nEND_FUNCTION_BLOCK",
             "E0205",
         ),
     ],
@@ -201,11 +210,13 @@ def test_faulty_object_orientation(text: str, code: str) -> None:
 
 
 INTERFACES = (
-    "INTERFACE IBase EXTENDS __System.IQueryInterface\nMETHOD mb : BOOL\nEND_METHOD\nPROPERTY v : INT\nGET\nEND_GET\n"
+    "INTERFACE IBase EXTENDS __System.IQueryInterface\nMETHOD mb : BOOL\nEND_METHOD\nPROPERTY v : "
+    "INT\nGET\nEND_GET\n"
     "END_PROPERTY\nEND_INTERFACE",
     "INTERFACE IMore EXTENDS IBase\nMETHOD mm : INT\nVAR_INPUT a : INT; END_VAR\nEND_METHOD\nEND_INTERFACE",
     "FUNCTION_BLOCK FB IMPLEMENTS IMore\nMETHOD mb : BOOL\nmb := TRUE;\nEND_METHOD\nMETHOD mm : INT\n"
-    "VAR_INPUT a : INT; END_VAR\nmm := a;\nEND_METHOD\nPROPERTY v : INT\nGET\nv := 1;\nEND_GET\nEND_PROPERTY\n"
+    "VAR_INPUT a : INT; END_VAR\nmm := a;\nEND_METHOD\nPROPERTY v : INT\nGET\nv := "
+    "1;\nEND_GET\nEND_PROPERTY\n"
     "END_FUNCTION_BLOCK",
     "FUNCTION_BLOCK Other\nEND_FUNCTION_BLOCK",
 )
@@ -246,7 +257,8 @@ def test_fb_init_arguments() -> None:
     """LDEC-102."""
     block = (
         "FUNCTION_BLOCK Dev\nVAR_OUTPUT port : INT; END_VAR\nMETHOD FB_Init : BOOL\n"
-        "VAR_INPUT bInitRetains : BOOL; bInCopyCode : BOOL; n : INT; END_VAR\nport := n;\nEND_METHOD\nEND_FUNCTION_BLOCK"
+        "VAR_INPUT bInitRetains : BOOL; bInCopyCode : BOOL; n : INT; END_VAR\nport := "
+        "n;\nEND_METHOD\nEND_FUNCTION_BLOCK"
     )
     analysis = program(
         "VAR a : Dev(n := 1); b : Dev(2) := (port := 3); c : ARRAY[0..1] OF Dev(n := 3); END_VAR", "", block
@@ -266,8 +278,14 @@ def test_dynamic_creation() -> None:
         "FUNCTION_BLOCK Plain\nEND_FUNCTION_BLOCK",
         "TYPE S : STRUCT a : INT; END_STRUCT END_TYPE",
     )
-    declaration = "VAR d : POINTER TO Dyn; ps : POINTER TO S; b : POINTER TO BYTE; q : POINTER TO Plain; n : INT; END_VAR"
-    good = "d := __NEW(Dyn); ps := __NEW(S); b := __NEW(BYTE, 25); b := __NEW(BYTE, n); __DELETE(d); b[24] := 125;"
+    declaration = (
+        "VAR d : POINTER TO Dyn; ps : POINTER TO S; b : POINTER TO BYTE; q : POINTER TO "
+        "Plain; n : INT; END_VAR"
+    )
+    good = (
+        "d := __NEW(Dyn); ps := __NEW(S); b := __NEW(BYTE, 25); b := __NEW(BYTE, n); __DELETE(d); "
+        "b[24] := 125;"
+    )
     assert codes(program(declaration, good, *texts)) == []
     bad = "q := __NEW(Plain); __NEW(BYTE, 4); b := __NEW(BYTE); __DELETE(n); b := __NEW(Nope);"
     assert codes(program(declaration, bad, *texts)) == ["E0427", "E0519", "E0520", "E0312", "E0201", "E0202"]
@@ -289,7 +307,8 @@ def test_dynamic_creation() -> None:
         (("PROGRAM P1\nP2();\nEND_PROGRAM", "PROGRAM P2\nP1();\nEND_PROGRAM"), "P1 -> P2 -> P1", "E0515"),
         (
             (
-                "FUNCTION_BLOCK FB\nVAR n : POINTER TO FB; END_VAR\nMETHOD Walk\nn^.Walk();\nEND_METHOD\nEND_FUNCTION_BLOCK",
+                "FUNCTION_BLOCK FB\nVAR n : POINTER TO FB; END_VAR\nMETHOD "
+                "Walk\nn^.Walk();\nEND_METHOD\nEND_FUNCTION_BLOCK",
             ),
             "FB.Walk -> FB.Walk",
             "W1117",

@@ -503,7 +503,8 @@ def test_wrapping_keeps_the_low_bytes(value: int, to: t.Elementary) -> None:
 def test_intrinsics_of_system_sources() -> None:
     text = (
         "PROGRAM P\nVAR n : LINT; a : LWORD; ok : BOOL; buf : ARRAY[0..31] OF LWORD; r : DINT; END_VAR\n"
-        "n := __CALL(a, 1, n, 2.5); r := __SETJMP(ADR(buf)); __LONGJMP(ADR(buf), 1); a := __FRAME_ADDRESS();\n"
+        "n := __CALL(a, 1, n, 2.5); r := __SETJMP(ADR(buf)); __LONGJMP(ADR(buf), 1); a := "
+        "__FRAME_ADDRESS();\n"
         "__MEMCPY(ADR(buf), ADR(n), 8); __MEMSET(ADR(buf), 0, SIZEOF(buf)); n := __LOAD_ACQUIRE(n);\n"
         "__STORE_RELEASE(n, 5); n := __XADD(ADR(n), 1); ok := __COMPARE_AND_SWAP(ADR(n), 1, 2); __FENCE();\n"
         "END_PROGRAM"

@@ -17,13 +17,15 @@ from tappet.lang.source import Source
 
 SAMPLE = """
 TYPE E_Mode : (Off, On := 5, Auto) := On; END_TYPE
-TYPE ST_Rec EXTENDS ST_Base : STRUCT n : INT := 3; a : ARRAY[0..N, 1..2] OF REAL; p : POINTER TO ST_Rec; b : BIT;
+TYPE ST_Rec EXTENDS ST_Base : STRUCT n : INT := 3; a : ARRAY[0..N, 1..2] OF REAL;
+p : POINTER TO ST_Rec; b : BIT;
 END_STRUCT END_TYPE
 TYPE ST_Base : UNION x : LREAL; y : STRING(10); END_UNION END_TYPE
 TYPE T_Sub : INT(0..100) := 7; END_TYPE
 VAR_GLOBAL CONSTANT N : INT := 4; M : INT := N * 2 + 1; END_VAR
 VAR_GLOBAL RETAIN gMode : E_Mode; gRec : ARRAY[1..3] OF ST_Rec := [2((n := 1)), (n := 2)]; END_VAR
-INTERFACE IThing METHOD Go : BOOL VAR_INPUT x : INT; END_VAR END_METHOD PROPERTY V : INT GET END_GET END_PROPERTY
+INTERFACE IThing METHOD Go : BOOL VAR_INPUT x : INT; END_VAR END_METHOD
+PROPERTY V : INT GET END_GET END_PROPERTY
 END_INTERFACE
 FUNCTION_BLOCK FB_Base IMPLEMENTS IThing
 VAR_INPUT in1 : INT; t : TIME; END_VAR VAR_OUTPUT q : BOOL; END_VAR VAR_IN_OUT io : DINT; END_VAR
@@ -41,7 +43,8 @@ END_FUNCTION_BLOCK
 FUNCTION LEN2 : INT VAR_INPUT s : STRING; END_VAR VAR_STAT k : INT; END_VAR
 k := k + 1; LEN2 := SEL(k > 3, 1, MAX(2, k)); END_FUNCTION
 PROGRAM P
-VAR fb : FB_Child; i : INT; r : REAL; d : DINT; m : E_Mode; a : ARRAY[0..3] OF INT := [1, 2(3)]; p : POINTER TO INT;
+VAR fb : FB_Child; i : INT; r : REAL; d : DINT; m : E_Mode; a : ARRAY[0..3] OF INT := [1, 2(3)];
+p : POINTER TO INT;
 tm : TIME := T#5s; w : WORD := 16#FF; END_VAR
 fb(in1 := i, io := d, q => a[1].0); fb.V := fb.V + 1; i := fb.itf.V; fb.Act();
 CASE m OF Off: i := 1; On..Auto: i := 2; END_CASE
@@ -81,13 +84,94 @@ def test_any_cut_of_a_program(chance: random.Random) -> None:
         assert str(diagnostic)
 
 
-WORDS = (
-    "PROGRAM P END_PROGRAM VAR END_VAR x y INT : ; := ( ) [ ] , . ^ + - * / AND NOT = < TYPE END_TYPE STRUCT END_STRUCT "
-    "ARRAY OF 1 2 .. 0 'a' TRUE IF THEN END_IF FUNCTION F END_FUNCTION FUNCTION_BLOCK B END_FUNCTION_BLOCK POINTER TO "
-    "REFERENCE EXTENDS IMPLEMENTS INTERFACE END_INTERFACE METHOD END_METHOD PROPERTY GET SET CASE END_CASE FOR DO "
-    "END_FOR THIS SUPER => ADR SIZEOF SEL CONSTANT VAR_INPUT VAR_IN_OUT VAR_GLOBAL AT %IX0.0 %I* T#1s 1.5 REF= S= "
-    "__NEW __QUERYINTERFACE VAR_CONFIG VAR_EXTERNAL VAR_STAT"
-).split()
+WORDS = [
+    "PROGRAM",
+    "P",
+    "END_PROGRAM",
+    "VAR",
+    "END_VAR",
+    "x",
+    "y",
+    "INT",
+    ":",
+    ";",
+    ":=",
+    "(",
+    ")",
+    "[",
+    "]",
+    ",",
+    ".",
+    "^",
+    "+",
+    "-",
+    "*",
+    "/",
+    "AND",
+    "NOT",
+    "=",
+    "<",
+    "TYPE",
+    "END_TYPE",
+    "STRUCT",
+    "END_STRUCT",
+    "ARRAY",
+    "OF",
+    "1",
+    "2",
+    "..",
+    "0",
+    "'a'",
+    "TRUE",
+    "IF",
+    "THEN",
+    "END_IF",
+    "FUNCTION",
+    "F",
+    "END_FUNCTION",
+    "FUNCTION_BLOCK",
+    "B",
+    "END_FUNCTION_BLOCK",
+    "POINTER",
+    "TO",
+    "REFERENCE",
+    "EXTENDS",
+    "IMPLEMENTS",
+    "INTERFACE",
+    "END_INTERFACE",
+    "METHOD",
+    "END_METHOD",
+    "PROPERTY",
+    "GET",
+    "SET",
+    "CASE",
+    "END_CASE",
+    "FOR",
+    "DO",
+    "END_FOR",
+    "THIS",
+    "SUPER",
+    "=>",
+    "ADR",
+    "SIZEOF",
+    "SEL",
+    "CONSTANT",
+    "VAR_INPUT",
+    "VAR_IN_OUT",
+    "VAR_GLOBAL",
+    "AT",
+    "%IX0.0",
+    "%I*",
+    "T#1s",
+    "1.5",
+    "REF=",
+    "S=",
+    "__NEW",
+    "__QUERYINTERFACE",
+    "VAR_CONFIG",
+    "VAR_EXTERNAL",
+    "VAR_STAT",
+]
 
 
 @settings(max_examples=150, deadline=None)
@@ -120,9 +204,13 @@ EXPRESSIONS = st.recursive(
         ]
     ),
     lambda inner: st.one_of(
-        st.tuples(inner, st.sampled_from("+ - * / MOD AND OR XOR = <> < > ** AND_THEN".split()), inner).map(
-            lambda x: f"({x[0]} {x[1]} {x[2]})"
-        ),
+        st.tuples(
+            inner,
+            st.sampled_from(
+                ["+", "-", "*", "/", "MOD", "AND", "OR", "XOR", "=", "<>", "<", ">", "**", "AND_THEN"]
+            ),
+            inner,
+        ).map(lambda x: f"({x[0]} {x[1]} {x[2]})"),
         inner.map(lambda x: f"NOT {x}"),
         inner.map(lambda x: f"(-{x})"),
         inner.map(lambda x: f"{x}^"),
@@ -130,7 +218,23 @@ EXPRESSIONS = st.recursive(
         st.tuples(inner, inner).map(lambda x: f"{x[0]}[{x[1]}]"),
         st.tuples(
             st.sampled_from(
-                "SEL MAX LIMIT MUX SHL ADR SIZEOF ABS TO_INT INT_TO_REAL F1 fb TRUNC BITADR __NEW".split()
+                [
+                    "SEL",
+                    "MAX",
+                    "LIMIT",
+                    "MUX",
+                    "SHL",
+                    "ADR",
+                    "SIZEOF",
+                    "ABS",
+                    "TO_INT",
+                    "INT_TO_REAL",
+                    "F1",
+                    "fb",
+                    "TRUNC",
+                    "BITADR",
+                    "__NEW",
+                ]
             ),
             st.lists(inner, max_size=3),
         ).map(lambda x: f"{x[0]}({', '.join(x[1])})"),
@@ -145,9 +249,11 @@ def test_any_expression(left: str, right: str) -> None:
     analysis = _analyse(
         "TYPE E1 : (one, two); END_TYPE TYPE S1 : STRUCT x : INT; END_STRUCT END_TYPE "
         "FUNCTION F1 : INT VAR_INPUT a : INT; END_VAR F1 := a; END_FUNCTION "
-        "FUNCTION_BLOCK FB1 VAR_OUTPUT q : BOOL; END_VAR METHOD Up : INT Up := 1; END_METHOD END_FUNCTION_BLOCK "
+        "FUNCTION_BLOCK FB1 VAR_OUTPUT q : BOOL; END_VAR METHOD Up : INT Up := 1; END_METHOD "
+        "END_FUNCTION_BLOCK "
         "PROGRAM P VAR i : INT; r : REAL; b : BOOL; s : STRING; a : ARRAY[0..9] OF INT; st1 : S1; e : E1; "
-        f"p : POINTER TO S1; fb : FB1; END_VAR\n{left} := {right};\nIF {left} THEN {right}; END_IF\nEND_PROGRAM"
+        f"p : POINTER TO S1; fb : FB1; END_VAR\n{left} := {right};\nIF {left} THEN {right}; "
+        f"END_IF\nEND_PROGRAM"
     )
     program = next(p for p in analysis.pous if p.name == "P")
     assert program.pou is not None
@@ -178,10 +284,10 @@ def test_nothing_but_json_types_in_texts() -> None:
 
 def test_no_dispatch_by_chains_of_isinstance() -> None:
     """The two tables of handlers cover every class of statements and expressions that needs one."""
-    from tappet.lang.analysis.expressions import EXPRESSIONS as table
+    from tappet.lang.analysis.expressions import EXPRESSIONS as TABLE
     from tappet.lang.analysis.statements import STATEMENTS
 
     silent = {ast.Return, ast.Empty, ast.PragmaStmt}
-    assert set(ast.Expr.__subclasses__()) == set(table)
+    assert set(ast.Expr.__subclasses__()) == set(TABLE)
     assert set(ast.Stmt.__subclasses__()) - silent == set(STATEMENTS)
     assert Path(ast.__file__).exists()

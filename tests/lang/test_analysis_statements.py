@@ -11,7 +11,10 @@ from tappet.lang import types as t
 VARIABLES = (
     "VAR i, j : INT; u : USINT; r : REAL; b, c : BOOL; e : E3; a : ARRAY[1..3] OF INT; s : STRING; END_VAR"
 )
-TYPES = "TYPE E3 : (one, two, three); END_TYPE TYPE S : STRUCT x : INT; y : ARRAY[0..1] OF REAL; END_STRUCT END_TYPE"
+TYPES = (
+    "TYPE E3 : (one, two, three); END_TYPE TYPE S : STRUCT x : INT; y : ARRAY[0..1] OF REAL; "
+    "END_STRUCT END_TYPE"
+)
 
 
 def found(body: str) -> list[str]:
@@ -112,12 +115,17 @@ def test_aggregates_carry_their_types() -> None:
     decl = variable(analysis, "P.x").decl
     assert decl is not None
     init = decl.init
-    assert isinstance(init, ast.ArrayInit) and isinstance(init.type, t.Array) and init.is_constant
+    assert isinstance(init, ast.ArrayInit)
+    assert isinstance(init.type, t.Array)
+    assert init.is_constant
     second = init.elements[1]
-    assert isinstance(second, ast.StructInit) and second.type is init.type.element
+    assert isinstance(second, ast.StructInit)
+    assert second.type is init.type.element
     member = second.fields[0]
-    assert member.parameter is not None and member.parameter.name == "y"
-    assert isinstance(member.value, ast.ArrayInit) and member.value.elements[0].constant == 2.5
+    assert member.parameter is not None
+    assert member.parameter.name == "y"
+    assert isinstance(member.value, ast.ArrayInit)
+    assert member.value.elements[0].constant == 2.5
 
 
 def test_members_of_structures_are_initialised_in_their_type() -> None:
@@ -127,8 +135,11 @@ def test_members_of_structures_are_initialised_in_their_type() -> None:
     struct = analysis.types["T1"]
     assert isinstance(struct, t.Struct)
     first, second = struct.members.values()
-    assert first.decl is not None and first.decl.init is not None and first.decl.init.constant == 5
-    assert isinstance(second.type, t.Enum) and second.type.default == 1
+    assert first.decl is not None
+    assert first.decl.init is not None
+    assert first.decl.init.constant == 5
+    assert isinstance(second.type, t.Enum)
+    assert second.type.default == 1
 
 
 def test_a_second_analysis_of_the_same_tree_says_the_same() -> None:

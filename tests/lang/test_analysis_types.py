@@ -68,7 +68,8 @@ def test_bit_members_are_packed() -> None:
 
 def test_instance_layout_of_a_block() -> None:
     a = analysed(
-        "FUNCTION_BLOCK FB\nVAR_INPUT a : BOOL; END_VAR VAR_IN_OUT r : INT; END_VAR VAR_OUTPUT q : DINT; END_VAR "
+        "FUNCTION_BLOCK FB\nVAR_INPUT a : BOOL; END_VAR VAR_IN_OUT r : INT; END_VAR VAR_OUTPUT q : "
+        "DINT; END_VAR "
         "VAR_TEMP t : INT; END_VAR VAR_STAT s : INT; END_VAR VAR m AT %MW2 : INT; END_VAR\nEND_FUNCTION_BLOCK"
     )
     fb = a.pous[0].instance
@@ -85,7 +86,8 @@ def test_instance_layout_of_a_block() -> None:
 def test_inherited_members_keep_their_offsets() -> None:
     a = analysed(
         "FUNCTION_BLOCK Child EXTENDS Base\nVAR y : BYTE; END_VAR\ny := x;\nEND_FUNCTION_BLOCK",
-        "FUNCTION_BLOCK Base\nVAR x : BYTE; END_VAR\nMETHOD Get : INT\nGet := x;\nEND_METHOD\nEND_FUNCTION_BLOCK",
+        "FUNCTION_BLOCK Base\nVAR x : BYTE; END_VAR\nMETHOD Get : INT\nGet := "
+        "x;\nEND_METHOD\nEND_FUNCTION_BLOCK",
     )
     assert codes(a) == []
     base, child = a.pous[1].instance, a.pous[0].instance
@@ -242,7 +244,8 @@ def test_subrange_and_alias() -> None:
     a = program(
         "VAR i : INT(-4095..4095); j : SubInt; m : Msg; f : Fast := 2.5; END_VAR",
         "",
-        "TYPE SubInt : INT (-4095..4095); END_TYPE TYPE Msg : STRING(50) := 'hi'; END_TYPE TYPE Fast : REAL; END_TYPE",
+        "TYPE SubInt : INT (-4095..4095); END_TYPE TYPE Msg : STRING(50) := 'hi'; END_TYPE TYPE Fast "
+        ": REAL; END_TYPE",
     )
     assert codes(a) == []
     assert str(variable(a, "P.i").type) == "INT (-4095..4095)"
