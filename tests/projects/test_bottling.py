@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -155,4 +156,4 @@ def test_no_two_bottles_ever_overlap(line: LocalRuntime) -> None:
         count = line.read("GVL_Plant.iBottles")
         assert isinstance(count, int)
         places = [float(str(line.read(f"GVL_Plant.aBottles[{i}].lrPosition"))) for i in range(1, count + 1)]
-        assert all(front - back >= 90.0 - 1e-6 for front, back in zip(places, places[1:], strict=False))
+        assert all(front - back >= 90.0 - 1e-6 for front, back in itertools.pairwise(places))
