@@ -124,7 +124,8 @@ class ExpressionEmitter(PlaceEmitter):
         if op in ("div", "rem"):
             return self.divide(expr)
         left, right = self.expr(expr.left), self.expr(expr.right)
-        return self.value(f"{_INTEGER_OPS[op]} {t} {left}, {right}")
+        exact = "nsw " if expr.exact else ""
+        return self.value(f"{_INTEGER_OPS[op]} {exact}{t} {left}, {right}")
 
     def _extremum(self, expr: ir.Binary) -> str:
         left, right = self.expr(expr.left), self.expr(expr.right)

@@ -104,10 +104,10 @@ class Body:
 
     # -- variables -----------------------------------------------------------------------------------
 
-    def temp(self, scalar: ir.Scalar) -> ir.Local:
-        """A fresh scalar local."""
+    def temp(self, scalar: ir.Scalar, once: bool = True) -> ir.Local:
+        """A fresh scalar local; `once`: it is stored at one place only."""
         self.temporaries += 1
-        return ir.Local(f"t{self.temporaries}", scalar.size, scalar.size, scalar)
+        return ir.Local(f"t{self.temporaries}", scalar.size, scalar.size, scalar, once)
 
     def space(self, size: int, align: int) -> ir.Local:
         """A fresh aggregate local."""

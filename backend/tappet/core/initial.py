@@ -379,7 +379,7 @@ def _run_elements(b: Body, base: ir.Place, step: Step) -> None:
         for number in range(step.count):
             run_steps(b, _step_place(base, step.offset + number * step.stride), step.inner)
         return
-    counter = b.temp(ir.I64)
+    counter = b.temp(ir.I64, once=False)
     index = ir.Load(ir.I64, ir.Place(counter))
     sub = ir.Subscript(index, 0, step.count - 1, step.stride, checked=False)
     start = _step_place(base, step.offset)
@@ -447,7 +447,7 @@ def destruct_all(b: Body, place: ir.Place, type_: t.Type) -> None:
             if member.section != "VAR_IN_OUT":
                 destruct_all(b, places.at(place, member.offset), member.type)
     elif isinstance(type_, t.Array):
-        counter = b.temp(ir.I64)
+        counter = b.temp(ir.I64, once=False)
         sub = ir.Subscript(
             ir.Load(ir.I64, ir.Place(counter)), 0, type_.count - 1, type_.element.size, checked=False
         )

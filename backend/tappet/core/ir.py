@@ -59,6 +59,8 @@ class Local:
     align: int
     type: Scalar | None = None
     """None for aggregates."""
+    once: bool = False
+    """A temporary that every reader finds as its one store left it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +183,8 @@ class Binary(Expr):
     left: Expr
     right: Expr
     checked: bool = False
+    exact: bool = False
+    """The result does not leave the type; set by `ranges` and `loops`."""
 
 
 @dataclass(eq=False, slots=True)
@@ -548,5 +552,9 @@ class Module:
     data: dict[str, tuple[int, int]] = field(default_factory=dict)
     """Data objects used: symbol to (size, align)."""
     dispatch: list[DispatchTable] = field(default_factory=list)
+    families: dict[str, frozenset[str]] = field(default_factory=dict)
+    """Function block types that share bases, by each of their names."""
+    containers: dict[str, set[str]] = field(default_factory=dict)
+    """Data objects with instances of a function block type, by its name."""
     exposed: set[tuple[str, int]] = field(default_factory=set)
     """Variables reachable through pointers: (data symbol or type name, root offset); offset -1 = all."""

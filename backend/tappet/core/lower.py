@@ -71,6 +71,7 @@ def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, in
         _exit_function(program, data)
     work_off(program)
     _dispatch_tables(program)
+    _relations(program, data)
     return Lowered(program.module, data, program.type_ids, program)
 
 
@@ -381,6 +382,49 @@ def _initialise(
     else:
         initialiser.fill(template, 0, type_, init)
     initial.write_template(b, place, template, type_.align)
+
+
+def _relations(program: Program, data: list[DataObject]) -> None:
+    """Which block types share bases, and which data objects hold instances of which."""
+    groups: dict[str, set[str]] = {}
+    for pou in program.analysis.pous:
+        if pou.kind == "FUNCTION_BLOCK" and pou.instance is not None:
+            root = pou
+            while root.base is not None:
+                root = root.base
+            if root.instance is not None:
+                name = program.block_name(root.instance)
+                groups.setdefault(name, {name}).add(program.block_name(pou.instance))
+    for group in groups.values():
+        for name in group:
+            program.module.families[name] = frozenset(group)
+    nested: dict[int, set[str]] = {}
+    for item in data:
+        types = (
+            [item.owner.instance]
+            if isinstance(item.owner, PouSymbol)
+            else [m.type for m in item.owner.members.values()]
+        )
+        for type_ in types:
+            for name in _blocks_in(program, type_, nested):
+                program.module.containers.setdefault(name, set()).add(item.symbol)
+
+
+def _blocks_in(program: Program, type_: t.Type | None, nested: dict[int, set[str]]) -> set[str]:
+    """Names of the block types that have instances inside a type."""
+    if isinstance(type_, t.Array):
+        return _blocks_in(program, type_.element, nested)
+    if not isinstance(type_, t.FunctionBlock | t.Struct):
+        return set()
+    found = nested.get(id(type_))
+    if found is None:
+        found = nested[id(type_)] = set()
+        if isinstance(type_, t.FunctionBlock) and not type_.program:
+            found.add(program.block_name(type_))
+        for member in type_.members.values():
+            if member.section != "VAR_IN_OUT":
+                found |= _blocks_in(program, member.type, nested)
+    return found
 
 
 # -- virtual calls ----------------------------------------------------------------------------------

@@ -108,7 +108,7 @@ def _checked_for(b: Body, s: ast.For, scalar: ir.Scalar) -> None:
     down = isinstance(step, ir.Const) and step.value < 0
     test = ir.Compare(ir.BOOL, "ge" if down else "le", read, convert(b.value(s.stop), scalar))
     advance = assign.range_checked(b, ir.Binary(scalar, "add", read, step), s.variable.type)
-    first = b.temp(ir.BOOL)
+    first = b.temp(ir.BOOL, once=False)
     b.emit(ir.Store(ir.Place(first), ir.Const(ir.BOOL, 1)))
     running = ir.Load(ir.BOOL, ir.Place(first))
     head: list[ir.Stmt] = [
