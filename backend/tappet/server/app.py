@@ -17,10 +17,13 @@ from tappet.server import (
     problems,
     routes_auth,
     routes_build,
+    routes_events,
     routes_health,
     routes_libraries,
     routes_metrics,
+    routes_objects,
     routes_online,
+    routes_projects,
     routes_runtimes,
     routes_settings,
     routes_users,
@@ -43,6 +46,9 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_online.router,
     routes_build.router,
     routes_libraries.router,
+    routes_projects.router,
+    routes_objects.router,
+    routes_events.router,
 )
 """One router per resource, all below `API`."""
 

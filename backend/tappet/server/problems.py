@@ -17,6 +17,7 @@ from starlette.websockets import WebSocket
 
 from tappet.project.errors import ProjectError
 from tappet.project.store import StaleRevision
+from tappet.server.project_shapes import object_detail
 
 MEDIA_TYPE = "application/problem+json"
 log = logging.getLogger(__name__)
@@ -118,7 +119,11 @@ async def _on_project_error(connection: HTTPConnection, error: Exception) -> Any
     assert isinstance(error, ProjectError)
     fields: dict[str, Any] = {}
     if isinstance(error, StaleRevision):
-        fields = {"current": error.current, "yours": error.yours, "author": error.author}
+        fields = {
+            "current": object_detail(error.current) if error.current is not None else None,
+            "yours": {"base_revision": error.base_revision, **error.yours},
+            "author": error.author,
+        }
     status = PROJECT_STATUS.get(error.code, 422)
     return await _answer(connection, Problem(status, error.code.replace("_", "-"), str(error), **fields))
 

@@ -19,6 +19,7 @@ from tappet.server.metrics import Metrics
 from tappet.server.online.sampler import SamplerPool
 from tappet.server.packages import PackageStore
 from tappet.server.plc_client import Connect
+from tappet.server.project_events import ProjectEvents
 from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.server.tables import runtimes as runtimes_table
@@ -40,6 +41,7 @@ class Services:
     first_account_token: str | None = field(default=None, repr=False)
     """Shown on the console at start-up while there is no account."""
     local_runtime: LocalRuntime | None = None
+    _events: ProjectEvents | None = None
     _samplers: dict[RuntimeLink, SamplerPool] = field(default_factory=dict)
 
     def samplers(self, link: RuntimeLink) -> SamplerPool:
@@ -50,8 +52,15 @@ class Services:
             self._samplers[link] = SamplerPool(link)
         return self._samplers[link]
 
+    @property
+    def events(self) -> ProjectEvents:
+        """The events sockets of projects, once the server has started."""
+        assert self._events is not None, "the server has started"
+        return self._events
+
     async def start(self) -> None:
         """Begins the work in the background."""
+        self._events = ProjectEvents(self.store)
         if self.settings.local_runtime:
             link = self.runtimes.add("Local", "", "", LOCAL_RUNTIME)
             folder = self.settings.data_dir / "runtime"
@@ -61,6 +70,8 @@ class Services:
 
     async def close(self) -> None:
         """Ends everything."""
+        if self._events is not None:
+            self._events.close()
         await self.commissioning.builder.close()
         await self.runtimes.close()
         if self.local_runtime is not None:

@@ -69,7 +69,7 @@ def apply_project(
     """
     old = stored.project
     positions = _changed_positions(stored, wanted, moved)
-    created = [item for item in wanted.objects.values() if item.id not in old.objects]
+    created = [item for item in wanted.walk() if item.id not in old.objects]
     changed = [
         item
         for item in wanted.objects.values()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from tappet.server.schemas.base import Reply, Request
 from tappet.server.schemas.projects import ObjectSummary
@@ -14,7 +14,7 @@ class OpenObject(Request):
     """Tells the others which object one looks at; null for none."""
 
     op: Literal["open"]
-    object_id: str | None
+    object_id: Annotated[str, StringConstraints(max_length=64)] | None
 
 
 class ObjectChanged(Reply):

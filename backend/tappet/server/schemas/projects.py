@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, StringConstraints
 
@@ -18,8 +18,11 @@ class ProjectSummary(Reply):
     id: str
     name: str
     description: str
+    revision: int = Field(description="Number of the last change; grows by one with each.")
     created: datetime
+    created_by: str
     modified: datetime
+    modified_by: str
 
 
 class NewProject(Request):
@@ -27,7 +30,7 @@ class NewProject(Request):
 
     name: Name
     description: str = ""
-    template: str = Field(default="standard", description="`standard` or `empty`.")
+    template: Literal["standard", "empty"] = "standard"
 
 
 class ProjectChange(Request):
@@ -61,9 +64,12 @@ class NewObject(Request):
 
     parent_id: str | None
     kind: str
-    name: Name
-    subkind: str | None = None
+    name: Name | None = Field(
+        default=None, description="Null takes the name that the placement rule proposes."
+    )
+    subkind: str | None = Field(default=None, description="Which template, such as `function_block`.")
     data: dict[str, Any] | None = None
+    index: int | None = Field(default=None, ge=0, description="Place among the siblings; null is the end.")
 
 
 class ObjectSave(Request):
@@ -71,14 +77,19 @@ class ObjectSave(Request):
 
     base_revision: int
     data: dict[str, Any]
+    comment: str = Field(default="", max_length=2000)
+    autosave: bool = Field(
+        default=False,
+        description="Saved by the editor, not the user: such revisions shortly after each other become one.",
+    )
 
 
 class ObjectMove(Request):
-    """A new name or place."""
+    """A new name or place; what is left out stays. A new parent without index: the end of its children."""
 
-    base_revision: int | None = None
+    base_revision: int | None = Field(default=None, description="Refuse if the content is newer than this.")
     name: Name | None = None
-    parent_id: str | None = None
+    parent_id: str | None = Field(default=None, description="Null: the root of the view (when sent at all).")
     index: int | None = Field(default=None, ge=0)
 
 
@@ -86,17 +97,27 @@ class CopyTarget(Request):
     """Where a copy goes."""
 
     parent_id: str | None
+    index: int | None = Field(default=None, ge=0, description="Place among the siblings; null is the end.")
+    source_project_id: str | None = Field(
+        default=None, description="The project that the object is in, when it is another one."
+    )
 
 
 class Revision(Reply):
-    """One save."""
+    """One change: of a project, or a state of an object."""
 
     revision: int
     at: datetime
     author: str
     comment: str
-    object_id: str | None = None
+    autosave: bool
+    action: str = Field(
+        description="`create`, `import`, `save`, `add`, `copy`, `rename`, `move`, `delete`, `revert` ..."
+    )
+    project_revision: int = Field(description="The change of the project that this was, or was part of.")
+    object_id: str | None = Field(default=None, description="Null when a change touched several objects.")
     object_name: str | None = None
+    object_count: int = Field(default=1, description="How many objects the change touched.")
     change: str | None = Field(default=None, description="`created`, `updated`, `moved`, `deleted`.")
 
 
@@ -104,3 +125,4 @@ class RevertTarget(Request):
     """The revision to go back to, as a new revision."""
 
     revision: int
+    comment: str = Field(default="", max_length=2000)
