@@ -33,6 +33,7 @@ from tappet.core.program import AREA_PREFIX, CONVERSION_LIBRARY, LoweringError
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
+from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.parser import ParseResult, parse
 from tappet.lang.source import NOWHERE, Scope, Source, Span
@@ -64,6 +65,8 @@ class BuildOptions:
     """Folder of the object cache; None compiles everything."""
     area_sizes: tuple[tuple[str, int], ...] = (("I", 1024), ("Q", 1024), ("M", 4096))
     """Bytes of the areas at least; they grow to what the program uses."""
+    defines: tuple[tuple[str, str], ...] = ()
+    """Identifiers known to conditional pragmas, with their values (LPRG-06)."""
     check_only: bool = False
     """Stop after analysis."""
     main_program: str = "PLC_PRG"
@@ -138,14 +141,11 @@ class BuildSession:
     def __init__(self) -> None:
         self.parsed: dict[Source, ParseResult] = {}
 
-    def parse_all(self, sources: Sequence[Source]) -> list[ParseResult]:
+    def parse_all(self, sources: Sequence[Source], options: ParseOptions) -> list[ParseResult]:
         """Trees of all texts; forgets texts that are gone."""
-        fresh: dict[Source, ParseResult] = {}
-        for source in sources:
-            found = self.parsed.get(source)
-            fresh[source] = found if found is not None else parse(source)
-        self.parsed = fresh
-        return [fresh[source] for source in sources]
+        results = parse_sources(sources, options, plain=self.parsed)
+        self.parsed = dict(zip(sources, results, strict=True))
+        return results
 
 
 def as_source(text: Source | SourceLike) -> Source:
@@ -201,7 +201,8 @@ class _Build:
         result, options = self.result, self.options
         sources = [as_source(s) for s in given] + self.library_sources()
         with self.timed("parse"):
-            parsed = self.session.parse_all(sources)
+            names = [task.name for task in task_list]
+            parsed = self.session.parse_all(sources, ParseOptions(dict(options.defines), names))
         with self.timed("analyse"):
             settings = AnalysisOptions(
                 system=options.system,
