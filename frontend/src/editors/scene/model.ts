@@ -1,0 +1,14 @@
+import type { OnlineSession } from '@/workbench/onlineSession';
+
+/** What the front end needs of a scene; the server draws it. */
+export interface SceneData {
+  elements: readonly unknown[];
+}
+
+/** Id of the runtime that the server starts itself. */
+export const LOCAL_RUNTIME = 'local';
+
+/** The runtime whose values move the scene: the one logged in to, else the server's own. */
+export function runtimeOf(sessions: readonly OnlineSession[]): string {
+  return sessions[0]?.runtimeId ?? LOCAL_RUNTIME;
+}
