@@ -69,24 +69,27 @@ export class StaleObject<Data> extends Error {
 
 /**
  * Saves an object's data on top of the revision it was read at and puts the answer into the caches.
- * Throws `StaleObject` when the revision is no longer the current one, `ApiError` otherwise.
+ * Throws `StaleObject` when the revision is no longer the current one, `ApiError` otherwise. Autosaves shortly after
+ * each other become one revision.
  */
 export async function saveObject<Data>(
   projectId: string,
   objectId: string,
   baseRevision: number,
   data: Data,
+  options: { autosave?: boolean } = {},
 ): Promise<ProjectObject<Data>> {
   try {
     const saved = await api.put<ProjectObject<Data>>(`/projects/${projectId}/objects/${objectId}`, {
       base_revision: baseRevision,
       data,
+      autosave: options.autosave ?? false,
     });
     queryClient.setQueryData(keys.object(projectId, objectId), saved);
     patchSummary(projectId, saved);
     return saved;
   } catch (error) {
-    if (error instanceof ApiError && error.status === 409 && typeof error.problem.current === 'object') {
+    if (error instanceof ApiError && error.status === 409 && typeof error.problem.current === 'object' && error.problem.current !== null) {
       throw new StaleObject(error.problem.current as ProjectObject<Data>, data);
     }
     throw error;
