@@ -65,8 +65,10 @@ class SceneView:
         camera = self._scene.camera
         if camera is not None:
             unit = self._scene.unit
-            server.initial_camera.position = tuple(unit * c for c in camera.position)
-            server.initial_camera.look_at = tuple(unit * c for c in camera.look_at)
+            x, y, z = camera.position
+            server.initial_camera.position = (unit * x, unit * y, unit * z)
+            x, y, z = camera.look_at
+            server.initial_camera.look_at = (unit * x, unit * y, unit * z)
 
     def _add(self, server: viser.ViserServer, element: Element) -> Any:
         name = "/" + element.name.replace(" ", "_")
