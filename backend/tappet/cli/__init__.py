@@ -20,6 +20,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command("serve")(serve.serve)
 app.command("runtime", context_settings=serve.FORWARD)(serve.runtime)
 app.command("check")(check.check)
 app.command("run")(run.run)
