@@ -40,7 +40,8 @@ export type ObjectKind =
   | 'persistent'
   | 'task_configuration'
   | 'task'
-  | 'library_manager';
+  | 'library_manager'
+  | 'scene';
 
 export interface ObjectSummary {
   id: string;
@@ -144,6 +145,9 @@ export interface RuntimeState {
   data_id: string | null;
   exception: RuntimeException | null;
   scheduling: string | null;
+  /** Why there is no connection. */
+  problem: string | null;
+  url: string;
 }
 
 export interface RuntimeException {
@@ -159,4 +163,85 @@ export type LoginRelation = 'same' | 'online_change' | 'download' | 'foreign' | 
 export interface LoginAnswer {
   relation: LoginRelation;
   reasons: string[];
+}
+
+export interface Revision {
+  revision: number;
+  at: string;
+  author: string;
+  comment: string;
+  object_id: string | null;
+  object_name: string | null;
+  /** created, updated, moved, deleted. */
+  change: string | null;
+}
+
+export interface TaskState {
+  name: string;
+  kind: string | null;
+  priority: number | null;
+  status: string | null;
+  interval_us: number | null;
+  cycles: number;
+  last_us: number | null;
+  mean_us: number | null;
+  min_us: number | null;
+  max_us: number | null;
+  jitter_us: number | null;
+  min_jitter_us: number | null;
+  max_jitter_us: number | null;
+  overruns: number | null;
+}
+
+export interface LogEntry {
+  id: number;
+  at: string;
+  severity: string;
+  component: string;
+  message: string;
+}
+
+export interface LibrarySummary {
+  name: string;
+  version: string;
+  namespace: string;
+  company: string;
+  title: string;
+  description: string;
+  item_count: number;
+}
+
+export interface Pin {
+  name: string;
+  type: string;
+  default: string | null;
+  comment: string;
+}
+
+export interface LibraryItem {
+  name: string;
+  kind: string;
+  comment: string;
+  inputs: Pin[];
+  outputs: Pin[];
+  in_out: Pin[];
+  members: Pin[];
+  values: Record<string, unknown>[];
+  returns: string | null;
+  methods?: LibraryItem[];
+}
+
+export interface Library extends LibrarySummary {
+  items: LibraryItem[];
+}
+
+/** An account, as administrators see it. */
+export interface Account {
+  id: string;
+  username: string;
+  role: Role;
+  disabled: boolean;
+  has_password: boolean;
+  created_at: string;
+  last_login_at: string | null;
 }

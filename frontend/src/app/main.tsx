@@ -4,6 +4,18 @@ import '@fontsource-variable/inter';
 import '@fontsource/jetbrains-mono/400.css';
 import '@fontsource/jetbrains-mono/600.css';
 import './tokens.css';
+import './global.css';
+import { App } from './App';
+import { startPreferences } from './preferences';
+import { registerRooms } from './rooms';
 
+await startPreferences();
+registerRooms();
 const root = document.getElementById('root');
-if (root) createRoot(root).render(<StrictMode />);
+if (root) {
+  createRoot(root).render(
+    <StrictMode>
+      <App />
+    </StrictMode>,
+  );
+}

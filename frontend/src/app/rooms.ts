@@ -1,7 +1,11 @@
 /**
- * Every room registers its editors, panels and commands here, once at the start.
- * A room has a `register.ts` that only registers: components behind it are loaded when they are first shown.
+ * Every room registers its editors, panels and commands in a `register.ts` of its own; all of them are found here.
+ * A `register.ts` only registers: the components behind it are loaded when they are first shown.
  */
-import '@/workbench/register';
-import '@/editors/register';
-import '@/online/register';
+import { registerWorkbench, registerPanelCommands } from '@/workbench/register';
+
+export function registerRooms(): void {
+  registerWorkbench();
+  import.meta.glob('../{editors,online,lsp}/**/register.ts', { eager: true });
+  registerPanelCommands();
+}

@@ -5,22 +5,24 @@
  * values, `_one`/`_other` suffixes where a count decides (Chinese has `_other` only). A new room adds its two files to
  * the two tables below. `i18n.test.ts` fails on a key that is missing in one language or used nowhere.
  */
-import i18next, { type TOptions } from 'i18next';
+import i18next from 'i18next';
 import { useSyncExternalStore } from 'react';
 import enEditors from './en/editors.json';
 import enObjects from './en/objects.json';
 import enOnline from './en/online.json';
+import enScene from './en/scene.json';
 import enWorkbench from './en/workbench.json';
 import zhEditors from './zh/editors.json';
 import zhObjects from './zh/objects.json';
 import zhOnline from './zh/online.json';
+import zhScene from './zh/scene.json';
 import zhWorkbench from './zh/workbench.json';
 
 export const LANGUAGES = ['en', 'zh'] as const;
 export type Language = (typeof LANGUAGES)[number];
 
-const en = { ...enWorkbench, ...enObjects, ...enOnline, ...enEditors };
-const zh = { ...zhWorkbench, ...zhObjects, ...zhOnline, ...zhEditors };
+const en = { ...enWorkbench, ...enObjects, ...enOnline, ...enEditors, ...enScene };
+const zh = { ...zhWorkbench, ...zhObjects, ...zhOnline, ...zhEditors, ...zhScene };
 
 type WithoutPlural<Key> = Key extends `${infer Base}_one` | `${infer Base}_other` ? Base : Key;
 
@@ -40,7 +42,7 @@ void i18next.init({
 
 /** Text outside of React (dialog services, commands). Inside components use `useText`, which follows a language switch. */
 export function t(key: TextKey, values?: TextValues): string {
-  return i18next.t(key as string, values as TOptions);
+  return i18next.t(key, values);
 }
 
 export function language(): Language {

@@ -47,6 +47,11 @@ export function runtimeStateReceived(runtimeId: string, runtime: RuntimeState): 
   change((session) => session.runtimeId === runtimeId, { runtime, lostSince: null });
 }
 
+/** A state read by REST: it says nothing about the online channel, so a lost connection stays lost. */
+export function runtimePolled(runtimeId: string, runtime: RuntimeState): void {
+  change((session) => session.runtimeId === runtimeId, { runtime });
+}
+
 /** The online socket lost a runtime; values are frozen from now on. */
 export function connectionLost(runtimeId: string, since: number = Date.now()): void {
   change((session) => session.runtimeId === runtimeId && session.lostSince === null, { lostSince: since });

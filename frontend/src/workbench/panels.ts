@@ -13,7 +13,7 @@
  *       initial: true,                            // part of the default layout; otherwise opened from the View menu
  *     });
  *
- * The View menu gets an entry `view.<id>` for each panel by itself. `showPanel(id)` (workbench/dock.ts) opens or raises one.
+ * The View menu gets an entry `view.<id>` for each panel by itself. `showPanel(id)` (workbench/docking/dock.ts) opens or raises one.
  */
 import type { ComponentType, LazyExoticComponent } from 'react';
 import type { TextKey, TextValues } from '@/i18n';

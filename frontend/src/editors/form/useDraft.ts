@@ -4,7 +4,7 @@ import type { ProjectObject } from '@/api/types';
 import { t } from '@/i18n';
 import { useCommandContext } from '@/workbench/context';
 import { confirm } from '@/workbench/dialogs';
-import { explain, notify, notifyError } from '@/workbench/notices';
+import { explain, notifyError } from '@/workbench/notices';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText } from '@/workbench/run';
 import { setDirty } from '@/workbench/selection';
@@ -45,10 +45,10 @@ export function useDraft<Data>(panelId: string, projectId: string, objectId: str
     const { draft: present, object: base, valid: fits } = latest.current;
     if (!present || !base || !fits(present.data)) return;
     try {
-      await saveObject(projectId, objectId, present.revision, present.data);
+      const saved = await saveObject(projectId, objectId, present.revision, present.data);
       setRefused(null);
       // Typed on while it was being saved: the newer draft stands on the revision just made.
-      setDraft((now) => (now?.data === present.data ? null : now && { ...now, revision: base.revision + 1 }));
+      setDraft((now) => (now?.data === present.data ? null : now && { ...now, revision: saved.revision }));
     } catch (failure) {
       if (failure instanceof StaleObject) {
         const stale = failure as StaleObject<Data>;
@@ -108,9 +108,4 @@ export function useDraft<Data>(panelId: string, projectId: string, objectId: str
   useHandlers(panelId, handlers);
 
   return { object, data, readOnly, refused, error, change };
-}
-
-/** Told once a form could not be saved because of a field: where to look. */
-export function notifyFaulty(name: string): void {
-  notify({ tone: 'warn', title: t('form.faulty', { name }) });
 }

@@ -1,7 +1,7 @@
 /** The layout as plain data: the default one, and the check of a stored one. Pure functions. */
 import type { SerializedDockview } from 'dockview-react';
-import type { Reveal } from './editors';
-import type { DockPosition, PanelRegistration } from './panels';
+import type { Reveal } from '../editors';
+import type { DockPosition, PanelRegistration } from '../panels';
 
 /** What an editor tab remembers; `reveal` is not stored. */
 export interface EditorParams {
@@ -47,7 +47,7 @@ export function defaultLayout(
   const middle: Node[] = [leaf(EDITORS_GROUP, editors.map((editor) => editor.id), size.height - bottomHeight)];
   if (at('bottom').length) middle.push(leaf('bottom', at('bottom').map((panel) => panel.id), bottomHeight));
   const rightWidth = at('right').length ? RIGHT_WIDTH : 0;
-  sides.push({ type: 'branch', size: size.width - LEFT_WIDTH - rightWidth, data: middle } as Node);
+  sides.push({ type: 'branch', size: size.width - LEFT_WIDTH - rightWidth, data: middle });
   if (rightWidth) sides.push(leaf('right', at('right').map((panel) => panel.id), rightWidth));
   const tools = initial.map((panel) => [
     panel.id,
@@ -59,7 +59,7 @@ export function defaultLayout(
   ]);
   return {
     grid: {
-      root: { type: 'branch', size: size.height, data: sides } as Node,
+      root: { type: 'branch', size: size.height, data: sides },
       width: size.width,
       height: size.height,
       orientation: 'HORIZONTAL' as SerializedDockview['grid']['orientation'],
@@ -70,7 +70,7 @@ export function defaultLayout(
 }
 
 function leaf(id: string, views: string[], size: number): Node {
-  return { type: 'leaf', size, data: { id, views, activeView: views[0] } } as Node;
+  return { type: 'leaf', size, data: { id, views, activeView: views[0] } };
 }
 
 export interface StoredLayout {
@@ -121,11 +121,11 @@ function withoutViews(node: Node, gone: ReadonlySet<string>, root = false): Node
     const after = pruned(before, gone);
     // A group that only lost its panels goes; the empty editor area is kept.
     if (after.views.length === 0 && before.views.length > 0 && before.id !== EDITORS_GROUP) return null;
-    return { ...node, data: after } as unknown as Node;
+    return { ...node, data: after };
   }
   const children = (node.data as Node[]).map((child) => withoutViews(child, gone)).filter((child) => child !== null);
   if (children.length === 0 && !root) return null;
-  return { ...node, data: children } as Node;
+  return { ...node, data: children };
 }
 
 function withoutFloating(dock: SerializedDockview, gone: ReadonlySet<string>): Partial<SerializedDockview> {
@@ -136,5 +136,5 @@ function withoutFloating(dock: SerializedDockview, gone: ReadonlySet<string>): P
   const changed: Record<string, unknown> = {};
   if (dock.floatingGroups) changed.floatingGroups = keep(dock.floatingGroups as { data: unknown }[]);
   if (dock.popoutGroups) changed.popoutGroups = keep(dock.popoutGroups as { data: unknown }[]);
-  return changed as Partial<SerializedDockview>;
+  return changed;
 }

@@ -5,10 +5,10 @@
  */
 import type { AddPanelOptions, DockviewApi, DockviewGroupPanel, IDockviewPanel, SerializedDockview } from 'dockview-react';
 import { t } from '@/i18n';
-import type { Reveal } from './editors';
+import type { Reveal } from '../editors';
 import { defaultLayout, editorPanelId, type EditorParams } from './layout';
-import { allPanels, findPanel, type DockPosition } from './panels';
-import type { Place } from './types';
+import { allPanels, findPanel, type DockPosition } from '../panels';
+import type { Place } from '../types';
 
 let api: DockviewApi | null = null;
 let serial = 0;
@@ -140,4 +140,12 @@ export function resetLayout(): void {
 
 export function applyLayout(layout: SerializedDockview): void {
   api?.fromJSON(layout);
+}
+
+/** Closes the editors of objects that no longer exist. */
+export function closePanelsOf(objectIds: readonly string[]): void {
+  const gone = new Set(objectIds);
+  for (const panel of [...(api?.panels ?? [])]) {
+    if (panel.view.contentComponent === 'editor' && gone.has((panel.params as EditorParams).objectId)) panel.api.close();
+  }
 }

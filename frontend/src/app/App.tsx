@@ -1,0 +1,61 @@
+import { QueryClientProvider, useQuery } from '@tanstack/react-query';
+import { useEffect } from 'react';
+import { api, setUnauthorisedListener } from '@/api/client';
+import { queryClient } from '@/api/queries';
+import type { AuthStatus } from '@/api/types';
+import { DialogHost } from '@/workbench/dialogs';
+import { Workbench } from '@/workbench/frame/Workbench';
+import { Failed, Loading } from '@/workbench/ui/Empty';
+import { ErrorBoundary } from '@/workbench/ui/ErrorBoundary';
+import { Notices } from '@/workbench/ui/Notices';
+import { TooltipProvider } from '@/workbench/ui/Tooltip';
+import { FirstAccountPage } from './login/FirstAccountPage';
+import { LoginPage } from './login/LoginPage';
+import { adoptPreferences } from './preferences';
+import { listenToRoute, useRoute } from './route';
+import { setUser, useSession } from './session';
+import { StartPage } from './start/StartPage';
+
+const TOOLTIP_DELAY_MS = 450;
+
+export function App() {
+  return (
+    <QueryClientProvider client={queryClient}>
+      <TooltipProvider delayDuration={TOOLTIP_DELAY_MS} skipDelayDuration={150}>
+        <ErrorBoundary resetKey="app">
+          <Page />
+        </ErrorBoundary>
+        <DialogHost />
+        <Notices />
+      </TooltipProvider>
+    </QueryClientProvider>
+  );
+}
+
+/** First account, login, start page or workbench, by what the server says about this browser. */
+function Page() {
+  const user = useSession((state) => state.user);
+  const route = useRoute();
+  const status = useQuery({
+    queryKey: ['auth', 'status', user?.id ?? ''],
+    queryFn: () => api.get<AuthStatus>('/auth/status'),
+    staleTime: Infinity,
+    retry: false,
+  });
+  useEffect(() => listenToRoute(), []);
+  useEffect(() => {
+    setUnauthorisedListener(() => setUser(null));
+    return () => setUnauthorisedListener(() => undefined);
+  }, []);
+  const known = status.data?.user ?? null;
+  useEffect(() => {
+    if (!known) return;
+    setUser(known);
+    void adoptPreferences(known);
+  }, [known]);
+
+  if (user) return route.page === 'project' ? <Workbench key={route.projectId} projectId={route.projectId} /> : <StartPage />;
+  if (status.isError) return <Failed error={status.error} retry={() => void status.refetch()} />;
+  if (!status.data || known) return <Loading />;
+  return status.data.first_account_needed ? <FirstAccountPage /> : <LoginPage />;
+}

@@ -1,0 +1,201 @@
+import { useQuery } from '@tanstack/react-query';
+import { Boxes, Download, Ellipsis, FileUp, FilePlus, FolderOpen, Trash2 } from 'lucide-react';
+import { useEffect, useRef, useState, type DragEvent } from 'react';
+import { api } from '@/api/client';
+import { keys, queryClient, useProjects } from '@/api/queries';
+import type { ProjectSummary } from '@/api/types';
+import { useLanguage, useText } from '@/i18n';
+import { objectIcon, TappetMark } from '@/icons/objects';
+import { confirm } from '@/workbench/dialogs';
+import { downloadUrl } from '@/workbench/downloadFile';
+import { UserMenu } from '@/workbench/frame/UserMenu';
+import { guard, notify } from '@/workbench/notices';
+import { atLeast } from '@/workbench/rights';
+import { Button, IconButton } from '@/workbench/ui/Button';
+import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
+import { TextInput } from '@/workbench/ui/Field';
+import { DropdownMenu, type MenuEntry } from '@/workbench/ui/Menu';
+import { loadSetting } from '../preferences';
+import { go } from '../route';
+import { useSession } from '../session';
+import { newProject } from './NewProjectDialog';
+import { ago, sections } from './projects';
+import styles from './StartPage.module.css';
+
+/** All projects: open, make, import. */
+export function StartPage() {
+  const t = useText();
+  const projects = useProjects();
+  const recent = useQuery({ queryKey: ['settings', 'recent'], queryFn: () => loadSetting<string[]>('recent'), retry: false });
+  const role = useSession((state) => state.user?.role ?? null);
+  const refused = atLeast(role, 'engineer') ? null : t('reason.engineer');
+  const [search, setSearch] = useState('');
+  const [over, setOver] = useState(false);
+  const file = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    document.title = 'Tappet';
+  }, []);
+
+  const create = async () => {
+    const project = await newProject();
+    if (project) go({ page: 'project', projectId: project.id });
+  };
+  const drop = (event: DragEvent) => {
+    event.preventDefault();
+    setOver(false);
+    const dropped = event.dataTransfer.files[0];
+    if (dropped && !refused) void importProject(dropped, t('project.imported', { name: dropped.name }));
+  };
+  const { recent: first, others } = sections(projects.data ?? [], recent.data ?? [], search);
+
+  return (
+    <div className={styles.page}>
+      <header className={styles.bar}>
+        <TappetMark size={20} />
+        Tappet
+        <UserMenu />
+      </header>
+      <main className={styles.main}>
+        <nav className={styles.side} aria-label={t('start.begin')}>
+          <h2 className={styles.heading}>{t('start.begin')}</h2>
+          <StartAction icon={FilePlus} text={t('command.newProject')} refused={refused} run={() => void create()} />
+          <StartAction icon={FileUp} text={t('start.import')} refused={refused} run={() => file.current?.click()} />
+          <input
+            ref={file}
+            type="file"
+            accept=".zip"
+            hidden
+            onChange={(event) => {
+              const chosen = event.target.files?.[0];
+              event.target.value = '';
+              if (chosen) void importProject(chosen, t('project.imported', { name: chosen.name }));
+            }}
+          />
+        </nav>
+        <section
+          className={styles.content}
+          aria-label={t('start.projects')}
+          data-over={over ? '' : undefined}
+          onDragOver={(event) => {
+            if (!event.dataTransfer.types.includes('Files')) return;
+            event.preventDefault();
+            setOver(true);
+          }}
+          onDragLeave={() => setOver(false)}
+          onDrop={drop}
+        >
+          <div className={styles.head}>
+            <h1 className={styles.heading}>{t('start.projects')}</h1>
+            {(projects.data?.length ?? 0) > 0 && (
+              <TextInput className={styles.search} value={search} onValue={setSearch} placeholder={t('start.search')} aria-label={t('start.search')} />
+            )}
+          </div>
+          {projects.isError ? (
+            <Failed error={projects.error} retry={() => void projects.refetch()} />
+          ) : !projects.data ? (
+            <Loading />
+          ) : projects.data.length === 0 ? (
+            <Empty icon={Boxes} title={t('start.none')} text={t('start.noneText')}>
+              <Button variant="primary" icon={FilePlus} disabledReason={refused} onClick={() => void create()}>
+                {t('command.newProject')}
+              </Button>
+              <Button icon={FileUp} disabledReason={refused} onClick={() => file.current?.click()}>
+                {t('start.import')}
+              </Button>
+            </Empty>
+          ) : (
+            <div className={styles.list}>
+              <Section title={t('start.recent')} projects={first} refused={refused} />
+              <Section title={first.length ? t('start.others') : null} projects={others} refused={refused} />
+              {first.length + others.length === 0 && <Empty title={t('tree.nothingFound', { text: search.trim() })} />}
+            </div>
+          )}
+        </section>
+      </main>
+    </div>
+  );
+}
+
+interface StartActionProps {
+  icon: typeof FilePlus;
+  text: string;
+  refused: string | null;
+  run: () => void;
+}
+
+function StartAction({ icon: Icon, text, refused, run }: StartActionProps) {
+  return (
+    <button className={styles.action} aria-disabled={refused ? true : undefined} title={refused ?? undefined} onClick={() => !refused && run()}>
+      <Icon size={17} strokeWidth={1.6} aria-hidden />
+      {text}
+    </button>
+  );
+}
+
+function Section({ title, projects, refused }: { title: string | null; projects: readonly ProjectSummary[]; refused: string | null }) {
+  if (projects.length === 0) return null;
+  return (
+    <section>
+      {title && <h2 className={styles.label}>{title}</h2>}
+      {projects.map((project) => (
+        <ProjectRow key={project.id} project={project} refused={refused} />
+      ))}
+    </section>
+  );
+}
+
+const ProjectIcon = objectIcon('application');
+
+function ProjectRow({ project, refused }: { project: ProjectSummary; refused: string | null }) {
+  const t = useText();
+  const language = useLanguage();
+  const [now] = useState(() => Date.now());
+  const open = () => go({ page: 'project', projectId: project.id });
+  const entries = (): MenuEntry[] => [
+    { kind: 'item', key: 'open', text: t('action.open'), icon: FolderOpen, run: open },
+    { kind: 'item', key: 'export', text: t('command.export'), icon: Download, run: () => void guard(() => downloadUrl(`/projects/${project.id}/export`, `${project.name}.zip`)) },
+    { kind: 'line', key: 'line' },
+    { kind: 'item', key: 'delete', text: t('action.delete'), icon: Trash2, danger: true, disabledReason: refused, run: () => void deleteProject(project, t) },
+  ];
+  return (
+    <div className={styles.project} onClick={open}>
+      <ProjectIcon size={20} />
+      <button className={styles.open}>
+        <span className={styles.name}>{project.name}</span>
+        {project.description && <span className={styles.description}>{project.description}</span>}
+      </button>
+      <time className={styles.date} dateTime={project.modified} title={new Date(project.modified).toLocaleString(language)}>
+        {ago(project.modified, now, language)}
+      </time>
+      <span onClick={(event) => event.stopPropagation()}>
+        <DropdownMenu align="end" entries={entries} trigger={<IconButton icon={Ellipsis} label={t('start.more', { name: project.name })} />} />
+      </span>
+    </div>
+  );
+}
+
+async function deleteProject(project: ProjectSummary, t: ReturnType<typeof useText>): Promise<void> {
+  const sure = await confirm({
+    title: t('project.deleteTitle', { name: project.name }),
+    text: t('project.deleteText'),
+    action: t('action.delete'),
+    danger: true,
+  });
+  if (!sure) return;
+  await guard(async () => {
+    await api.delete(`/projects/${project.id}`);
+    await queryClient.invalidateQueries({ queryKey: keys.projects });
+  });
+}
+
+/** Uploads a zip of the folder format and opens what comes of it. */
+async function importProject(file: File, done: string): Promise<void> {
+  await guard(async () => {
+    const form = new FormData();
+    form.append('file', file);
+    const project = await api.post<ProjectSummary>('/projects/import', form);
+    await queryClient.invalidateQueries({ queryKey: keys.projects });
+    notify({ tone: 'ok', title: done });
+    go({ page: 'project', projectId: project.id });
+  });
+}

@@ -1,0 +1,40 @@
+import type { ReactNode } from 'react';
+import { Failed, Loading } from '@/workbench/ui/Empty';
+import type { Draft } from './useDraft';
+import styles from './Form.module.css';
+
+interface FormPageProps<Data> {
+  draft: Draft<Data>;
+  children: (data: Data) => ReactNode;
+}
+
+/** The scrolling page of a form editor, with what stands in the way of changing it on top. */
+export function FormPage<Data>({ draft, children }: FormPageProps<Data>) {
+  if (draft.error && !draft.object) return <Failed error={draft.error} />;
+  if (!draft.object || draft.data === undefined) return <Loading />;
+  return (
+    <div className={styles.page}>
+      <div className={styles.inner}>
+        {draft.readOnly && <div className={styles.banner}>{draft.readOnly}</div>}
+        {draft.refused && (
+          <div className={styles.banner} data-tone="error" role="alert">
+            {draft.refused}
+          </div>
+        )}
+        {children(draft.data)}
+      </div>
+    </div>
+  );
+}
+
+export function Section({ title, tools, children }: { title: string; tools?: ReactNode; children: ReactNode }) {
+  return (
+    <section className={styles.section}>
+      <h2 className={styles.heading}>
+        {title}
+        {tools && <span style={{ marginLeft: 'auto' }}>{tools}</span>}
+      </h2>
+      {children}
+    </section>
+  );
+}

@@ -1,0 +1,73 @@
+import { useState, type KeyboardEvent } from 'react';
+import type { ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { objectIcon } from '@/icons/objects';
+import { search } from '@/workbench/palette/match';
+import { Button } from '@/workbench/ui/Button';
+import { Dialog } from '@/workbench/ui/Dialog';
+import { Empty } from '@/workbench/ui/Empty';
+import { TextInput } from '@/workbench/ui/Field';
+import { rowAfterKey } from '@/workbench/ui/table';
+import styles from './ProgramList.module.css';
+
+interface ProgramPickerProps {
+  title: string;
+  programs: readonly ObjectSummary[];
+  close: (name?: string) => void;
+}
+
+const ProgramIcon = objectIcon('pou', 'program');
+
+/** Input assistant for programs. */
+export function ProgramPicker({ title, programs, close }: ProgramPickerProps) {
+  const t = useText();
+  const [query, setQuery] = useState('');
+  const [at, setAt] = useState(0);
+  const hits = search(query, programs, (program) => program.name);
+  const chosen = hits[at]?.entry.name;
+  const onKeyDown = (event: KeyboardEvent) => {
+    const next = event.key === 'Home' || event.key === 'End' ? null : rowAfterKey(event.key, at, hits.length, 10);
+    if (next === null) return;
+    event.preventDefault();
+    setAt(next);
+  };
+  return (
+    <Dialog
+      title={title}
+      width={420}
+      onClose={() => close()}
+      onSubmit={() => chosen && close(chosen)}
+      footer={
+        <>
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button type="submit" variant="primary" disabledReason={chosen ? null : t('task.chooseProgram')}>
+            {t('action.choose')}
+          </Button>
+        </>
+      }
+    >
+      <TextInput
+        data-autofocus
+        value={query}
+        placeholder={t('task.searchProgram')}
+        aria-label={t('task.searchProgram')}
+        onValue={(value) => {
+          setQuery(value);
+          setAt(0);
+        }}
+        onKeyDown={onKeyDown}
+      />
+      <div className={styles.list}>
+        <div className={styles.table} style={{ height: 220 }} role="listbox" aria-label={title}>
+          {hits.length === 0 && <Empty title={t(programs.length ? 'palette.none' : 'task.noProgramYet')} />}
+          {hits.map(({ entry }, index) => (
+            <div key={entry.id} role="option" aria-selected={index === at} className={styles.row} onMouseDown={() => setAt(index)} onDoubleClick={() => close(entry.name)}>
+              <ProgramIcon />
+              {entry.name}
+            </div>
+          ))}
+        </div>
+      </div>
+    </Dialog>
+  );
+}

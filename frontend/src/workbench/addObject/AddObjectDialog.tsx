@@ -1,0 +1,173 @@
+import { useRef, useState, type KeyboardEvent } from 'react';
+import { ApiError } from '@/api/client';
+import type { ObjectKind, ProjectObject } from '@/api/types';
+import { useText } from '@/i18n';
+import { objectIcon } from '@/icons/objects';
+import { explain } from '../notices';
+import { createObject } from '../tree/acts';
+import { ownerOf, fixedNames, nameFault, placeableKinds, proposedName, type PlacementRule } from '../tree/placement';
+import type { Forest, TreeView } from '../tree/model';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Field, Select, TextInput } from '../ui/Field';
+import styles from './AddObjectDialog.module.css';
+import { declarationOf, optionsOf, type ObjectOptions } from './declaration';
+
+interface AddObjectProps {
+  projectId: string;
+  forest: Forest;
+  rules: readonly PlacementRule[];
+  view: TreeView;
+  parentId: string | null;
+  /** Chosen in a menu: the dialog opens with this kind. */
+  kind?: ObjectKind;
+  close: (created?: ProjectObject) => void;
+}
+
+const ACCESS = ['PUBLIC', 'PRIVATE', 'PROTECTED', 'INTERNAL'] as const;
+
+/** Add Object: kinds that may be here at the left, name and what the kind needs at the right. */
+export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind, close }: AddObjectProps) {
+  const t = useText();
+  const kinds = placeableKinds(rules, forest, parentId, view);
+  const [rule, setRule] = useState(kinds.find((candidate) => candidate.kind === kind) ?? kinds[0]!);
+  const [subkind, setSubkind] = useState<string | undefined>(rule.subkinds[0]);
+  const [name, setName] = useState(() => proposedName(rule, forest, parentId));
+  const [options, setOptions] = useState<ObjectOptions>({});
+  const [refused, setRefused] = useState<string | null>(null);
+  const [busy, setBusy] = useState(false);
+  const nameInput = useRef<HTMLInputElement>(null);
+  const fixed = fixedNames(rule, forest, parentId);
+  const fault = nameFault(rule, forest, parentId, name);
+  const owner = ownerOf(forest, parentId);
+
+  const choose = (next: PlacementRule) => {
+    setRule(next);
+    setSubkind(next.subkinds[0]);
+    setName(proposedName(next, forest, parentId));
+    setOptions({});
+    setRefused(null);
+    requestAnimationFrame(() => nameInput.current?.select());
+  };
+
+  const create = async () => {
+    if (fault || busy) return;
+    setBusy(true);
+    try {
+      const declaration = declarationOf(rule.kind, subkind, name, options);
+      const data = declaration === null ? undefined : withBody(rule.kind, declaration);
+      close(await createObject(projectId, { parent_id: parentId, kind: rule.kind, name, subkind, data }));
+    } catch (error) {
+      setBusy(false);
+      setRefused(error instanceof ApiError ? error.message : (explain(error).text ?? explain(error).title));
+    }
+  };
+
+  const option = (key: keyof ObjectOptions) =>
+    key === 'access' ? (
+      <Field key={key} label={t('addObject.access')}>
+        {(attributes) => (
+          <Select
+            {...attributes}
+            value={options.access ?? 'PUBLIC'}
+            choices={ACCESS.map((access) => ({ value: access, text: access }))}
+            onValue={(access) => setOptions({ ...options, access })}
+          />
+        )}
+      </Field>
+    ) : (
+      <Field key={key} label={t(`addObject.${key}`)}>
+        {(attributes) => (
+          <TextInput
+            {...attributes}
+            value={options[key] ?? ''}
+            placeholder={t(`addObject.${key}Example`)}
+            onValue={(value) => setOptions({ ...options, [key]: value })}
+          />
+        )}
+      </Field>
+    );
+
+  return (
+    <Dialog
+      title={owner ? t('addObject.titleAt', { name: owner.name }) : t('addObject.title')}
+      width={620}
+      onClose={() => close()}
+      onSubmit={() => void create()}
+      footer={
+        <>
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button type="submit" variant="primary" disabledReason={fault && t(fault.key, fault.values)}>
+            {t('action.add')}
+          </Button>
+        </>
+      }
+    >
+      <div className={styles.columns}>
+        <div className={styles.kinds} role="radiogroup" aria-label={t('addObject.kind')} onKeyDown={walk}>
+          {kinds.map((candidate) => {
+            const Icon = objectIcon(candidate.kind);
+            const chosen = candidate.kind === rule.kind;
+            return (
+              <button key={candidate.kind} type="button" role="radio" aria-checked={chosen} tabIndex={chosen ? 0 : -1} className={styles.kind} onClick={() => choose(candidate)}>
+                <Icon />
+                {t(`kind.${candidate.kind}`)}
+              </button>
+            );
+          })}
+        </div>
+        <div className={styles.form}>
+          <p className={styles.about}>{t(`about.${rule.kind}`)}</p>
+          <Field label={t('addObject.name')} error={refused ?? (fault && t(fault.key, fault.values))}>
+            {(attributes) =>
+              fixed.length > 0 ? (
+                <Select {...attributes} value={name} choices={fixed.map((each) => ({ value: each, text: each }))} onValue={setName} />
+              ) : (
+                <TextInput
+                  {...attributes}
+                  ref={nameInput}
+                  data-autofocus
+                  value={name}
+                  onValue={(value) => {
+                    setName(value);
+                    setRefused(null);
+                  }}
+                />
+              )
+            }
+          </Field>
+          {rule.subkinds.length > 0 && (
+            <div className={styles.subkinds} role="radiogroup" aria-label={t('addObject.type')} onKeyDown={walk}>
+              {rule.subkinds.map((each) => {
+                const Icon = objectIcon(rule.kind, each);
+                return (
+                  <button key={each} type="button" role="radio" aria-checked={each === subkind} tabIndex={each === subkind ? 0 : -1} className={styles.subkind} onClick={() => setSubkind(each)}>
+                    <Icon />
+                    {t(`subkind.${each as 'program'}`)}
+                  </button>
+                );
+              })}
+            </div>
+          )}
+          {optionsOf(rule.kind, subkind).map(option)}
+        </div>
+      </div>
+    </Dialog>
+  );
+}
+
+/** Arrow keys walk through a group of radio buttons and choose as they go. */
+function walk(event: KeyboardEvent<HTMLElement>): void {
+  const step = event.key === 'ArrowDown' || event.key === 'ArrowRight' ? 1 : event.key === 'ArrowUp' || event.key === 'ArrowLeft' ? -1 : 0;
+  if (!step) return;
+  event.preventDefault();
+  const buttons = [...event.currentTarget.querySelectorAll<HTMLButtonElement>('[role="radio"]')];
+  const next = buttons[buttons.indexOf(document.activeElement as HTMLButtonElement) + step];
+  next?.focus();
+  next?.click();
+}
+
+/** Kinds with a body have an implementation beside their declaration. */
+function withBody(kind: ObjectKind, declaration: string): Record<string, unknown> {
+  return kind === 'pou' || kind === 'method' ? { declaration, implementation: '' } : { declaration };
+}

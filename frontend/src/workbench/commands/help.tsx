@@ -1,0 +1,31 @@
+import { CircleHelp, Keyboard } from 'lucide-react';
+import { registerCommands, type Command } from '../commands';
+import { openDialog } from '../dialogs';
+import { AboutDialog } from '../help/AboutDialog';
+import { ShortcutsDialog } from '../help/ShortcutsDialog';
+
+const commands: Command[] = [
+  {
+    id: 'help.shortcuts',
+    title: 'command.shortcuts',
+    icon: Keyboard,
+    keys: ['Ctrl+Shift+K'],
+    menu: { menu: 'help', group: '1_help' },
+    run: async () => {
+      await openDialog((close) => <ShortcutsDialog close={() => close()} />);
+    },
+  },
+  {
+    id: 'help.about',
+    title: 'command.about',
+    icon: CircleHelp,
+    menu: { menu: 'help', group: '2_about' },
+    run: async () => {
+      await openDialog((close) => <AboutDialog close={() => close()} />);
+    },
+  },
+];
+
+export function registerHelpCommands(): void {
+  registerCommands(commands);
+}

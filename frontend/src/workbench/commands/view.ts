@@ -1,0 +1,52 @@
+import { Command as CommandIcon, FileSearch, Maximize } from 'lucide-react';
+import { registerCommands, type Command } from '../commands';
+import { dockApi, showPanel } from '../docking/dock';
+import { openPalette } from '../palette/state';
+import { allPanels } from '../panels';
+
+const commands: Command[] = [
+  {
+    id: 'view.quickOpen',
+    title: 'command.quickOpen',
+    icon: FileSearch,
+    keys: ['Ctrl+P'],
+    menu: { menu: 'view', group: '9_palette', order: 1 },
+    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
+    run: () => openPalette('objects'),
+  },
+  {
+    id: 'view.commandPalette',
+    title: 'command.palette',
+    icon: CommandIcon,
+    keys: ['Ctrl+Shift+P'],
+    menu: { menu: 'view', group: '9_palette', order: 2 },
+    run: () => openPalette('commands'),
+  },
+  {
+    id: 'view.fullScreen',
+    title: 'command.fullScreen',
+    icon: Maximize,
+    keys: ['Alt+Enter'],
+    menu: { menu: 'view', group: '9_screen' },
+    checked: () => document.fullscreenElement !== null,
+    run: () => (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()),
+  },
+];
+
+/** One command per registered panel; call after every room has registered. */
+function panelCommands(): Command[] {
+  return allPanels().map((panel) => ({
+    id: `view.${panel.id}`,
+    title: panel.title,
+    titleValues: panel.titleValues,
+    icon: panel.icon,
+    keys: panel.keys,
+    menu: { menu: 'view', group: `${{ left: 1, right: 2, bottom: 3 }[panel.position]}_${panel.position}`, order: panel.order, submenu: panel.submenu },
+    checked: () => dockApi()?.getPanel(panel.id) !== undefined,
+    run: () => showPanel(panel.id),
+  }));
+}
+
+export function registerViewCommands(): void {
+  registerCommands([...commands, ...panelCommands()]);
+}

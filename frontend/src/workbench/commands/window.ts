@@ -1,0 +1,72 @@
+import { ArrowLeftToLine, ArrowRightToLine, Columns2, ExternalLink, PanelsTopLeft, PictureInPicture2, Rows2, X } from 'lucide-react';
+import { registerCommands, type Command, type Enablement } from '../commands';
+import type { CommandContext } from '../context';
+import { closeEditors } from '../docking/close';
+import { dockApi, focusPanel, resetLayout } from '../docking/dock';
+import { floatPanel, popOutPanel, splitPanel } from '../docking/panelMenu';
+import { useSelection } from '../selection';
+
+const someEditor = (context: CommandContext): Enablement => (context.activeEditor ? true : 'reason.noEditor');
+
+/** The panel that the Window commands act on: the focused one, else the active editor. */
+function target(context: CommandContext): string | null {
+  return context.focusedPanel ?? context.activeEditor?.panelId ?? null;
+}
+
+const somePanel = (context: CommandContext): Enablement => (target(context) ? true : 'reason.noEditor');
+
+const severalInGroup = (context: CommandContext): Enablement => {
+  const id = target(context);
+  const group = id ? dockApi()?.getPanel(id)?.group : undefined;
+  return group && group.panels.length > 1 ? true : 'reason.onlyTab';
+};
+
+function step(by: 1 | -1): void {
+  const { editors, activeEditor } = useSelection.getState();
+  const at = editors.findIndex((editor) => editor.panelId === activeEditor);
+  const next = editors[(at + by + editors.length) % editors.length];
+  const panel = next && dockApi()?.getPanel(next.panelId);
+  if (!panel) return;
+  panel.api.setActive();
+  focusPanel(panel);
+}
+
+const commands: Command[] = [
+  { id: 'window.next', title: 'command.nextEditor', icon: ArrowRightToLine, keys: ['Ctrl+F6', 'Alt+PageDown'], menu: { menu: 'window', group: '1_go', order: 1 }, enabled: someEditor, run: () => step(1) },
+  { id: 'window.previous', title: 'command.previousEditor', icon: ArrowLeftToLine, keys: ['Ctrl+Shift+F6', 'Alt+PageUp'], menu: { menu: 'window', group: '1_go', order: 2 }, enabled: someEditor, run: () => step(-1) },
+  {
+    id: 'window.close',
+    title: 'command.closeEditor',
+    icon: X,
+    keys: ['Ctrl+F4', 'Alt+W'],
+    menu: { menu: 'window', group: '2_close', order: 1 },
+    enabled: someEditor,
+    run: async (context) => {
+      await closeEditors([context.activeEditor!.panelId]);
+    },
+  },
+  {
+    id: 'window.closeAll',
+    title: 'command.closeAllEditors',
+    menu: { menu: 'window', group: '2_close', order: 2 },
+    enabled: someEditor,
+    run: async () => {
+      await closeEditors(useSelection.getState().editors.map((editor) => editor.panelId));
+    },
+  },
+  { id: 'window.splitRight', title: 'command.splitRight', icon: Columns2, keys: ['Ctrl+\\'], menu: { menu: 'window', group: '3_place', order: 1 }, enabled: severalInGroup, run: (context) => act(context, (api, id) => splitPanel(api, id, 'right')) },
+  { id: 'window.splitDown', title: 'command.splitDown', icon: Rows2, menu: { menu: 'window', group: '3_place', order: 2 }, enabled: severalInGroup, run: (context) => act(context, (api, id) => splitPanel(api, id, 'below')) },
+  { id: 'window.float', title: 'command.float', icon: PictureInPicture2, menu: { menu: 'window', group: '3_place', order: 3 }, enabled: somePanel, run: (context) => act(context, floatPanel) },
+  { id: 'window.popOut', title: 'command.popOut', icon: ExternalLink, menu: { menu: 'window', group: '3_place', order: 4 }, enabled: somePanel, run: (context) => act(context, popOutPanel) },
+  { id: 'window.resetLayout', title: 'command.resetLayout', icon: PanelsTopLeft, menu: { menu: 'window', group: '4_layout' }, run: () => resetLayout() },
+];
+
+function act(context: CommandContext, run: (api: NonNullable<ReturnType<typeof dockApi>>, id: string) => void | Promise<void>): void | Promise<void> {
+  const api = dockApi();
+  const id = target(context);
+  return api && id ? run(api, id) : undefined;
+}
+
+export function registerWindowCommands(): void {
+  registerCommands(commands);
+}

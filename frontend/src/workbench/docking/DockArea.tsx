@@ -1,0 +1,117 @@
+import { DockviewReact, type DockviewApi, type DockviewReadyEvent, type DockviewTheme, type SerializedDockview } from 'dockview-react';
+import 'dockview-react/dist/styles/dockview.css';
+import { useCallback, useEffect, useMemo, useRef } from 'react';
+import { saveSetting } from '@/app/preferences';
+import { usePreferences } from '@/app/preferences';
+import { notifyError } from '../notices';
+import { useSelection } from '../selection';
+import { resetLayout, setDockApi } from './dock';
+import './dockview.css';
+import { EditorPanel } from './EditorPanel';
+import { followEditors, keepDockSizes, pruneEmptyGroups } from './follow';
+import type { StoredLayout } from './layout';
+import { EditorTab, ToolTab } from './Tab';
+import { ToolPanel } from './ToolPanel';
+import { Watermark } from './Watermark';
+
+const COMPONENTS = { editor: EditorPanel, tool: ToolPanel };
+const TABS = { editor: EditorTab, tool: ToolTab };
+const SAVE_AFTER_MS = 1200;
+
+interface DockAreaProps {
+  projectId: string;
+  /** Layout of the last visit, fit for use; null starts with the default one. */
+  layout: SerializedDockview | null;
+}
+
+/** The docking area between tool bar and status bar. Layout changes are stored per user and project. */
+export function DockArea({ projectId, layout }: DockAreaProps) {
+  const shown = usePreferences((state) => state.shown);
+  const theme = useMemo<DockviewTheme>(
+    () => ({ name: 'tappet', className: 'dockview-theme-tappet', colorScheme: shown, dndTabIndicator: 'line', dndPanelOverlay: 'group', tabGroupIndicator: 'none' }),
+    [shown],
+  );
+  const cleanUp = useRef<() => void>(undefined);
+  useEffect(() => () => cleanUp.current?.(), []);
+
+  const onReady = useCallback(
+    ({ api }: DockviewReadyEvent) => {
+      setDockApi(api);
+      start(api, layout);
+      const disposers = [
+        followEditors(api),
+        keepDockSizes(api),
+        saveLayout(api, projectId),
+        followFocus(),
+      ];
+      cleanUp.current = () => {
+        disposers.forEach((dispose) => dispose());
+        setDockApi(null);
+      };
+    },
+    // The layout counts at the start only; `Workbench` mounts a new area for another project.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+    [projectId],
+  );
+
+  return (
+    <DockviewReact
+      components={COMPONENTS}
+      tabComponents={TABS}
+      watermarkComponent={Watermark}
+      onReady={onReady}
+      theme={theme}
+      closeEmptyGroups={false}
+      noPanelsOverlay="emptyGroup"
+      floatingGroupBounds="boundedWithinViewport"
+      scrollbars="native"
+      announcements={false}
+    />
+  );
+}
+
+function start(api: DockviewApi, layout: SerializedDockview | null): void {
+  if (layout) {
+    try {
+      api.fromJSON(layout);
+      pruneEmptyGroups(api);
+      return;
+    } catch {
+      // A layout of an older version that dockview no longer reads: begin with the default one.
+      api.clear();
+    }
+  }
+  resetLayout();
+}
+
+/** Stores the layout a moment after the last change, and when the project is left. */
+function saveLayout(api: DockviewApi, projectId: string): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const save = () => {
+    timer = undefined;
+    const stored: StoredLayout = { version: 1, dock: api.toJSON() };
+    saveSetting(`layout.${projectId}`, stored).catch(notifyError);
+  };
+  const listener = api.onDidLayoutChange(() => {
+    clearTimeout(timer);
+    timer = setTimeout(save, SAVE_AFTER_MS);
+  });
+  return () => {
+    listener.dispose();
+    if (timer !== undefined) {
+      clearTimeout(timer);
+      save();
+    }
+  };
+}
+
+/** Remembers which panel holds the keyboard focus: commands go to its handlers. */
+function followFocus(): () => void {
+  const onFocus = (event: FocusEvent) => {
+    const panel = event.target instanceof Element ? event.target.closest<HTMLElement>('[data-panel-id]') : null;
+    const focusedPanel = panel?.dataset.panelId;
+    if (focusedPanel && focusedPanel !== useSelection.getState().focusedPanel) useSelection.setState({ focusedPanel });
+  };
+  document.addEventListener('focusin', onFocus);
+  return () => document.removeEventListener('focusin', onFocus);
+}

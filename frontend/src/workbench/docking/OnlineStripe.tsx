@@ -1,0 +1,39 @@
+import type { ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { useOnline } from '../onlineSession';
+import { toneOfApplication } from '../tones';
+import { ancestorOfKind, objectPath } from '../tree/model';
+import { ToneDot } from '../ui/ToneDot';
+import styles from './Panel.module.css';
+
+interface OnlineStripeProps {
+  object: ObjectSummary;
+  objects: readonly ObjectSummary[];
+  instance: string | null;
+}
+
+/** Online: names what the editor shows, in the colour of the runtime's state. Nothing while logged out. */
+export function OnlineStripe({ object, objects, instance }: OnlineStripeProps) {
+  const t = useText();
+  const sessions = useOnline((state) => state.sessions);
+  const application = ancestorOfKind(objects, object.id, 'application');
+  const tone = application && toneOfApplication(application.id, sessions);
+  if (!application || !tone) return null;
+  const since = sessions[application.id]?.lostSince;
+  const path = instance ?? withoutPrefix(objectPath(objects, object.id), objectPath(objects, application.id));
+  const isType = !instance && object.subkind === 'function_block';
+  return (
+    <div className={styles.stripe} data-tone={tone}>
+      <ToneDot tone={tone} />
+      <span className={styles.path}>{path}</span>
+      {isType && <span>{t('online.implementation')}</span>}
+      <span className={styles.state}>
+        {tone === 'lost' && since ? t('online.lostSince', { time: new Date(since).toLocaleTimeString() }) : t(`online.tone.${tone}`)}
+      </span>
+    </div>
+  );
+}
+
+function withoutPrefix(path: string, prefix: string): string {
+  return path.startsWith(`${prefix}.`) ? path.slice(prefix.length + 1) : path;
+}

@@ -1,0 +1,107 @@
+import type { IDockviewPanelHeaderProps } from 'dockview-react';
+import { X } from 'lucide-react';
+import type { MouseEvent, ReactNode } from 'react';
+import { useObjects } from '@/api/queries';
+import { useText } from '@/i18n';
+import { ObjectIcon } from '@/icons/objects';
+import { useOnline } from '../onlineSession';
+import { findPanel, type PanelRegistration } from '../panels';
+import { useProject } from '../project';
+import { useSelection } from '../selection';
+import { ToneDot } from '../ui/ToneDot';
+import { ContextMenu, type MenuEntry } from '../ui/Menu';
+import { ancestorOfKind } from '../tree/model';
+import { toneOfApplication } from '../tones';
+import { closeEditors } from './close';
+import { panelEntries } from './panelMenu';
+import type { EditorParams } from './layout';
+import styles from './Tab.module.css';
+
+/** The tab of an editor: icon, name, online state, a dot while unsaved. */
+export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
+  const { objectId, instance } = props.params;
+  const panelId = props.api.id;
+  const projectId = useProject((state) => state.projectId);
+  const { data: objects } = useObjects(projectId);
+  const dirty = useSelection((state) => state.dirty.has(panelId));
+  const sessions = useOnline((state) => state.sessions);
+  const object = objects?.find((candidate) => candidate.id === objectId);
+  const application = object && objects && ancestorOfKind(objects, object.id, 'application');
+  const tone = application && toneOfApplication(application.id, sessions);
+  return (
+    <TabFrame
+      entries={() => panelEntries(props.containerApi, panelId)}
+      onClose={() => void closeEditors([panelId])}
+      dirty={dirty}
+      title={object?.name ?? props.api.title ?? ''}
+    >
+      <ObjectIcon kind={object?.kind ?? 'folder'} subkind={object?.subkind} name={object?.name} size={15} />
+      {tone && <ToneDot tone={tone} />}
+      <span className={styles.title} data-gone={objects && !object ? '' : undefined}>
+        {object?.name ?? props.api.title}
+      </span>
+      {instance && <span className={styles.instance}>{instance}</span>}
+    </TabFrame>
+  );
+}
+
+/** The tab of a tool panel: icon, title, a live count. */
+export function ToolTab(props: IDockviewPanelHeaderProps) {
+  const t = useText();
+  const registration = findPanel(props.api.id);
+  if (!registration) return null;
+  const Icon = registration.icon;
+  const title = t(registration.title, registration.titleValues);
+  return (
+    <TabFrame entries={() => panelEntries(props.containerApi, props.api.id)} onClose={() => props.api.close()} title={title}>
+      <Icon size={14} strokeWidth={1.75} aria-hidden />
+      <span className={styles.title}>{title}</span>
+      {registration.useBadge && <Badge registration={registration} />}
+    </TabFrame>
+  );
+}
+
+function Badge({ registration }: { registration: PanelRegistration }) {
+  const badge = registration.useBadge?.();
+  return badge ? (
+    <span className={styles.badge} data-tone={badge.tone}>
+      {badge.text}
+    </span>
+  ) : null;
+}
+
+interface TabFrameProps {
+  title: string;
+  dirty?: boolean;
+  onClose: () => void;
+  entries: () => readonly MenuEntry[];
+  children: ReactNode;
+}
+
+function TabFrame({ title, dirty, onClose, entries, children }: TabFrameProps) {
+  const t = useText();
+  const middleClick = (event: MouseEvent) => {
+    if (event.button === 1) onClose();
+  };
+  return (
+    <ContextMenu entries={entries}>
+      <div className={styles.tab} title={title} onAuxClick={middleClick}>
+        {children}
+        <button
+          className={styles.close}
+          data-dirty={dirty ? '' : undefined}
+          aria-label={t('tab.close', { name: title })}
+          tabIndex={-1}
+          onPointerDown={(event) => event.stopPropagation()}
+          onClick={(event) => {
+            event.stopPropagation();
+            onClose();
+          }}
+        >
+          <span className={styles.dot} />
+          <X className={styles.cross} size={13} />
+        </button>
+      </div>
+    </ContextMenu>
+  );
+}

@@ -1,0 +1,84 @@
+/** Keeps the stores in step with dockview: which editors are open, which is active, and that an editor area remains. */
+import type { DockviewApi, DockviewGroupPanel } from 'dockview-react';
+import { findPanel } from '../panels';
+import { setCursor, setDirty, useSelection } from '../selection';
+import { editorGroupUsed } from './dock';
+import { EDITORS_GROUP, type EditorParams } from './layout';
+
+const isEditor = (panel: { view: { contentComponent: string } }) => panel.view.contentComponent === 'editor';
+
+export function followEditors(api: DockviewApi): () => void {
+  const list = () => {
+    const editors = api.panels.filter(isEditor).map((panel) => {
+      const { objectId, instance } = panel.params as EditorParams;
+      return { panelId: panel.id, objectId, instance };
+    });
+    const { activeEditor } = useSelection.getState();
+    const active = editors.some((editor) => editor.panelId === activeEditor) ? activeEditor : (editors.at(-1)?.panelId ?? null);
+    useSelection.setState({ editors, activeEditor: active });
+  };
+  const activate = () => {
+    const panel = api.activePanel;
+    if (!panel) return;
+    useSelection.setState(isEditor(panel) ? { activeEditor: panel.id, focusedPanel: panel.id } : { focusedPanel: panel.id });
+    if (isEditor(panel)) editorGroupUsed(panel.group.id);
+  };
+  const disposers = [
+    api.onDidAddPanel(list),
+    api.onDidLayoutFromJSON(list),
+    api.onDidActivePanelChange(activate),
+    api.onDidMovePanel(() => queueMicrotask(() => pruneEmptyGroups(api))),
+    api.onDidRemovePanel((panel) => {
+      setDirty(panel.id, false);
+      setCursor(panel.id, null);
+      queueMicrotask(() => {
+        pruneEmptyGroups(api);
+        list();
+      });
+    }),
+  ];
+  list();
+  activate();
+  return () => {
+    disposers.forEach((disposer) => disposer.dispose());
+    useSelection.setState({ editors: [], activeEditor: null, focusedPanel: null });
+  };
+}
+
+/** Empty groups go, but for one: the editor area stays in its place when its last tab is closed. */
+export function pruneEmptyGroups(api: DockviewApi): void {
+  const inGrid = api.groups.filter((group) => group.api.location.type === 'grid');
+  const empty = api.groups.filter((group) => group.panels.length === 0);
+  const hasEditors = inGrid.some((group) => group.panels.some(isEditor));
+  const emptyInGrid = inGrid.filter((group) => group.panels.length === 0);
+  const kept = hasEditors ? undefined : (emptyInGrid.find((group) => group.id === EDITORS_GROUP) ?? emptyInGrid[0]);
+  for (const group of empty) if (group !== kept) api.removeGroup(group);
+  if (!hasEditors && !kept) {
+    const left = api.groups.find((group) => dockOf(group) === 'left');
+    api.addGroup(left ? { referenceGroup: left, direction: 'right' } : { direction: 'right' });
+  }
+}
+
+/** Which dock a group is: that of its first tool panel, when it holds tool panels only. */
+function dockOf(group: DockviewGroupPanel): 'left' | 'right' | 'bottom' | undefined {
+  const first = group.panels[0];
+  if (!first || group.panels.some(isEditor) || group.api.location.type !== 'grid') return undefined;
+  return findPanel(first.id)?.position;
+}
+
+/** A wider window gives its room to the editors: trees and lists keep their size. */
+export function keepDockSizes(api: DockviewApi): () => void {
+  const onResize = () => {
+    const sizes = api.groups.map((group) => ({ group, dock: dockOf(group), width: group.api.width, height: group.api.height }));
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        for (const { group, dock, width, height } of sizes) {
+          if (dock === 'bottom') group.api.setSize({ height });
+          else if (dock) group.api.setSize({ width });
+        }
+      }),
+    );
+  };
+  window.addEventListener('resize', onResize);
+  return () => window.removeEventListener('resize', onResize);
+}

@@ -1,0 +1,15 @@
+import { api } from '@/api/client';
+
+/** Fetches a file of the API and hands it to the browser as a download. */
+export async function downloadUrl(path: string, name: string): Promise<void> {
+  saveBlob(await api.get<Blob>(path), name);
+}
+
+export function saveBlob(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = name.replace(/[\\/:*?"<>|]/g, '_');
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

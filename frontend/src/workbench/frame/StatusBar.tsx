@@ -1,0 +1,195 @@
+import { CircleX, CloudOff, Equal, TriangleAlert, Unplug, X, Zap, CloudUpload } from 'lucide-react';
+import { useMemo } from 'react';
+import type { LoginRelation } from '@/api/types';
+import { useSession } from '@/app/session';
+import { useText } from '@/i18n';
+import { showPanel } from '../docking/dock';
+import { usePresence } from '../events';
+import { countOf, presentMessages, useMessages } from '../messages/store';
+import { microsText } from '../online/times';
+import { useRuntimeState, useTasks } from '../online/poll';
+import { runtimeText } from '../online/runtimeText';
+import { useOnline, type OnlineSession } from '../onlineSession';
+import { useProject } from '../project';
+import { runCommand } from '../run';
+import { useSelection } from '../selection';
+import { toneOfApplication } from '../tones';
+import { Spinner } from '../ui/Empty';
+import { ToneDot } from '../ui/ToneDot';
+import { Tooltip } from '../ui/Tooltip';
+import styles from './StatusBar.module.css';
+
+/** Runtime, task, relation of the program, messages, what is under way; at the right cursor, user, connection. */
+export function StatusBar() {
+  const applicationId = useProject((state) => state.applicationId);
+  const session = useOnline((state) => (applicationId ? state.sessions[applicationId] : undefined));
+  useRuntimeState(session?.runtimeId ?? null);
+  return (
+    <footer className={styles.bar} role="status">
+      {session ? (
+        <>
+          <RuntimeItem session={session} />
+          <TaskItem runtimeId={session.runtimeId} />
+          <RelationItem relation={session.relation} />
+        </>
+      ) : (
+        <OfflineItem />
+      )}
+      <MessageItem />
+      <BusyItem />
+      <span className={styles.spacer} />
+      <CursorItem />
+      <UserItem />
+      <ConnectionItem />
+    </footer>
+  );
+}
+
+function RuntimeItem({ session }: { session: OnlineSession }) {
+  const t = useText();
+  const sessions = useOnline((state) => state.sessions);
+  const tone = toneOfApplication(session.applicationId, sessions) ?? 'unknown';
+  const { runtime, lostSince } = session;
+  const detail = [runtime?.exception?.message, runtime?.scheduling].filter(Boolean).join('\n') || undefined;
+  const state = lostSince !== null ? t('online.lostSince', { time: new Date(lostSince).toLocaleTimeString() }) : runtime ? runtimeText(runtime, t) : t('state.loading');
+  return (
+    <Tooltip text={`${runtime?.name ?? ''} · ${state}`} detail={detail} side="top">
+      <span className={`${styles.item} ${styles.runtime}`} data-tone={tone}>
+        <ToneDot tone={tone} size={8} />
+        {runtime?.name}
+        <span>{state}</span>
+      </span>
+    </Tooltip>
+  );
+}
+
+/** The task that the engineer cares most about: the one with the highest priority. */
+function TaskItem({ runtimeId }: { runtimeId: string }) {
+  const t = useText();
+  const { data } = useTasks(runtimeId);
+  const task = useMemo(() => [...(data ?? [])].sort((a, b) => (a.priority ?? 99) - (b.priority ?? 99))[0], [data]);
+  if (!task) return null;
+  return (
+    <Tooltip
+      text={t('status.taskTitle', { name: task.name })}
+      detail={t('status.taskDetail', { mean: microsText(task.mean_us), max: microsText(task.max_us), jitter: microsText(task.max_jitter_us) })}
+      side="top"
+    >
+      <button className={styles.item} onClick={() => showPanel('tasks')}>
+        {task.name}
+        <span>{microsText(task.last_us)}</span>
+        <span>±{microsText(Math.abs(task.jitter_us ?? 0))}</span>
+      </button>
+    </Tooltip>
+  );
+}
+
+const RELATIONS: Record<LoginRelation, { icon: typeof Zap; className: string | undefined }> = {
+  same: { icon: Equal, className: styles.ok },
+  online_change: { icon: Zap, className: styles.warn },
+  download: { icon: CloudUpload, className: styles.warn },
+  foreign: { icon: CloudUpload, className: styles.error },
+  empty: { icon: CloudUpload, className: styles.error },
+};
+
+function RelationItem({ relation }: { relation: LoginRelation }) {
+  const t = useText();
+  const { icon: Icon, className } = RELATIONS[relation];
+  return (
+    <Tooltip text={t(`relation.${relation}`)} side="top">
+      <span className={`${styles.item} ${className}`}>
+        <Icon size={14} aria-label={t(`relation.${relation}`)} />
+      </span>
+    </Tooltip>
+  );
+}
+
+function OfflineItem() {
+  const t = useText();
+  const applicationId = useProject((state) => state.applicationId);
+  if (!applicationId) return null;
+  return (
+    <Tooltip text={t('command.login')} shortcut="Alt+F8" side="top">
+      <button className={styles.item} onClick={() => void runCommand('online.login')}>
+        <Unplug size={13} aria-hidden />
+        {t('status.offline')}
+      </button>
+    </Tooltip>
+  );
+}
+
+function MessageItem() {
+  const t = useText();
+  const { build, live } = useMessages();
+  const count = useMemo(() => countOf(presentMessages(build, live)), [build, live]);
+  return (
+    <Tooltip text={t('status.messages')} side="top">
+      <button
+        className={styles.item}
+        onClick={() => showPanel('messages')}
+        aria-label={`${t('messages.error', { count: count.error })}, ${t('messages.warning', { count: count.warning })}`}
+      >
+        <CircleX size={13} className={count.error ? styles.error : undefined} aria-hidden />
+        {count.error}
+        <TriangleAlert size={13} className={count.warning ? styles.warn : undefined} aria-hidden />
+        {count.warning}
+      </button>
+    </Tooltip>
+  );
+}
+
+function BusyItem() {
+  const t = useText();
+  const busy = useProject((state) => state.busy);
+  if (!busy) return null;
+  return (
+    <span className={styles.item}>
+      <Spinner size={13} />
+      {busy.text}
+      {busy.cancel && (
+        <Tooltip text={t('action.cancel')} side="top">
+          <button className={styles.item} style={{ padding: '0 3px' }} aria-label={t('action.cancel')} onClick={busy.cancel}>
+            <X size={13} />
+          </button>
+        </Tooltip>
+      )}
+    </span>
+  );
+}
+
+function CursorItem() {
+  const t = useText();
+  const cursor = useSelection((state) => (state.activeEditor ? state.cursors.get(state.activeEditor) : undefined));
+  if (!cursor) return null;
+  return (
+    <span className={styles.item}>
+      {t('status.position', { line: cursor.line, column: cursor.column })}
+      {cursor.selected ? ` (${t('status.selected', { count: cursor.selected })})` : ''}
+    </span>
+  );
+}
+
+function UserItem() {
+  const t = useText();
+  const user = useSession((state) => state.user);
+  return (
+    user && (
+      <span className={styles.item}>
+        {user.username} · {t(`role.${user.role}`)}
+      </span>
+    )
+  );
+}
+
+function ConnectionItem() {
+  const t = useText();
+  const connected = usePresence((state) => state.connected);
+  if (connected) return null;
+  return (
+    <Tooltip text={t('status.noServer')} detail={t('status.noServerText')} side="top">
+      <span className={`${styles.item} ${styles.warn}`}>
+        <CloudOff size={14} aria-label={t('status.noServer')} />
+      </span>
+    </Tooltip>
+  );
+}

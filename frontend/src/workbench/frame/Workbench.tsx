@@ -1,0 +1,133 @@
+import { useQuery } from '@tanstack/react-query';
+import { useEffect, useRef, useState } from 'react';
+import type { SerializedDockview } from 'dockview-react';
+import { api } from '@/api/client';
+import { keys, useObjects } from '@/api/queries';
+import type { ObjectSummary, ProjectSummary } from '@/api/types';
+import { loadSetting, saveSetting } from '@/app/preferences';
+import { go } from '@/app/route';
+import { useText } from '@/i18n';
+import { warnBeforeLeaving } from '../docking/close';
+import { DockArea } from '../docking/DockArea';
+import { restoreLayout } from '../docking/layout';
+import { openEvents, type ProjectEvents } from '../events';
+import { clearMessages } from '../messages/store';
+import { useOnline } from '../onlineSession';
+import { Palette } from '../palette/Palette';
+import { findPanel } from '../panels';
+import { useProject } from '../project';
+import { listenToKeys } from '../run';
+import { selectObjects, useSelection } from '../selection';
+import { startTree } from '../tree/state';
+import { usePlacement } from '../tree/TreePanel';
+import { Button } from '../ui/Button';
+import { Failed, Loading } from '../ui/Empty';
+import { MenuBar } from './MenuBar';
+import { StatusBar } from './StatusBar';
+import { Toolbar } from './Toolbar';
+import styles from './Workbench.module.css';
+
+/** The whole frame around one open project. */
+export function Workbench({ projectId }: { projectId: string }) {
+  const t = useText();
+  const project = useQuery({ queryKey: keys.project(projectId), queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`) });
+  const objects = useObjects(projectId);
+  usePlacement();
+  const failed = project.error ?? objects.error;
+  const name = project.data?.name;
+  useEffect(() => {
+    if (name !== undefined) useProject.setState({ projectName: name });
+    document.title = name === undefined ? 'Tappet' : `${name} – Tappet`;
+  }, [name]);
+  useEffect(() => listenToKeys(), []);
+  useEffect(() => {
+    window.addEventListener('beforeunload', warnBeforeLeaving);
+    return () => window.removeEventListener('beforeunload', warnBeforeLeaving);
+  }, []);
+
+  if (failed) {
+    return (
+      <div className={styles.frame}>
+        <Failed error={failed} retry={() => void Promise.all([project.refetch(), objects.refetch()])} />
+        <div style={{ padding: 24, textAlign: 'center' }}>
+          <Button onClick={() => go({ page: 'start' })}>{t('start.backToProjects')}</Button>
+        </div>
+      </div>
+    );
+  }
+  if (!project.data || !objects.data) return <Loading />;
+  return <OpenWorkbench projectId={projectId} objects={objects.data} />;
+}
+
+/** The project has arrived: take over its layout, tree and active application, and listen to what others do. */
+function OpenWorkbench({ projectId, objects }: { projectId: string; objects: readonly ObjectSummary[] }) {
+  const [layout, setLayout] = useState<{ dock: SerializedDockview | null } | null>(null);
+  const activeEditor = useSelection((state) => state.editors.find((editor) => editor.panelId === state.activeEditor)?.objectId ?? null);
+  useActiveApplication(projectId, objects);
+
+  useEffect(() => {
+    let gone = false;
+    const start = async () => {
+      const [stored] = await Promise.all([loadSetting(`layout.${projectId}`).catch(() => null), startTree(projectId, objects)]);
+      const alive = new Set(objects.map((object) => object.id));
+      if (!gone) setLayout({ dock: restoreLayout(stored, (id) => findPanel(id) !== undefined, (id) => alive.has(id)) });
+    };
+    void start();
+    void rememberVisit(projectId);
+    return () => {
+      gone = true;
+      selectObjects([]);
+      clearMessages();
+      useOnline.setState({ sessions: {}, forces: {} });
+      useProject.setState({ projectId: null, projectName: '', applicationId: null, busy: null });
+    };
+    // Once per project: later changes of the objects reach the views through their own queries.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [projectId]);
+
+  const events = useRef<ProjectEvents | null>(null);
+  useEffect(() => {
+    events.current = openEvents(projectId);
+    return () => events.current?.close();
+  }, [projectId]);
+  useEffect(() => events.current?.look(activeEditor), [activeEditor]);
+
+  return (
+    <div className={styles.frame}>
+      <MenuBar />
+      <Toolbar />
+      <main className={styles.dock}>{layout && <DockArea projectId={projectId} layout={layout.dock} />}</main>
+      <StatusBar />
+      <Palette />
+    </div>
+  );
+}
+
+/** Keeps an existing application active: the one of the last visit, else the first. */
+function useActiveApplication(projectId: string, objects: readonly ObjectSummary[]): void {
+  const applicationId = useProject((state) => state.applicationId);
+  useEffect(() => {
+    useProject.setState({ projectId });
+    void loadSetting<string>(`application.${projectId}`)
+      .catch(() => null)
+      .then((stored) => {
+        if (stored && objects.some((object) => object.id === stored && object.kind === 'application')) useProject.setState({ applicationId: stored });
+      });
+    // eslint-disable-next-line react-hooks/exhaustive-deps -- the stored choice is read once per project
+  }, [projectId]);
+  useEffect(() => {
+    const applications = objects.filter((object) => object.kind === 'application');
+    if (!applications.some((application) => application.id === applicationId)) {
+      useProject.setState({ applicationId: applications[0]?.id ?? null });
+    } else if (applicationId) void saveSetting(`application.${projectId}`, applicationId).catch(() => undefined);
+  }, [projectId, objects, applicationId]);
+}
+
+const RECENT = 12;
+
+/** Puts the project at the head of the recent ones. */
+async function rememberVisit(projectId: string): Promise<void> {
+  const stored = await loadSetting<string[]>('recent').catch(() => null);
+  const recent = Array.isArray(stored) ? stored : [];
+  await saveSetting('recent', [projectId, ...recent.filter((id) => id !== projectId)].slice(0, RECENT)).catch(() => undefined);
+}

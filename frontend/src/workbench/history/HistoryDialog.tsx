@@ -1,0 +1,115 @@
+import { useQuery } from '@tanstack/react-query';
+import { useMemo, useState } from 'react';
+import { api } from '@/api/client';
+import { keys, queryClient } from '@/api/queries';
+import type { ObjectSummary, Revision } from '@/api/types';
+import { useLanguage, useText } from '@/i18n';
+import { confirm } from '../dialogs';
+import { guard, notify } from '../notices';
+import { commandContext } from '../context';
+import { mayEdit } from '../rights';
+import { reasonText } from '../run';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Empty, Failed, Loading } from '../ui/Empty';
+import { Table } from '../ui/Table';
+import type { Column } from '../ui/table';
+import styles from './HistoryDialog.module.css';
+
+interface HistoryDialogProps {
+  projectId: string;
+  /** History of one object; null for that of the whole project. */
+  object: ObjectSummary | null;
+  close: () => void;
+}
+
+/** All saves, newest first; going back makes a new revision, so nothing is ever lost. */
+export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) {
+  const t = useText();
+  const language = useLanguage();
+  const path = object ? `/projects/${projectId}/objects/${object.id}` : `/projects/${projectId}`;
+  const { data, error, refetch } = useQuery({ queryKey: ['revisions', path], queryFn: () => api.get<Revision[]>(`${path}/revisions`), staleTime: 0, gcTime: 0 });
+  const [selected, setSelected] = useState<Revision | null>(null);
+  const newest = useMemo(() => [...(data ?? [])].sort((a, b) => b.revision - a.revision), [data]);
+  const allowed = mayEdit(commandContext());
+  const refused = !selected
+    ? t('history.chooseOne')
+    : selected.revision === newest[0]?.revision
+      ? t('history.isCurrent')
+      : allowed === true
+        ? null
+        : reasonText(allowed);
+
+  const columns = useMemo(
+    (): Column<Revision>[] => [
+      { id: 'revision', title: t('history.revision'), width: 76, align: 'right', cell: (one) => <span>{one.revision}</span> },
+      { id: 'at', title: t('history.at'), width: 160, cell: (one) => <span className="digits">{new Date(one.at).toLocaleString(language)}</span> },
+      { id: 'author', title: t('history.author'), width: 100, cell: (one) => <span>{one.author}</span> },
+      ...(object ? [] : [{ id: 'object', title: t('history.object'), width: 150, cell: (one: Revision) => <span>{one.object_name}</span> }]),
+      { id: 'change', title: t('history.change'), width: 90, cell: (one) => <span>{one.change && t(`change.${one.change as 'created'}`)}</span> },
+      {
+        id: 'comment',
+        title: t('history.comment'),
+        width: 120,
+        grow: true,
+        cell: (one) => (
+          <>
+            {one.revision === newest[0]?.revision && <span className={styles.now}>{t('history.now')}</span>}
+            <span>{one.comment}</span>
+          </>
+        ),
+      },
+    ],
+    [t, language, object, newest],
+  );
+
+  const revert = async () => {
+    if (!selected) return;
+    const sure = await confirm({
+      title: t('history.revertTitle', { revision: selected.revision }),
+      text: t(object ? 'history.revertObject' : 'history.revertProject', { name: object?.name ?? '' }),
+      action: t('history.revert'),
+    });
+    if (!sure) return;
+    await guard(async () => {
+      await api.post(`${path}/revert`, { revision: selected.revision });
+      await queryClient.invalidateQueries({ queryKey: keys.project(projectId) });
+      notify({ tone: 'ok', title: t('history.reverted', { revision: selected.revision }) });
+      close();
+    });
+  };
+
+  return (
+    <Dialog
+      title={object ? t('history.titleObject', { name: object.name }) : t('history.title')}
+      width={780}
+      onClose={close}
+      footer={
+        <>
+          <Button onClick={close}>{t('action.close')}</Button>
+          <Button variant="primary" disabledReason={refused} onClick={() => void revert()}>
+            {t('history.revert')}
+          </Button>
+        </>
+      }
+    >
+      <div className={styles.list}>
+        {error ? (
+          <Failed error={error} retry={() => void refetch()} />
+        ) : data ? (
+          <Table
+            label={t('history.title')}
+            items={newest}
+            columns={columns}
+            keyOf={(one) => String(one.revision)}
+            selected={selected && String(selected.revision)}
+            onSelect={setSelected}
+            empty={<Empty title={t('history.empty')} />}
+          />
+        ) : (
+          <Loading />
+        )}
+      </div>
+    </Dialog>
+  );
+}

@@ -1,0 +1,55 @@
+/** Library contents as a tree of folders by kind, and the pins of a block as it is drawn. Pure functions. */
+import type { Library, LibraryItem, ObjectKind, Pin } from '@/api/types';
+
+export const GROUPS = ['function_block', 'function', 'interface', 'data', 'global'] as const;
+export type Group = (typeof GROUPS)[number];
+
+/** Which folder an item stands in. */
+export function groupOf(kind: string): Group {
+  if (kind === 'function_block' || kind === 'function' || kind === 'interface' || kind === 'global') return kind;
+  return kind === 'program' ? 'function_block' : 'data';
+}
+
+/** Icon keys of an item: kind and subkind of the object it would be in a project. */
+export function objectKindOf(item: LibraryItem): { kind: ObjectKind; subkind: string | null } {
+  switch (groupOf(item.kind)) {
+    case 'interface':
+      return { kind: 'interface', subkind: null };
+    case 'global':
+      return { kind: 'gvl', subkind: null };
+    case 'data':
+      return { kind: 'dut', subkind: item.kind };
+    default:
+      return { kind: 'pou', subkind: item.kind };
+  }
+}
+
+export interface ItemGroup {
+  group: Group;
+  items: LibraryItem[];
+}
+
+/** Items by kind, each folder in the order of names; with a search only what matches by name or comment. */
+export function groupsOf(library: Library, search = ''): ItemGroup[] {
+  const wanted = search.trim().toLowerCase();
+  const items = library.items.filter((item) => !wanted || `${item.name} ${item.comment}`.toLowerCase().includes(wanted));
+  return GROUPS.map((group) => ({
+    group,
+    items: items.filter((item) => groupOf(item.kind) === group).sort((a, b) => a.name.localeCompare(b.name)),
+  })).filter((entry) => entry.items.length > 0);
+}
+
+export interface BlockPin {
+  name: string;
+  type: string;
+  /** In/out pins are drawn at both sides. */
+  inOut?: boolean;
+}
+
+/** The pins as FBD draws them: inputs and in/outs at the left, outputs and in/outs at the right. */
+export function blockPins(item: LibraryItem): { left: BlockPin[]; right: BlockPin[] } {
+  const plain = (pins: readonly Pin[]) => pins.map(({ name, type }) => ({ name, type }));
+  const both = item.in_out.map(({ name, type }) => ({ name, type, inOut: true }));
+  const result = item.returns ? [{ name: item.name, type: item.returns }] : [];
+  return { left: [...both, ...plain(item.inputs)], right: [...both, ...result, ...plain(item.outputs)] };
+}

@@ -1,0 +1,39 @@
+import { keys, queryClient } from '@/api/queries';
+import type { Diagnostic, ObjectSummary } from '@/api/types';
+import { t } from '@/i18n';
+import { openObject } from '../docking/dock';
+import { notify } from '../notices';
+import { useProject } from '../project';
+import { presentMessages, useMessages } from './store';
+
+/** Opens the object a message is about, at its place. Messages about libraries or the application have none. */
+export function jumpTo(message: Diagnostic): void {
+  const { projectId } = useProject.getState();
+  const objects = (projectId && queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId))) || [];
+  const object = objects.find((candidate) => candidate.id === message.object_id);
+  if (!object) {
+    notify({ tone: 'info', title: t('messages.noPlace'), text: message.object_path });
+    return;
+  }
+  const { part, line, column, end_line, end_column } = message;
+  openObject(object.id, object.name, {
+    place: {
+      part: part ?? undefined,
+      line: line ?? undefined,
+      column: column ?? undefined,
+      endLine: end_line ?? undefined,
+      endColumn: end_column ?? undefined,
+    },
+  });
+}
+
+let last = -1;
+
+/** F4 and Shift+F4: the next or previous message that has a place, errors and warnings alike, around the end. */
+export function stepMessage(by: 1 | -1): void {
+  const { build, live } = useMessages.getState();
+  const messages = presentMessages(build, live).filter((message) => message.object_id !== null);
+  if (messages.length === 0) return;
+  last = (Math.min(last, messages.length - 1) + by + messages.length) % messages.length;
+  jumpTo(messages[last]!);
+}

@@ -1,0 +1,44 @@
+import { describe, expect, it } from 'vitest';
+import type { Diagnostic } from '@/api/types';
+import { bytesText, countOf, presentMessages, type BuildResult } from './store';
+
+const message = (object_id: string | null, severity: Diagnostic['severity'], text = 'm'): Diagnostic => ({
+  code: 'E0001',
+  severity,
+  message: text,
+  advice: null,
+  object_id,
+  object_path: '',
+  part: null,
+  line: null,
+  column: null,
+  end_line: null,
+  end_column: null,
+});
+const build = (...diagnostics: Diagnostic[]): BuildResult => ({
+  applicationId: 'a',
+  applicationName: 'A',
+  at: 0,
+  report: { ok: false, diagnostics, code_id: null, data_id: null, code_size: null, data_size: null, seconds: 1 },
+});
+
+describe('messages', () => {
+  it('of an object that its editor has checked since are the newer ones', () => {
+    const shown = presentMessages(build(message('x', 'error', 'old'), message('y', 'warning')), new Map([['x', [message('x', 'info', 'new')]]]));
+    expect(shown.map((one) => one.message)).toEqual(['m', 'new']);
+  });
+
+  it('without an object stay until the next build', () => {
+    expect(presentMessages(build(message(null, 'error')), new Map([['x', []]]))).toHaveLength(1);
+  });
+
+  it('are counted by severity', () => {
+    expect(countOf([message('x', 'error'), message('x', 'error'), message('y', 'info')])).toEqual({ error: 2, warning: 0, info: 1 });
+  });
+});
+
+describe('sizes', () => {
+  it('are short', () => {
+    expect([0, 999, 38_400, 123_456, 2_100_000].map(bytesText)).toEqual(['0 B', '999 B', '38.4 KB', '123 KB', '2.1 MB']);
+  });
+});

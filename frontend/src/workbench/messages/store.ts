@@ -1,0 +1,57 @@
+/**
+ * The messages of the compiler: those of the last build, and those the editors find while typing.
+ *
+ * Editors publish with `publishDiagnostics(objectId, diagnostics)` (an empty list takes them away); the build replaces
+ * the messages of its application. An object that has been checked by its editor after the build shows the newer ones.
+ */
+import { create } from 'zustand';
+import type { BuildReport, Diagnostic, Severity } from '@/api/types';
+
+export interface BuildResult {
+  applicationId: string;
+  applicationName: string;
+  report: BuildReport;
+  /** Milliseconds since 1970. */
+  at: number;
+}
+
+interface MessagesState {
+  build: BuildResult | null;
+  /** What editors found, by object, since the last build. */
+  live: ReadonlyMap<string, readonly Diagnostic[]>;
+}
+
+export const useMessages = create<MessagesState>(() => ({ build: null, live: new Map() }));
+
+export function buildFinished(build: BuildResult): void {
+  useMessages.setState({ build, live: new Map() });
+}
+
+export function publishDiagnostics(objectId: string, diagnostics: readonly Diagnostic[]): void {
+  const live = new Map(useMessages.getState().live);
+  live.set(objectId, diagnostics);
+  useMessages.setState({ live });
+}
+
+export function clearMessages(): void {
+  useMessages.setState({ build: null, live: new Map() });
+}
+
+/** All messages that hold now. Pure. */
+export function presentMessages(build: BuildResult | null, live: ReadonlyMap<string, readonly Diagnostic[]>): Diagnostic[] {
+  const fromBuild = (build?.report.diagnostics ?? []).filter((one) => !one.object_id || !live.has(one.object_id));
+  return [...fromBuild, ...[...live.values()].flat()];
+}
+
+export function countOf(messages: readonly Diagnostic[]): Record<Severity, number> {
+  const count = { error: 0, warning: 0, info: 0 };
+  for (const message of messages) count[message.severity]++;
+  return count;
+}
+
+/** Number of bytes as people read it: `412 B`, `38.4 KB`, `2.1 MB`. */
+export function bytesText(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  const [value, unit] = bytes < 1_000_000 ? [bytes / 1000, 'KB'] : [bytes / 1_000_000, 'MB'];
+  return `${value.toFixed(value < 100 ? 1 : 0)} ${unit}`;
+}

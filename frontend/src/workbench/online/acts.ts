@@ -1,0 +1,161 @@
+/** What the online commands do: build, find the runtime, log in by relation, download, start, stop, reset. */
+import { api } from '@/api/client';
+import { keys, queryClient } from '@/api/queries';
+import type { BuildReport, DeviceData, LoginAnswer, ObjectSummary, ProjectObject, RuntimeState } from '@/api/types';
+import { t } from '@/i18n';
+import { saveObject } from '@/api/queries';
+import { commandContext, type CommandContext } from '../context';
+import { saveEditors } from '../docking/close';
+import { showPanel } from '../docking/dock';
+import { buildFinished } from '../messages/store';
+import { notify } from '../notices';
+import { loggedIn, loggedOut, relationChanged, runtimePolled } from '../onlineSession';
+import { useProject } from '../project';
+import { askDownload, askLogin, askRuntime } from './dialogs';
+
+/** The runtime on the server's own machine; devices in simulation run there. */
+export const LOCAL_RUNTIME = 'local';
+
+/** Runs a long act with its name in the status bar; one at a time. */
+async function busy<Answer>(text: string, act: (signal: AbortSignal) => Promise<Answer>): Promise<Answer> {
+  const abort = new AbortController();
+  useProject.setState({ busy: { text, cancel: () => abort.abort() } });
+  try {
+    return await act(abort.signal);
+  } finally {
+    useProject.setState({ busy: null });
+  }
+}
+
+/** A cancelled request is an answer of its own, not a failure. */
+function isCancelled(error: unknown): boolean {
+  return error instanceof DOMException && error.name === 'AbortError';
+}
+
+function nameOf(context: CommandContext): string {
+  const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(context.projectId!)) ?? [];
+  return objects.find((object) => object.id === context.applicationId)?.name ?? '';
+}
+
+/** Saves what is open and builds the active application. Null when it was cancelled or something could not be saved. */
+export async function build(context: CommandContext): Promise<BuildReport | null> {
+  const { projectId, applicationId } = context;
+  if (!(await saveEditors(context.dirtyPanels))) return null;
+  const applicationName = nameOf(context);
+  try {
+    const report = await busy(t('busy.build', { name: applicationName }), (signal) =>
+      api.post<BuildReport>(`/projects/${projectId}/applications/${applicationId}/build`, undefined, { signal }),
+    );
+    buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
+    if (!report.ok) showPanel('messages', false);
+    if (report.ok && context.online) await refreshRelation(context);
+    return report;
+  } catch (error) {
+    if (isCancelled(error)) return null;
+    throw error;
+  }
+}
+
+/** While logged in: how the runtime's application relates to the one just built. */
+async function refreshRelation(context: CommandContext): Promise<void> {
+  const answer = await api.post<LoginAnswer>(loginPath(context), { runtime_id: context.online!.runtimeId });
+  relationChanged(context.applicationId!, answer.relation);
+}
+
+function loginPath(context: CommandContext): string {
+  return `/projects/${context.projectId}/applications/${context.applicationId}/login`;
+}
+
+/** The runtime that the active application's device leads to; asks when none has been chosen. Null when cancelled. */
+async function findRuntime(context: CommandContext): Promise<RuntimeState | null> {
+  const device = await queryClient.ensureQueryData({
+    queryKey: keys.object(context.projectId!, context.deviceId!),
+    queryFn: () => api.get<ProjectObject<DeviceData>>(`/projects/${context.projectId}/objects/${context.deviceId}`),
+  });
+  const runtimes = await queryClient.fetchQuery({ queryKey: keys.runtimes, queryFn: () => api.get<RuntimeState[]>('/runtimes'), staleTime: 0 });
+  const wanted = device.data.simulated ? LOCAL_RUNTIME : device.data.runtime_id;
+  const found = runtimes.find((runtime) => runtime.id === wanted);
+  if (found) return found;
+  const chosen = runtimes.length === 1 && wanted === null ? runtimes[0]! : await askRuntime(runtimes, wanted);
+  if (!chosen) return null;
+  if (!device.data.simulated) {
+    await saveObject(context.projectId!, device.id, device.revision, { ...device.data, runtime_id: chosen.id });
+  }
+  return chosen;
+}
+
+/** Login as CODESYS does it: build, compare with what the runtime holds, ask what to do about a difference. */
+export async function login(context: CommandContext): Promise<void> {
+  const runtime = await findRuntime(context);
+  if (!runtime) return;
+  if (!runtime.connected) throw new Error(t('login.notConnected', { name: runtime.name, problem: runtime.problem ?? '' }).trim());
+  const report = await build(context);
+  if (!report) return;
+  if (!report.ok) {
+    notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
+    return;
+  }
+  const answer = await api.post<LoginAnswer>(loginPath(context), { runtime_id: runtime.id });
+  if (answer.relation === 'same') {
+    loggedIn(context.applicationId!, runtime.id, 'same');
+    runtimePolled(runtime.id, runtime);
+    return;
+  }
+  const choice = await askLogin({ answer, application: nameOf(context), runtime });
+  if (!choice) return;
+  if (choice.how === 'without') {
+    loggedIn(context.applicationId!, runtime.id, answer.relation);
+    runtimePolled(runtime.id, runtime);
+    return;
+  }
+  await load(context, runtime.id, choice.how, choice.start);
+}
+
+/** Brings the built application into the runtime and shows its values from then on. */
+async function load(context: CommandContext, runtimeId: string, mode: 'download' | 'online_change', start: boolean): Promise<void> {
+  const name = nameOf(context);
+  await busy(t(mode === 'download' ? 'busy.download' : 'busy.onlineChange', { name }), () =>
+    api.post(`/projects/${context.projectId}/applications/${context.applicationId}/download`, { runtime_id: runtimeId, mode, start }),
+  );
+  if (commandContext().online?.runtimeId === runtimeId) relationChanged(context.applicationId!, 'same');
+  else loggedIn(context.applicationId!, runtimeId, 'same');
+  runtimePolled(runtimeId, await api.get<RuntimeState>(`/runtimes/${runtimeId}`));
+  notify({ tone: 'ok', title: t(mode === 'download' ? 'login.downloaded' : 'login.changed', { name }) });
+}
+
+/** Ends showing values; the controller keeps running. */
+export async function logout(context: CommandContext): Promise<void> {
+  loggedOut(context.applicationId!);
+  await api.post(`/projects/${context.projectId}/applications/${context.applicationId}/logout`);
+}
+
+/** Download while logged in: builds and asks before it stops the machine. */
+export async function download(context: CommandContext): Promise<void> {
+  const report = await build(context);
+  if (!report) return;
+  if (!report.ok) {
+    notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
+    return;
+  }
+  const session = context.online!;
+  const choice = await askDownload(nameOf(context), session.runtime?.state === 'run');
+  if (choice) await load(context, session.runtimeId, 'download', choice.start);
+}
+
+/** Online change while logged in: the machine keeps running and its variables keep their values. */
+export async function onlineChange(context: CommandContext): Promise<void> {
+  const report = await build(context);
+  if (report?.ok) await load(context, context.online!.runtimeId, 'online_change', false);
+}
+
+export async function runtimeAct(context: CommandContext, act: 'start' | 'stop'): Promise<void> {
+  const runtimeId = context.online!.runtimeId;
+  runtimePolled(runtimeId, await api.post<RuntimeState>(`/runtimes/${runtimeId}/${act}`));
+}
+
+export async function reset(context: CommandContext, kind: 'warm' | 'cold' | 'origin'): Promise<void> {
+  const runtimeId = context.online!.runtimeId;
+  runtimePolled(runtimeId, await api.post<RuntimeState>(`/runtimes/${runtimeId}/reset`, { kind }));
+  // Reset origin unloads the application: there is nothing left to be logged in to.
+  if (kind === 'origin') loggedOut(context.applicationId!);
+}

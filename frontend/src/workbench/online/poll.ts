@@ -1,0 +1,38 @@
+/** What is read again and again while logged in: the runtime's state and its tasks, for frame and status bar. */
+import { useQuery, type UseQueryResult } from '@tanstack/react-query';
+import { useEffect } from 'react';
+import { api, ApiError } from '@/api/client';
+import { keys } from '@/api/queries';
+import type { RuntimeState, TaskState } from '@/api/types';
+import { connectionLost, runtimePolled } from '../onlineSession';
+
+const STATE_MS = 2000;
+const TASKS_MS = 1000;
+
+/** Follows a runtime's state; the online socket is quicker, this also works without it. */
+export function useRuntimeState(runtimeId: string | null): void {
+  const { data, error, dataUpdatedAt } = useQuery({
+    queryKey: keys.runtime(runtimeId ?? ''),
+    queryFn: () => api.get<RuntimeState>(`/runtimes/${runtimeId}`),
+    enabled: runtimeId !== null,
+    refetchInterval: STATE_MS,
+    retry: false,
+  });
+  useEffect(() => {
+    if (runtimeId && data) runtimePolled(runtimeId, data);
+  }, [runtimeId, data, dataUpdatedAt]);
+  useEffect(() => {
+    if (runtimeId && error instanceof ApiError && error.status === 0) connectionLost(runtimeId);
+  }, [runtimeId, error]);
+}
+
+/** Statistics of the tasks, once a second while somebody looks. */
+export function useTasks(runtimeId: string | null): UseQueryResult<TaskState[]> {
+  return useQuery({
+    queryKey: keys.tasks(runtimeId ?? ''),
+    queryFn: () => api.get<TaskState[]>(`/runtimes/${runtimeId}/tasks`),
+    enabled: runtimeId !== null,
+    refetchInterval: TASKS_MS,
+    retry: false,
+  });
+}

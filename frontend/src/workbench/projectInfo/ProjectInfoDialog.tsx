@@ -1,0 +1,83 @@
+import { useQuery } from '@tanstack/react-query';
+import { useState } from 'react';
+import { api } from '@/api/client';
+import { keys, queryClient, useObjects } from '@/api/queries';
+import type { ProjectSummary } from '@/api/types';
+import { useLanguage, useText } from '@/i18n';
+import { atLeast } from '../rights';
+import { commandContext } from '../context';
+import { guard } from '../notices';
+import { useProject } from '../project';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Failed, Loading } from '../ui/Empty';
+import { Field, TextInput } from '../ui/Field';
+import fields from '../ui/Field.module.css';
+
+/** Name, description and size of the project. */
+export function ProjectInfoDialog({ projectId, close }: { projectId: string; close: () => void }) {
+  const t = useText();
+  const { data, error } = useQuery({ queryKey: keys.project(projectId), queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`) });
+  if (error || !data) {
+    return (
+      <Dialog title={t('command.projectInformation')} onClose={close}>
+        {error ? <Failed error={error} /> : <Loading />}
+      </Dialog>
+    );
+  }
+  return <InfoForm project={data} close={close} />;
+}
+
+function InfoForm({ project, close }: { project: ProjectSummary; close: () => void }) {
+  const t = useText();
+  const language = useLanguage();
+  const { data: objects } = useObjects(project.id);
+  const [name, setName] = useState(project.name);
+  const [description, setDescription] = useState(project.description);
+  const mayChange = atLeast(commandContext().role, 'engineer');
+  const fault = name.trim() === '' ? t('name.empty') : null;
+  const date = (text: string) => new Date(text).toLocaleString(language);
+
+  const save = async () => {
+    if (fault) return;
+    const saved = await guard(() => api.patch<ProjectSummary>(`/projects/${project.id}`, { name: name.trim(), description }));
+    if (!saved) return;
+    queryClient.setQueryData(keys.project(project.id), saved);
+    void queryClient.invalidateQueries({ queryKey: keys.projects });
+    useProject.setState({ projectName: saved.name });
+    close();
+  };
+
+  return (
+    <Dialog
+      title={t('command.projectInformation')}
+      onClose={close}
+      onSubmit={() => void save()}
+      footer={
+        <>
+          <Button onClick={close}>{t('action.cancel')}</Button>
+          <Button type="submit" variant="primary" disabledReason={fault ?? (mayChange ? null : t('reason.engineer'))}>
+            {t('action.save')}
+          </Button>
+        </>
+      }
+    >
+      <Field label={t('project.name')} error={fault}>
+        {(attributes) => <TextInput {...attributes} value={name} onValue={setName} readOnly={!mayChange} />}
+      </Field>
+      <Field label={t('project.description')}>
+        {(attributes) => (
+          <textarea {...attributes} className={fields.input} rows={4} value={description} readOnly={!mayChange} onChange={(event) => setDescription(event.target.value)} />
+        )}
+      </Field>
+      <dl style={{ display: 'grid', gridTemplateColumns: 'auto 1fr', gap: '4px 16px', margin: 0, color: 'var(--fg-muted)' }}>
+        <dt>{t('project.created')}</dt>
+        <dd style={{ margin: 0 }}>{date(project.created)}</dd>
+        <dt>{t('project.modified')}</dt>
+        <dd style={{ margin: 0 }}>{date(project.modified)}</dd>
+        <dt>{t('project.objects')}</dt>
+        <dd style={{ margin: 0 }}>{objects?.length ?? ''}</dd>
+      </dl>
+    </Dialog>
+  );
+}

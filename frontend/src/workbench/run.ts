@@ -1,0 +1,73 @@
+/** Running commands, from menus, buttons, keys and the palette alike. */
+import { t, type TextKey } from '@/i18n';
+import { activeHandler, enablementOf, findCommand, useRegistry, type Command, type MenuId, type Reason } from './commands';
+import { commandContext, type CommandContext } from './context';
+import { dialogOpen } from './dialogs';
+import { belongsToField, findByKey, shieldedFromBrowser } from './keys';
+import { guard, notify } from './notices';
+
+export function titleOf(command: Command): string {
+  return t(command.title, command.titleValues);
+}
+
+export function reasonText(reason: Reason): string {
+  return typeof reason === 'string' ? t(reason) : t(reason.key, reason.values);
+}
+
+/** Null when the command may run now, else why not. */
+export function refusal(command: Command, context: CommandContext): string | null {
+  const enablement = enablementOf(command, context, useRegistry.getState().handlers);
+  return enablement === true ? null : reasonText(enablement);
+}
+
+/** Runs the command if it may; a refusal or a failure becomes a notice. */
+export async function runCommand(id: string, argument?: unknown): Promise<void> {
+  const command = findCommand(id);
+  if (!command) return;
+  const context = commandContext();
+  const refused = refusal(command, context);
+  if (refused !== null) {
+    notify({ tone: 'info', title: t('notices.notNow', { command: titleOf(command) }), text: refused });
+    return;
+  }
+  const handler = command.delegated ? activeHandler(id, context, useRegistry.getState().handlers) : undefined;
+  await guard(async () => (handler ? handler.run(argument) : command.run?.(context, argument)));
+}
+
+function scopeOf(target: EventTarget | null): Command['scope'] {
+  if (!(target instanceof Element)) return undefined;
+  if (target.closest('[data-scope="tree"]')) return 'tree';
+  return target.closest('[data-scope="editor"]') ? 'editor' : undefined;
+}
+
+function isField(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && (target.matches('input, textarea, select') || target.isContentEditable);
+}
+
+/** Monaco types into a hidden field; undo and the clipboard are the editor's own affair there, too. */
+function onKeyDown(event: KeyboardEvent): void {
+  if (dialogOpen()) {
+    if (shieldedFromBrowser(event)) event.preventDefault();
+    return;
+  }
+  if (isField(event.target) && belongsToField(event)) return;
+  const { commands } = useRegistry.getState();
+  const context = commandContext();
+  const command = findByKey(commands.values(), event, scopeOf(event.target));
+  if (command && (command.visible?.(context) ?? true)) {
+    event.preventDefault();
+    event.stopPropagation();
+    void runCommand(command.id);
+  } else if (shieldedFromBrowser(event)) event.preventDefault();
+}
+
+/** Listens before any view does, so that F5 never reloads the page. Answers the act that ends it. */
+export function listenToKeys(): () => void {
+  window.addEventListener('keydown', onKeyDown, true);
+  return () => window.removeEventListener('keydown', onKeyDown, true);
+}
+
+const MENU_IDS: readonly MenuId[] = ['file', 'edit', 'view', 'project', 'build', 'online', 'debug', 'tools', 'window', 'help'];
+
+/** The menus of the menu bar, left to right. */
+export const MENUS: readonly { id: MenuId; title: TextKey }[] = MENU_IDS.map((id) => ({ id, title: `menu.${id}` }));

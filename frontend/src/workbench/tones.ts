@@ -1,0 +1,24 @@
+import { keys, queryClient } from '@/api/queries';
+import type { DeviceData, ObjectSummary, ProjectObject } from '@/api/types';
+import { onlineTone, type OnlineSession, type OnlineTone } from './onlineSession';
+import { useProject } from './project';
+import { ancestorOfKind } from './tree/model';
+
+/** Whether the device that carries an application is set to simulation, as far as it has been read. */
+export function isSimulated(applicationId: string): boolean {
+  const { projectId } = useProject.getState();
+  if (!projectId) return false;
+  const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+  const device = ancestorOfKind(objects, applicationId, 'device');
+  const data = device && queryClient.getQueryData<ProjectObject<DeviceData>>(keys.object(projectId, device.id));
+  return data?.data.simulated ?? false;
+}
+
+/** How an application looks online; undefined while it is logged out. */
+export function toneOfApplication(
+  applicationId: string,
+  sessions: Readonly<Record<string, OnlineSession>>,
+): OnlineTone | undefined {
+  const session = sessions[applicationId];
+  return session && onlineTone(session, isSimulated(applicationId));
+}

@@ -1,0 +1,56 @@
+import { useState } from 'react';
+import { api, ApiError } from '@/api/client';
+import type { Account, Role } from '@/api/types';
+import { useText } from '@/i18n';
+import { explain } from '../notices';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Field, Select, TextInput } from '../ui/Field';
+
+const ROLES: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
+
+/** A new account with its first password. */
+export function NewUserDialog({ close }: { close: (account?: Account) => void }) {
+  const t = useText();
+  const [username, setUsername] = useState('');
+  const [password, setPassword] = useState('');
+  const [role, setRole] = useState<Role>('engineer');
+  const [refused, setRefused] = useState<string | null>(null);
+  const missing = username === '' || password === '' ? t('signIn.fillIn') : null;
+
+  const create = async () => {
+    if (missing) return;
+    try {
+      close(await api.post<Account>('/users', { username, password, role }));
+    } catch (error) {
+      setRefused(error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title);
+    }
+  };
+
+  return (
+    <Dialog
+      title={t('users.add')}
+      width={400}
+      onClose={() => close()}
+      onSubmit={() => void create()}
+      footer={
+        <>
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button type="submit" variant="primary" disabledReason={missing}>
+            {t('action.create')}
+          </Button>
+        </>
+      }
+    >
+      <Field label={t('signIn.username')} error={refused}>
+        {(attributes) => <TextInput {...attributes} autoComplete="off" value={username} onValue={setUsername} />}
+      </Field>
+      <Field label={t('signIn.password')}>
+        {(attributes) => <TextInput {...attributes} type="password" autoComplete="new-password" value={password} onValue={setPassword} />}
+      </Field>
+      <Field label={t('users.role')} hint={t(`role.${role}Text`)}>
+        {(attributes) => <Select<Role> {...attributes} value={role} choices={ROLES.map((each) => ({ value: each, text: t(`role.${each}`) }))} onValue={setRole} />}
+      </Field>
+    </Dialog>
+  );
+}

@@ -1,0 +1,135 @@
+import { ChevronRight } from 'lucide-react';
+import { useState, type KeyboardEvent } from 'react';
+import type { ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { ObjectIcon } from '@/icons/objects';
+import type { OnlineTone } from '../onlineSession';
+import { ToneDot } from '../ui/ToneDot';
+import type { Row } from './model';
+import styles from './Tree.module.css';
+
+const INDENT = 14;
+const START = 4;
+
+/** Where guide lines and drop lines of a level begin, in pixels. */
+export function indentOf(level: number): number {
+  return START + (level - 1) * INDENT;
+}
+
+interface TreeRowProps {
+  row: Row;
+  filter: string;
+  /** The active application, drawn bold. */
+  strong: boolean;
+  tone: OnlineTone | undefined;
+  renaming: boolean;
+  faultOf: (name: string) => string | null;
+  onTwist: () => void;
+  onRenamed: (name: string | null) => void;
+}
+
+/** The inside of a tree row: guide lines, twisty, icon, name, what it is, state. */
+export function TreeRow({ row, filter, strong, tone, renaming, faultOf, onTwist, onRenamed }: TreeRowProps) {
+  const { object } = row;
+  return (
+    <>
+      {Array.from({ length: row.level - 1 }, (_, level) => (
+        <span key={level} className={styles.guide} style={{ left: indentOf(level + 1) + 8 }} />
+      ))}
+      <span style={{ width: indentOf(row.level) - 6, flex: 'none' }} />
+      <span
+        className={styles.twist}
+        data-open={row.expanded ? '' : undefined}
+        onClick={(event) => {
+          event.stopPropagation();
+          onTwist();
+        }}
+        onDoubleClick={(event) => event.stopPropagation()}
+      >
+        {row.expandable && <ChevronRight size={14} strokeWidth={1.75} />}
+      </span>
+      <span className={styles.icon}>
+        <ObjectIcon kind={object.kind} subkind={object.subkind} name={object.name} />
+      </span>
+      {renaming ? (
+        <NameField name={object.name} faultOf={faultOf} onDone={onRenamed} />
+      ) : (
+        <>
+          <span className={styles.name} data-strong={strong ? '' : undefined}>
+            <Marked text={object.name} filter={filter} />
+          </span>
+          <Suffix object={object} tone={tone} />
+        </>
+      )}
+    </>
+  );
+}
+
+/** What the object is, in the short form that the field uses: PRG, FB, FUN; for applications their state online. */
+function Suffix({ object, tone }: { object: ObjectSummary; tone: OnlineTone | undefined }) {
+  const t = useText();
+  if (tone) {
+    return (
+      <span className={styles.state}>
+        <ToneDot tone={tone} />
+        <span className={styles.suffix} data-tone={tone}>
+          {t(`online.tone.${tone}`)}
+        </span>
+      </span>
+    );
+  }
+  const short = SHORT[object.subkind ?? ''];
+  return short ? <span className={styles.suffix}>({short})</span> : null;
+}
+
+const SHORT: Record<string, string> = { program: 'PRG', function_block: 'FB', function: 'FUN', struct: 'STRUCT', enum: 'ENUM', union: 'UNION', alias: 'ALIAS', subrange: 'SUBRANGE' };
+
+function Marked({ text, filter }: { text: string; filter: string }) {
+  const at = filter ? text.toLowerCase().indexOf(filter.toLowerCase()) : -1;
+  if (at < 0) return text;
+  return (
+    <>
+      {text.slice(0, at)}
+      <mark>{text.slice(at, at + filter.length)}</mark>
+      {text.slice(at + filter.length)}
+    </>
+  );
+}
+
+interface NameFieldProps {
+  name: string;
+  faultOf: (name: string) => string | null;
+  /** The new name, or null when it stays. */
+  onDone: (name: string | null) => void;
+}
+
+/** The name being edited: Enter takes it, Escape leaves it; a name that cannot be says why at once. */
+function NameField({ name, faultOf, onDone }: NameFieldProps) {
+  const t = useText();
+  const [value, setValue] = useState(name);
+  const fault = value === name ? null : faultOf(value);
+  const onKeyDown = (event: KeyboardEvent) => {
+    event.stopPropagation();
+    if (event.key === 'Enter' && !fault) onDone(value === name ? null : value);
+    else if (event.key === 'Escape') onDone(null);
+  };
+  return (
+    <span style={{ position: 'relative' }}>
+      <input
+        className={styles.rename}
+        value={value}
+        aria-label={t('command.rename')}
+        aria-invalid={fault !== null}
+        autoFocus
+        spellCheck={false}
+        onFocus={(event) => event.target.select()}
+        onChange={(event) => setValue(event.target.value)}
+        onKeyDown={onKeyDown}
+        onPointerDown={(event) => event.stopPropagation()}
+        onDoubleClick={(event) => event.stopPropagation()}
+        onBlur={() => onDone(fault || value === name ? null : value)}
+      />
+      {fault && <span className={styles.fault}>{fault}</span>}
+    </span>
+  );
+}

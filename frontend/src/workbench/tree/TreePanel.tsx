@@ -1,0 +1,88 @@
+import { useQuery } from '@tanstack/react-query';
+import { FolderTree, Plus, Search, SearchX, X } from 'lucide-react';
+import { useMemo, useState } from 'react';
+import { api } from '@/api/client';
+import { keys, useObjects } from '@/api/queries';
+import { useText } from '@/i18n';
+import { useCommandContext } from '../context';
+import type { PanelProps } from '../panels';
+import { useProject } from '../project';
+import { mayEdit } from '../rights';
+import { reasonText, runCommand } from '../run';
+import { Button, IconButton } from '../ui/Button';
+import { Empty, Failed, Loading } from '../ui/Empty';
+import { forestOf, rootsOf, rowsOf, type TreeView } from './model';
+import { ObjectTree } from './ObjectTree';
+import type { PlacementRule } from './placement';
+import styles from './Tree.module.css';
+
+/** The placement rules; they do not change while the server runs. */
+export function usePlacement() {
+  return useQuery({ queryKey: keys.placement, queryFn: () => api.get<PlacementRule[]>('/placement'), staleTime: Infinity });
+}
+
+/** The Devices view or, with `options.view === 'pous'`, the POUs view. */
+export default function TreePanel({ panelId, options }: PanelProps) {
+  const t = useText();
+  const view = options.view as TreeView;
+  const projectId = useProject((state) => state.projectId);
+  const objects = useObjects(projectId);
+  const placement = usePlacement();
+  const [filter, setFilter] = useState('');
+  const forest = useMemo(() => forestOf(objects.data ?? []), [objects.data]);
+  const roots = useMemo(() => rootsOf(forest, view), [forest, view]);
+
+  const failed = objects.isError ? objects : placement.isError ? placement : null;
+  if (failed) return <Failed error={failed.error} retry={() => void failed.refetch()} />;
+  if (!projectId || !objects.data || !placement.data) return <Loading />;
+  const nothingFound = filter.trim() !== '' && rowsOf(forest, roots, new Set(), filter).length === 0;
+  return (
+    <div className={styles.view}>
+      <div className={styles.filter}>
+        <Search size={13} aria-hidden />
+        <input
+          value={filter}
+          placeholder={t('tree.filter')}
+          aria-label={t('tree.filter')}
+          spellCheck={false}
+          onChange={(event) => setFilter(event.target.value)}
+          onKeyDown={(event) => event.key === 'Escape' && setFilter('')}
+        />
+        {filter && <IconButton small icon={X} label={t('tree.clearFilter')} onClick={() => setFilter('')} />}
+      </div>
+      {roots.length === 0 ? (
+        <NoObjects view={view} />
+      ) : nothingFound ? (
+        <Empty icon={SearchX} title={t('tree.nothingFound', { text: filter.trim() })} />
+      ) : (
+        <ObjectTree
+          panelId={panelId}
+          projectId={projectId}
+          view={view}
+          forest={forest}
+          roots={roots}
+          rules={placement.data}
+          filter={filter}
+          label={t(view === 'devices' ? 'panel.devices' : 'panel.pous')}
+        />
+      )}
+    </div>
+  );
+}
+
+function NoObjects({ view }: { view: TreeView }) {
+  const t = useText();
+  const allowed = mayEdit(useCommandContext());
+  const devices = view === 'devices';
+  return (
+    <Empty icon={FolderTree} title={t(devices ? 'tree.noDevices' : 'tree.noPous')} text={t(devices ? 'tree.noDevicesText' : 'tree.noPousText')}>
+      <Button
+        icon={Plus}
+        disabledReason={allowed === true ? null : reasonText(allowed)}
+        onClick={() => void runCommand('project.addObject', { kind: devices ? 'device' : 'pou', parentId: null, view })}
+      >
+        {t(devices ? 'tree.addDevice' : 'tree.addPou')}
+      </Button>
+    </Empty>
+  );
+}

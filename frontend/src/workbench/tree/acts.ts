@@ -1,0 +1,89 @@
+/** What the trees do with objects: create, rename, move, copy, delete. Shown at once, taken back when the server refuses. */
+import { api } from '@/api/client';
+import { keys, patchSummary, queryClient, summaryOf } from '@/api/queries';
+import type { ObjectKind, ObjectSummary, ProjectObject } from '@/api/types';
+import { closePanelsOf } from '../docking/dock';
+import { applyChange, moved, renamed, without } from './changes';
+
+type Objects = ObjectSummary[];
+
+/** Changes the tree on screen, then asks the server; when it refuses, the former tree is back and the error goes on. */
+async function optimistic<Answer>(
+  projectId: string,
+  change: (objects: Objects) => Objects,
+  ask: () => Promise<Answer>,
+): Promise<Answer> {
+  const key = keys.objects(projectId);
+  await queryClient.cancelQueries({ queryKey: key });
+  queryClient.setQueryData<Objects>(key, (objects) => objects && change(objects));
+  try {
+    return await ask();
+  } catch (error) {
+    // Others may have changed something in between: ask for the truth instead of putting the old list back.
+    await queryClient.invalidateQueries({ queryKey: key });
+    throw error;
+  }
+}
+
+function put(projectId: string, change: 'created' | 'moved', object: ObjectSummary): void {
+  queryClient.setQueryData<Objects>(keys.objects(projectId), (objects) =>
+    objects && applyChange(objects, { op: 'object', change, object: summaryOf(object), author: '' }),
+  );
+}
+
+export interface NewObject {
+  parent_id: string | null;
+  kind: ObjectKind;
+  name: string;
+  subkind?: string;
+  data?: Record<string, unknown>;
+}
+
+/** Creates an object. Kinds that bring children with them (device, application, property) are read anew. */
+export async function createObject(projectId: string, order: NewObject): Promise<ProjectObject> {
+  const created = await api.post<ProjectObject>(`/projects/${projectId}/objects`, order);
+  put(projectId, 'created', created);
+  if (['device', 'plc_logic', 'application', 'property'].includes(order.kind)) {
+    await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
+  }
+  return created;
+}
+
+export async function renameObject(projectId: string, object: ObjectSummary, name: string): Promise<void> {
+  const answer = await optimistic(
+    projectId,
+    (objects) => renamed(objects, object.id, name),
+    () => api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, { base_revision: object.revision, name }),
+  );
+  patchSummary(projectId, answer);
+  // The declaration carries the name, too.
+  await queryClient.invalidateQueries({ queryKey: keys.object(projectId, object.id) });
+}
+
+export async function moveObject(projectId: string, object: ObjectSummary, parentId: string | null, index: number): Promise<void> {
+  const answer = await optimistic(
+    projectId,
+    (objects) => moved(objects, object.id, parentId, index),
+    () => api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, { base_revision: object.revision, parent_id: parentId, index }),
+  );
+  put(projectId, 'moved', answer);
+}
+
+export async function copyObject(projectId: string, objectId: string, parentId: string | null): Promise<ProjectObject> {
+  const copy = await api.post<ProjectObject>(`/projects/${projectId}/objects/${objectId}/copy`, { parent_id: parentId });
+  put(projectId, 'created', copy);
+  await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
+  return copy;
+}
+
+/** Deletes objects with all that is below them and closes their editors. */
+export async function deleteObjects(projectId: string, ids: readonly string[]): Promise<void> {
+  const before = queryClient.getQueryData<Objects>(keys.objects(projectId)) ?? [];
+  await optimistic(
+    projectId,
+    (objects) => without(objects, ids),
+    () => Promise.all(ids.map((id) => api.delete(`/projects/${projectId}/objects/${id}`))),
+  );
+  const left = new Set(without(before, ids).map((object) => object.id));
+  closePanelsOf(before.filter((object) => !left.has(object.id)).map((object) => object.id));
+}

@@ -1,0 +1,158 @@
+/**
+ * Which kind of object may be where, and how it may be named: the rules of `/placement`, applied as the server does,
+ * so that menus offer and drags accept only what will work. The server has the last word. Pure functions.
+ */
+import type { ObjectKind, ObjectSummary } from '@/api/types';
+import type { TextKey } from '@/i18n';
+import { childrenOf, freeName, isWithin, type Forest, type TreeView } from './model';
+
+export interface PlacementRule {
+  kind: ObjectKind;
+  /** Kinds of parent; `devices_view` and `pous_view` are the roots. */
+  parents: readonly string[];
+  /** Where the parent is a POU: which ones; empty means any. */
+  parent_subkinds: readonly string[];
+  in_folders: boolean;
+  /** At most one below one parent, its folders included. */
+  once: boolean;
+  naming: 'identifier' | 'free' | 'fixed';
+  /** The possible names where naming is fixed. */
+  names: readonly string[];
+  proposal: string;
+  subkinds: readonly string[];
+}
+
+/** The nearest object at or above the parent that is no folder; undefined for the root of a view. */
+export function ownerOf(forest: Forest, parentId: string | null): ObjectSummary | undefined {
+  let at = parentId ? forest.byId.get(parentId) : undefined;
+  while (at?.kind === 'folder') at = at.parent_id ? forest.byId.get(at.parent_id) : undefined;
+  return at;
+}
+
+/** Objects directly below an owner and in its folders. */
+function scopeOf(forest: Forest, ownerId: string | null): ObjectSummary[] {
+  return childrenOf(forest, ownerId).flatMap((child) =>
+    child.kind === 'folder' ? [child, ...scopeOf(forest, child.id)] : [child],
+  );
+}
+
+/** Whether an object of the kind may be below the parent. `present` is there already and does not count as another. */
+export function mayPlace(
+  rule: PlacementRule,
+  forest: Forest,
+  parentId: string | null,
+  view: TreeView,
+  present?: string,
+): boolean {
+  const owner = ownerOf(forest, parentId);
+  const place = owner ? owner.kind : parentId === null && view === 'devices' ? 'devices_view' : 'pous_view';
+  if (!rule.parents.includes(place)) return false;
+  if (owner?.kind === 'pou' && rule.parent_subkinds.length && owner.subkind && !rule.parent_subkinds.includes(owner.subkind)) {
+    return false;
+  }
+  const direct = parentId ? forest.byId.get(parentId) : undefined;
+  if (!rule.in_folders && direct?.kind === 'folder') return false;
+  if (rule.naming === 'fixed' && freeFixedNames(rule, forest, parentId, present).length === 0) return false;
+  return !rule.once || !scopeOf(forest, owner?.id ?? null).some((item) => item.kind === rule.kind && item.id !== present);
+}
+
+/** Kinds that Add Object offers here, in the order of the rules. */
+export function placeableKinds(
+  rules: readonly PlacementRule[],
+  forest: Forest,
+  parentId: string | null,
+  view: TreeView,
+): PlacementRule[] {
+  return rules.filter((rule) => mayPlace(rule, forest, parentId, view));
+}
+
+function freeFixedNames(rule: PlacementRule, forest: Forest, parentId: string | null, present?: string): string[] {
+  const taken = new Set(
+    childrenOf(forest, parentId)
+      .filter((child) => child.id !== present)
+      .map((child) => child.name),
+  );
+  return rule.names.filter((name) => !taken.has(name));
+}
+
+/** Names to choose from where naming is fixed; empty where the user types one. */
+export function fixedNames(rule: PlacementRule, forest: Forest, parentId: string | null): string[] {
+  return rule.naming === 'fixed' ? freeFixedNames(rule, forest, parentId) : [];
+}
+
+/** The name that the dialog proposes: PLC_PRG for the first POU of an application, otherwise the rule's, made unique. */
+export function proposedName(rule: PlacementRule, forest: Forest, parentId: string | null): string {
+  if (rule.naming === 'fixed') return freeFixedNames(rule, forest, parentId)[0] ?? rule.names[0] ?? '';
+  const owner = ownerOf(forest, parentId);
+  const scope = scopeOf(forest, owner?.id ?? null);
+  const first = rule.kind === 'pou' && owner?.kind === 'application' && !scope.some((item) => item.kind === 'pou');
+  return freeName(
+    scope.map((item) => item.name),
+    first ? 'PLC_PRG' : rule.proposal || rule.kind,
+  );
+}
+
+const IDENTIFIER = /^[A-Za-z_][A-Za-z0-9_]*$/;
+
+/** What is wrong with a name, as the key of a text; null when it will do. `own` is the object that has the name. */
+export function nameFault(
+  rule: PlacementRule | undefined,
+  forest: Forest,
+  parentId: string | null,
+  name: string,
+  own?: string,
+): { key: TextKey; values: { name: string } } | null {
+  const fault = (key: TextKey) => ({ key, values: { name } });
+  if (name === '') return fault('name.empty');
+  if (rule?.naming === 'identifier') {
+    if (!IDENTIFIER.test(name)) return fault('name.identifier');
+    if (name.includes('__')) return fault('name.underscores');
+  } else if (name !== name.trim()) return fault('name.blanks');
+  else if (/[./\\]/.test(name)) return fault('name.separators');
+  const own_kind = rule?.kind;
+  const owner = ownerOf(forest, parentId);
+  const siblings = own_kind === 'folder' ? childrenOf(forest, parentId) : scopeOf(forest, owner?.id ?? null);
+  const taken = siblings.some(
+    (item) =>
+      item.id !== own &&
+      item.name.toUpperCase() === name.toUpperCase() &&
+      (item.parent_id === parentId || item.kind !== 'folder') &&
+      (parentId !== null || (item.kind === 'device') === (own_kind === 'device')),
+  );
+  return taken ? fault('name.taken') : null;
+}
+
+export interface DropPlace {
+  parentId: string | null;
+  index: number;
+}
+
+/** Where a drag onto a row would go: into it, or before or after it among its siblings. */
+export function dropPlace(
+  forest: Forest,
+  target: ObjectSummary,
+  where: 'before' | 'inside' | 'after',
+): DropPlace {
+  if (where === 'inside') return { parentId: target.id, index: childrenOf(forest, target.id).length };
+  const siblings = childrenOf(forest, target.parent_id);
+  const at = siblings.findIndex((sibling) => sibling.id === target.id);
+  return { parentId: target.parent_id, index: where === 'before' ? at : at + 1 };
+}
+
+/** Whether all of these objects may be dropped there; nothing goes into itself. */
+export function mayDrop(
+  rules: readonly PlacementRule[],
+  forest: Forest,
+  ids: readonly string[],
+  parentId: string | null,
+  view: TreeView,
+  copy = false,
+): boolean {
+  return ids.every((id) => {
+    const object = forest.byId.get(id);
+    const rule = object && rules.find((candidate) => candidate.kind === object.kind);
+    if (!object || !rule) return false;
+    if (parentId !== null && isWithin(forest, parentId, id)) return false;
+    return mayPlace(rule, forest, parentId, view, copy ? undefined : id);
+  });
+}
