@@ -14,7 +14,7 @@ from tappet.project.errors import (
     UnknownObjectError,
 )
 from tappet.project.model import Project, ProjectObject, TaskData, make_object, new_id
-from tappet.project.placement import RULES, check_project, proposed_name
+from tappet.project.placement import RULES, PlacementRule, check_project, check_spelling, proposed_name
 from tappet.project.templates import new_project
 
 APP = "Tappet Soft PLC/PLC Logic/Application"
@@ -49,8 +49,7 @@ def test_adding_fills_in_the_template() -> None:
 
 
 @pytest.mark.parametrize("rule", RULES.values(), ids=RULES.keys())
-def test_every_template_says_what_it_is(rule: object) -> None:
-    rule = RULES[rule.kind]  # type: ignore[attr-defined]
+def test_every_template_says_what_it_is(rule: PlacementRule) -> None:
     project = new_project("x")
     for subkind in rule.subkinds:
         app = at(project, APP)
@@ -309,3 +308,9 @@ def test_any_sequence_of_edits_keeps_the_tree_sound(data: st.DataObject) -> None
         check_project(project)
         for parent in (None, *project.walk()):
             names(project, parent)
+
+
+@pytest.mark.parametrize("rule", RULES.values(), ids=RULES.keys())
+def test_every_proposed_name_is_possible(rule: PlacementRule) -> None:
+    for name in rule.names or (rule.proposal,):
+        check_spelling(rule.kind, name)

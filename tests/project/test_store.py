@@ -88,7 +88,7 @@ def test_a_stored_project_is_the_one_given(store: Store) -> None:
     given = new_project("x")
     given, _ = edit.add_object(given, None, "pou", "F", subkind="function")
     curve = make_object(
-        id=new_id(), kind="oscillogram", name="Curve", index=2, data={"a": [1.5, None, "\x00é"]}
+        id=new_id(), kind="oscillogram", name="Curve", index=1, data={"a": [1.5, None, "\x00é"]}
     )
     given = Project("x", objects={**given.objects, curve.id: curve}, extra_files={"README.md": b"\xff\x00"})
     info = store.create_project("x", "ann", content=given)

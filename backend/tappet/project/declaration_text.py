@@ -19,6 +19,14 @@ _TRIVIA_OR_TOKEN = re.compile(
     """,
     re.VERBOSE | re.DOTALL,
 )
+_END_VAR = re.compile(
+    r"""
+    (?P<line_comment>//[^\n]*) | (?P<comment>\(\*) | (?P<c_comment>/\*) | (?P<pragma>\{[^}]*\}?)
+    | (?P<string>'(?:\$.|[^'$\n])*'? | "(?:\$.|[^"$\n])*"?) | (?<!\w)(?P<end_var>END_VAR)(?!\w)
+    """,
+    re.VERBOSE | re.DOTALL | re.IGNORECASE,
+)
+"""The end of a section, or what it must not be looked for in."""
 _TRIVIA = frozenset(["blank", "line_comment", "comment", "c_comment", "pragma"])
 _COMMENT_EDGE = re.compile(r"\(\*|\*\)")
 
@@ -80,13 +88,18 @@ def _scan(text: str, start: int) -> Iterator[tuple[str, int, int]]:
         match = _TRIVIA_OR_TOKEN.match(text, position)
         assert match is not None, "the pattern matches any character"
         kind = match.lastgroup or ""
-        position = match.end()
-        if kind == "comment":
-            position = _end_of_comment(text, position)
-        elif kind == "c_comment":
-            closing = text.find("*/", position)
-            position = len(text) if closing < 0 else closing + 2
+        position = _end_of_trivia(text, match)
         yield kind, match.start(), position
+
+
+def _end_of_trivia(text: str, match: re.Match[str]) -> int:
+    """Where a match ends; for the opening of a comment, where the comment ends."""
+    if match.lastgroup == "comment":
+        return _end_of_comment(text, match.end())
+    if match.lastgroup == "c_comment":
+        closing = text.find("*/", match.end())
+        return len(text) if closing < 0 else closing + 2
+    return match.end()
 
 
 def _end_of_comment(text: str, position: int) -> int:
@@ -188,19 +201,20 @@ def declaration_end(text: str) -> int:
     end = 0
     sections_begun = False
     last = ""
-    in_section = False
-    for word in words(text):
-        if in_section:
-            if word.text == "END_VAR":
-                in_section, end = False, word.end
-        elif word.text in SECTION_KEYWORDS:
-            in_section = sections_begun = True
+    scan = words(text)
+    while (word := next(scan, None)) is not None:
+        if word.text in SECTION_KEYWORDS:
+            section = _END_VAR.search(text, word.end)
+            while section is not None and section.lastgroup != "end_var":
+                section = _END_VAR.search(text, _end_of_trivia(text, section))
+            if section is None:
+                return len(text)
+            sections_begun, end = True, section.end()
+            scan = words(text, end)
         elif sections_begun or header is None or not _continues_header(text, end, last, word):
             break
         else:
             end, last = word.end, word.text
-    if in_section:
-        return len(text)
     return _end_of_commented_line(text, end) if end else 0
 
 

@@ -47,12 +47,10 @@ def _clean_text(text: str) -> str:
     text = text.lstrip("\ufeff")
     if "\r" in text:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
-    for position, character in enumerate(text):
-        if character == "\x00" or "\ud800" <= character <= "\udfff":
-            line = text.count("\n", 0, position) + 1
-            raise ValueError(
-                f"line {line} contains the character U+{ord(character):04X}, which no text can hold"
-            )
+    position = text.find("\x00")
+    if position >= 0:
+        line = text.count("\n", 0, position) + 1
+        raise ValueError(f"line {line} contains the character U+0000, which no text can hold")
     return text
 
 

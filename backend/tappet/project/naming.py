@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable
+from functools import lru_cache
 
 from tappet.project.errors import InvalidNameError
 
@@ -36,6 +37,7 @@ def normal_name(name: str) -> str:
     return unicodedata.normalize("NFC", name)
 
 
+@lru_cache(maxsize=65536)
 def name_key(name: str) -> str:
     """What names are compared by: two siblings whose keys are equal cannot both exist (LDEC-06).
 

@@ -12,7 +12,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from tappet.project.errors import InvalidNameError, NameTakenError, NotPlaceableError, ProjectError
-from tappet.project.model import Project, ProjectObject
+from tappet.project.model import Project, ProjectObject, is_pous_root
 from tappet.project.naming import check_free_name, check_identifier, name_key, unique_name
 
 DEVICES_VIEW = "devices_view"
@@ -83,7 +83,7 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 kind="method",
                 parents=("pou", "interface"),
                 parent_subkinds=("program", "function_block"),
-                proposal="Method",
+                proposal="Meth",
             ),
             PlacementRule(
                 kind="property",
@@ -244,10 +244,16 @@ def check_project(project: Project) -> None:
         if item.parent_id is not None and item.parent_id not in project.objects:
             raise ProjectError(f"The parent of '{item.name}' is missing")
     reached = 0
+    taken: set[tuple[str | None, bool, str]] = set()
     for item in project.walk():
         reached += 1
         check_spelling(item.kind, item.name)
-        _check_siblings(project, item.kind, item.name, item.parent_id, item.id)
+        place = item.parent_id, is_pous_root(item.parent_id, item.kind), name_key(item.name)
+        if place in taken:
+            raise NameTakenError(
+                f"'{project.path_of(item.id)}' is there twice; names differ by more than case"
+            )
+        taken.add(place)
         owner = owner_of(project, item.parent_id)
         if item.kind in RULES and (owner is None or owner.kind in RULES):
             check_place(project, item.kind, item.parent_id, present=item.id)
@@ -257,11 +263,9 @@ def check_project(project: Project) -> None:
 
 def _check_siblings(project: Project, kind: str, name: str, parent_id: str | None, own: str | None) -> None:
     key = name_key(name)
-    for sibling in project.children(parent_id):
+    for sibling in project.siblings(parent_id, kind):
         if sibling.id == own or name_key(sibling.name) != key:
             continue
-        if parent_id is None and (sibling.kind == "device") != (kind == "device"):
-            continue  # the roots of the two views are two places
         raise NameTakenError(f"'{sibling.name}' exists already in this place; names differ by more than case")
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
-from sqlalchemy import Connection, and_, delete, insert, select, update
+from sqlalchemy import Connection, and_, delete, func, insert, select, update
 
 from tappet.project.errors import UnknownObjectError
 from tappet.project.model import ProjectObject, changed_object, make_object
@@ -20,7 +20,7 @@ from tappet.project.store.records import (
     StaleRevision,
     UnknownRevisionError,
 )
-from tappet.project.store.rows import data_of, read_summaries, summary_of
+from tappet.project.store.rows import data_of, summary_of
 from tappet.project.store.tables import changes, objects, revisions
 
 AUTOSAVE_WINDOW = timedelta(seconds=60)
@@ -53,10 +53,22 @@ def read_object(connection: Connection, project_id: str, object_id: str) -> Stor
     return StoredObject(item, row.position)
 
 
-def with_index(connection: Connection, project_id: str, item: ProjectObject) -> ProjectObject:
+def with_index(connection: Connection, project_id: str, stored: StoredObject) -> ProjectObject:
     """The object with its place among its siblings."""
-    index = next(one.index for one in read_summaries(connection, project_id) if one.id == item.id)
-    return changed_object(item, index=index)
+    item = stored.item
+    before = (
+        select(func.count())
+        .select_from(objects)
+        .where(
+            objects.c.project_id == project_id,
+            objects.c.parent_id == item.parent_id,
+            objects.c.position < stored.position,
+        )
+    )
+    if item.parent_id is None:
+        is_device = objects.c.kind == "device"
+        before = before.where(is_device if item.kind == "device" else ~is_device)
+    return changed_object(item, index=connection.scalar(before))
 
 
 def check_base(
@@ -82,7 +94,7 @@ def check_base(
     if base is not None and (base.name, base.data) == (stored.item.name, data_of(stored.item)):
         return stored
     author = object_revisions(connection, project_id, object_id)[0].author
-    current = with_index(connection, project_id, stored.item)
+    current = with_index(connection, project_id, stored)
     raise StaleRevision(object_id, base_revision, current, yours, author)
 
 
@@ -108,7 +120,7 @@ def save_data(
     if wanted.data == before.item.data:
         if not autosave:
             _keep_autosave(connection, info, before.item, comment)
-        return with_index(connection, info.id, before.item), None
+        return with_index(connection, info.id, before), None
     check_base(connection, info.id, object_id, base_revision, {"data": data_of(wanted)})
     saved = changed_object(wanted, revision=before.item.revision + 1)
     updated = connection.execute(
@@ -128,7 +140,7 @@ def save_data(
         connection.execute(insert(revisions).values(row))
     else:
         _replace(connection, info, before.item, row, replaced)
-    result = with_index(connection, info.id, saved)
+    result = with_index(connection, info.id, StoredObject(saved, before.position))
     event = ChangeEvent(info.id, number, "save", author, (ObjectChange("updated", summary_of(result)),))
     return result, event
 

@@ -219,7 +219,7 @@ class Store:
         """One object. Raises UnknownProjectError, UnknownObjectError."""
         with self._reading.begin() as connection:
             read_info(connection, project_id)
-            return with_index(connection, project_id, read_object(connection, project_id, object_id).item)
+            return with_index(connection, project_id, read_object(connection, project_id, object_id))
 
     def save(
         self,

@@ -100,6 +100,7 @@ objects = Table(
     Column("position", BigInteger, nullable=False),
     Column("revision", Integer, nullable=False),
     Column("data", JSON, nullable=False),
+    Index("ix_project_objects_project_id_parent_id_position", "project_id", "parent_id", "position"),
 )
 """The objects as they are now. `position` orders siblings and has gaps, so that a move writes one row."""
 

@@ -1,0 +1,47 @@
+"""What "Add object" makes compiles as it is, each template of each kind (GVL-02, DUT-02, PERS-02)."""
+
+from tappet.lang.analysis import AnalysisOptions, analyse
+from tappet.lang.parser import parse
+from tappet.lang.source import Scope, Source
+from tappet.project import edit
+from tappet.project.model import Project
+from tappet.project.placement import RULES
+from tappet.project.sources import application_sources
+from tappet.project.templates import new_project
+
+
+def everything() -> Project:
+    """A new project with one new object of every template that an application can hold."""
+    project = new_project("x")
+    (application,) = project.applications()
+    for rule in RULES.values():
+        if "application" not in rule.parents or rule.naming == "fixed" or rule.kind == "application":
+            continue
+        for subkind in rule.subkinds or (None,):
+            project, added = edit.add_object(project, application.id, rule.kind, subkind=subkind)
+            for child in ("method", "property", "action"):
+                if added.kind in RULES[child].parents and added.subkind not in ("function", "program"):
+                    project, _ = edit.add_object(project, added.id, child)
+    return project
+
+
+def test_templates_compile() -> None:
+    project = everything()
+    (application,) = project.applications()
+    texts = application_sources(project, application.id)
+    assert len(texts) > 15
+    units = []
+    for text in texts:
+        source = Source(
+            uri=text.uri,
+            text=text.text,
+            scope=Scope(text.scope),
+            owner=text.owner,
+            name=text.name,
+            body_line=text.body_line,
+        )
+        parsed = parse(source)
+        assert [found.message for found in parsed.diagnostics] == [], text.text
+        units.append(parsed.unit)
+    found = analyse(units, AnalysisOptions()).diagnostics
+    assert [(item.uri, item.message) for item in found if item.severity == "error"] == []
