@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import asyncio
+from collections.abc import Awaitable, Callable, Sequence
 from functools import cache
 
 from tappet.codegen.build import BuildOptions, build_application
@@ -51,7 +52,9 @@ def build(
 
 
 @cache
-def _build(text: str, tasks: tuple[TaskSpec, ...], gvls: tuple[tuple[str, str], ...], name: str) -> CodePackage:
+def _build(
+    text: str, tasks: tuple[TaskSpec, ...], gvls: tuple[tuple[str, str], ...], name: str
+) -> CodePackage:
     return _compile(text, tasks, gvls, name, None)
 
 
@@ -66,6 +69,15 @@ def _compile(
     result = build_application(sources, list(tasks), BuildOptions(application=name), previous)
     assert result.package is not None, [d for d in result.diagnostics if d.severity == "error"]
     return CodePackage.from_bytes(result.package.to_bytes())
+
+
+async def until(condition: Callable[[], Awaitable[bool]]) -> None:
+    """Wait for something another thread or process does; fails after half a minute."""
+    for _ in range(3000):
+        if await condition():
+            return
+        await asyncio.sleep(0.01)
+    raise AssertionError("it did not happen")
 
 
 def watchdog(time_ms: int, sensitivity: int) -> WatchdogSpec:

@@ -51,7 +51,9 @@ def put(plc: SoftPlc) -> None:
 def get(plc: SoftPlc, names: tuple[str, ...] = NAMES) -> list[object]:
     symbols = plc.symbols()
     refs = [symbols.resolve(n) for n in names]
-    return [symbols.decode(r, d) for r, d in zip(refs, plc.read([(r.offset, r.size) for r in refs]), strict=True)]
+    return [
+        symbols.decode(r, d) for r, d in zip(refs, plc.read([(r.offset, r.size) for r in refs]), strict=True)
+    ]
 
 
 def test_ex_07_resets_and_download(plc: SoftPlc) -> None:

@@ -53,7 +53,7 @@ def test_other_functions_of_the_process_are_refused_by_name() -> None:
 
 
 def test_missing_export_is_named() -> None:
-    with pytest.raises(LinkError, match="does not define tappet.init"):
+    with pytest.raises(LinkError, match=r"does not define tappet\.init"):
         Executive.shared().linker.link([object_code()], ["tappet.init"], {"tappet.data.X": 4096})
 
 

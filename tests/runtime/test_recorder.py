@@ -49,7 +49,9 @@ def test_frames_are_of_one_cycle_in_real_time() -> None:
 
 def test_a_full_ring_drops_the_newest_and_counts() -> None:
     with LocalRuntime(build(TEXT)) as runtime:
-        recorder = runtime.plc.record([(runtime.package.symbols.resolve("PLC_PRG.a").offset, 8)], None, 1, 0, 16)
+        recorder = runtime.plc.record(
+            [(runtime.package.symbols.resolve("PLC_PRG.a").offset, 8)], None, 1, 0, 16
+        )
         runtime.run(cycles=50)
         frames = recorder.take()
         assert [int.from_bytes(f.data, "little") for f in frames] == list(range(1, 17))
@@ -60,7 +62,9 @@ def test_a_full_ring_drops_the_newest_and_counts() -> None:
 
 def test_frames_wrap_around_the_ring() -> None:
     with LocalRuntime(build(TEXT)) as runtime:
-        recorder = runtime.plc.record([(runtime.package.symbols.resolve("PLC_PRG.a").offset, 8)], None, 1, 0, 16)
+        recorder = runtime.plc.record(
+            [(runtime.package.symbols.resolve("PLC_PRG.a").offset, 8)], None, 1, 0, 16
+        )
         taken = []
         for cycles in (10, 11, 3, 15):
             runtime.run(cycles=cycles)

@@ -145,9 +145,10 @@ def test_a_full_queue_says_which_task_does_not_run() -> None:
         runtime.run(cycles=1)
         value = runtime._placed("PLC_PRG.a", 1)
         assert ref.size == 4
+        for _ in range(256):
+            runtime.plc.write([value])
         with pytest.raises(PlcError, match="task Slow"):
-            for _ in range(300):
-                runtime.plc.write([value])
+            runtime.plc.write([value])
 
 
 def test_forces_and_writes_work_while_stopped() -> None:

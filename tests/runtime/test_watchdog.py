@@ -1,5 +1,7 @@
 """Watchdog rules TASK-30..TASK-35, with cycles of known length on virtual time (tasks.md EX-02, EX-03)."""
 
+import contextlib
+
 import pytest
 from plc_programs import MS, TASK_FUNCTIONS, build, watchdog
 
@@ -35,13 +37,13 @@ def run(lengths: list[int], time_ms: int, sensitivity: int) -> int | None:
     with LocalRuntime(build(TEXT, (task,))) as runtime:
         for number, length in enumerate(lengths, 1):
             runtime.write(f"PLC_PRG.lengths[{number}]", length)
-        try:
+        with contextlib.suppress(ApplicationException):
             runtime.run(cycles=len(lengths))
-        except ApplicationException as error:
-            assert error.report.code == Fault.WATCHDOG
-            assert error.report.pou == "PLC_PRG"
-            return int(runtime.read("PLC_PRG.cycle"))
-    return None
+        report = runtime.exception
+        if report is None:
+            return None
+        assert (report.code, report.pou) == (Fault.WATCHDOG, "PLC_PRG")
+        return int(runtime.read("PLC_PRG.cycle"))
 
 
 @pytest.mark.parametrize(

@@ -245,11 +245,16 @@ def create_thread_key() -> int:
     return key.value
 
 
-def install_handler(signal: int, handler: int, previous: int) -> None:
-    """Make the native function at `handler` handle `signal`; the action before is stored at `previous`."""
+def install_handler(signal: int, handler: int, previous: int, *, unmasked: bool) -> None:
+    """Make the native function at `handler` handle `signal`; the action before is stored at `previous`.
+
+    `unmasked` lets the signal come again while its handler runs (it may leave by a jump).
+    """
     action = ctypes.create_string_buffer(SIGACTION_SIZE)
     ctypes.c_uint64.from_buffer(action, 0).value = handler
-    ctypes.c_int.from_buffer(action, 136).value = _SA_SIGINFO | _SA_ONSTACK | _SA_NODEFER
+    ctypes.c_int.from_buffer(action, 136).value = _SA_SIGINFO | _SA_ONSTACK
+    if unmasked:
+        ctypes.c_int.from_buffer(action, 136).value |= _SA_NODEFER
     if libc.sigaction(signal, action, c_void_p(previous)):
         raise _error(f"sigaction({signal})")
 

@@ -22,7 +22,7 @@ import msgpack
 from tappet.codegen.package import RemanentRange
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block, Record
-from tappet.runtime.posix import Mapping, map_memory, write_memory
+from tappet.runtime.posix import Mapping, map_memory, read_memory, write_memory
 
 MAGIC = b"TAPPETRT"
 VERSION = 1
@@ -44,6 +44,11 @@ def checksum(data: bytes) -> int:
     for (word,) in struct.iter_unpack("<Q", data):
         total = (total ^ word) * _PRIME & _MASK
     return total
+
+
+def slot_checksum(sequence: int, data: bytes) -> int:
+    """Sum of a slot: its data, and its sequence, so that an old slot cannot pass for the newest."""
+    return checksum(data) ^ sequence & _MASK
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,8 +136,6 @@ class RetainFile:
             os.close(fd)
         self._blocks: list[Block] = []
         self.groups = [self._group(executive, place, image) for place in places]
-        for group in self.groups:
-            executive.save_retain(group.address)
         self._mapping.sync()
         os.replace(temporary, path)
         _sync_folder(path.parent)
@@ -157,9 +160,10 @@ class RetainFile:
         slots = struct.pack("<QQ", *(self._mapping.address + slot for slot in place.slots))
         at = layout.members["slots"].offset
         block.view()[at : at + 16] = slots
-        # An image of zeros would equal the empty slot and never be saved: give the slot a first sequence.
-        zero = _SLOT.pack(1, checksum(bytes(place.size)))
-        write_memory(self._mapping.address + place.slots[0], zero)
+        data = b"".join(read_memory(image + offset, size) for offset, size in merged)
+        data += bytes(place.size - len(data))
+        slot = _SLOT.pack(1, slot_checksum(1, data)) + data
+        write_memory(self._mapping.address + place.slots[0], slot)
         record["sequence"] = 1
         return record
 
@@ -248,7 +252,11 @@ def _newest_slot(data: bytes, size: int, slots: list[int]) -> bytes:
             raise RetainError(f"slot at {slot!r} lies outside the file")
         sequence, expected = _SLOT.unpack_from(data, slot)
         content = data[slot + _SLOT.size : slot + _SLOT.size + size]
-        if sequence > 0 and checksum(content) == expected and (best is None or sequence > best[0]):
+        if (
+            sequence > 0
+            and slot_checksum(sequence, content) == expected
+            and (best is None or sequence > best[0])
+        ):
             best = (sequence, content)
     if best is None:
         raise RetainError("no slot of a group is complete")

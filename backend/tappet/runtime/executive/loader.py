@@ -161,12 +161,15 @@ class Executive:
             mask &= ~(1 << signal - 1)
         blocked = mask.to_bytes(8, "little") + b"\xff" * 120
         posix.write_memory(registry.place("signalMask"), blocked)
+        own = (1 << posix.WATCHDOG_SIGNAL - 1).to_bytes(8, "little")
+        posix.write_memory(registry.place("watchdogMask"), own)
 
     def _install_handlers(self) -> None:
         handler = self.entries["tappet_signal"]
         previous = self.registry.place("previous")
         for signal in (*posix.FAULT_SIGNALS, posix.WATCHDOG_SIGNAL):
-            posix.install_handler(signal, handler, previous + signal * 160)
+            again = signal in posix.FAULT_SIGNALS  # these never come back to the place they interrupted
+            posix.install_handler(signal, handler, previous + signal * 160, unmasked=again)
 
     # -- what Python does to memory that tasks read -----------------------------------------------------
 
