@@ -46,9 +46,8 @@ class SceneView:
         self._draw(server, dark)
 
     def _draw(self, server: viser.ViserServer, dark: bool) -> None:
-        server.gui.configure_theme(
-            show_logo=False, show_share_button=False, dark_mode=dark, control_layout="collapsible"
-        )
+        server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
+        server.gui.main_panel.minimize()
         server.gui.set_panel_label("3D")
         server.scene.set_up_direction("+z")
         server.scene.add_grid(
@@ -56,8 +55,6 @@ class SceneView:
             cell_color=(72, 76, 82) if dark else (214, 217, 221),
             section_color=(92, 97, 104) if dark else (190, 194, 200),
         )  # fmt: skip
-        if dark:
-            server.scene.set_background_image(_plain((30, 31, 34)), format="png")
         for element in self._elements:
             self._handles.append(self._add(server, element))
             self._shown.append(())
@@ -116,9 +113,3 @@ def _text(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.1f}"
     return "–" if value is None else str(value)
-
-
-def _plain(rgb: tuple[int, int, int]) -> Any:
-    import numpy as np
-
-    return np.full((2, 2, 3), rgb, dtype=np.uint8)
