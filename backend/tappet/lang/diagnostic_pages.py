@@ -26,11 +26,13 @@ _GROUPS = {
     "E06": "Layout and addresses",
     "E07": "Tasks",
     "E08": "Statements",
+    "E09": "Code generation",
     "W10": "Conversions",
     "W11": "Statements and expressions",
     "W12": "Declarations",
     "W13": "Addresses",
     "W14": "Tasks",
+    "W15": "Texts",
 }
 _SECTION = re.compile(r"^(Passes|Fails):\n", re.MULTILINE)
 

@@ -183,7 +183,7 @@ def _property(
     for accessor, prefix in ((property_.getter, "__get"), (property_.setter, "__set")):
         if accessor is None:
             continue
-        pou = _accessor_pou(property_, accessor, prefix, owner.pou, source)
+        pou = accessor_pou(property_, accessor, prefix, owner.pou, source)
         head = PouSymbol(
             pou.name,
             source,
@@ -203,9 +203,10 @@ def _property(
             symbol.setter = head
 
 
-def _accessor_pou(
+def accessor_pou(
     property_: ast.Property, accessor: ast.Accessor, prefix: str, owner: ast.Pou | None, source: Source
 ) -> ast.Pou:
+    """The accessor of a property as the method `__getX` or `__setX`."""
     return ast.Pou(
         span=accessor.span,
         name=f"{prefix}{property_.name}",
@@ -286,7 +287,7 @@ def _property_head(
     for accessor, prefix in ((property_.getter, "__get"), (property_.setter, "__set")):
         if accessor is None:
             continue
-        pou = _accessor_pou(property_, accessor, prefix, None, source)
+        pou = accessor_pou(property_, accessor, prefix, None, source)
         head = PouSymbol(
             pou.name,
             source,

@@ -148,6 +148,10 @@ class Analysis:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: set[int] = field(default_factory=set)
     """id() of every POU that code calls, instantiates or takes the address of."""
+    changed: list[PouSymbol] | None = None
+    """POUs, methods and accessors with a new body since the previous analysis; None: everything is new."""
+    state: object | None = None
+    """What the next analysis may reuse; no business of others."""
 
     @property
     def ok(self) -> bool:

@@ -12,15 +12,15 @@ from collections.abc import Iterable, Sequence
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import calls, intrinsics, layout, members, program, selection
+from tappet.lang.analysis.bodies import Record, State, analyse_body, finish, with_children
 from tappet.lang.analysis.collect import Collected, collect
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.heads import link, plain_body
+from tappet.lang.analysis.incremental import reanalyse
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
-from tappet.lang.analysis.statements import check_jumps, statements
 from tappet.lang.attributes import attribute
-from tappet.lang.rules import POU_RULES
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
@@ -29,12 +29,22 @@ REGISTERED = (calls, members, intrinsics, selection)
 _DEFAULT_SLOT = 50000
 
 
-def analyse(units: Sequence[ast.Unit], options: AnalysisOptions | None = None) -> Analysis:
+def analyse(
+    units: Sequence[ast.Unit],
+    options: AnalysisOptions | None = None,
+    previous: Analysis | None = None,
+) -> Analysis:
     """Resolves and checks a program; every message is in `Analysis.diagnostics`. Never raises.
 
     The trees of `units` are filled in place: one tree takes part in one analysis at a time.
+    When the units are those of `previous` but for bodies, only these are analysed (`Analysis.changed`);
+    `previous` is used up then, its symbols live on in the result.
     """
     options = options or AnalysisOptions()
+    if previous is not None:
+        again = reanalyse(previous, units, options)
+        if again is not None:
+            return again
     analysis = Analysis(options)
     session = Session(options, analysis)
     found = collect(session, units)
@@ -48,12 +58,15 @@ def analyse(units: Sequence[ast.Unit], options: AnalysisOptions | None = None) -
     _lay_out_lists(session, found)
     _fill(session, found, declarations)
     _initial_values(session, found, declarations)
-    for pou, _ in found.pous:
-        _bodies(pou, declarations)
-    program.check(session, found, declarations)
-    analysis.called = session.called
-    _sort(session, units)
-    return analysis
+    state = State(tuple(units), session, found, declarations, _take_record(session))
+    for pou in _all_pous(found):
+        state.records[id(pou)] = analyse_body(session, pou, declarations.bodies[id(pou)])
+    return finish(state)
+
+
+def _take_record(session: Session) -> Record:
+    """What the declarations have reported and used."""
+    return Record(session.diagnostics, session.used, session.written, session.called)
 
 
 def _register(session: Session, found: Collected, declarations: Declarations) -> None:
@@ -128,18 +141,6 @@ def _property_type(property_: object) -> None:
 def _all_pous(found: Collected) -> Iterable[PouSymbol]:
     for pou, _ in found.pous:
         yield from with_children(pou)
-
-
-def with_children(pou: PouSymbol) -> Iterable[PouSymbol]:
-    """A POU and its methods, actions and accessors."""
-    yield pou
-    yield from pou.methods.values()
-    yield from pou.actions.values()
-    for property_ in pou.properties.values():
-        if property_.getter is not None:
-            yield property_.getter
-        if property_.setter is not None:
-            yield property_.setter
 
 
 def _lay_out_lists(session: Session, found: Collected) -> None:
@@ -277,29 +278,3 @@ def _initial_value(body: Body, variable: VarSymbol, declarations: Declarations) 
     if decl.initial is not None and not variable.is_constant:
         initialise(body, decl.initial, type_)
     program.check_fb_init(body, variable, decl, type_)
-
-
-def _bodies(pou: PouSymbol, declarations: Declarations) -> None:
-    for entry in with_children(pou):
-        body = declarations.bodies[id(entry)]
-        node = entry.pou
-        if node is None:
-            continue
-        try:
-            statements(body, node.body)
-        except RecursionError:
-            body.report("E0812", node.name_span, name=entry.name)
-        check_jumps(body)
-        body.session.calls[id(entry)] = body.called
-        for check in POU_RULES:
-            check(body)
-
-
-def _sort(session: Session, units: Sequence[ast.Unit]) -> None:
-    """Messages in the order of the sources and their lines."""
-    order: dict[str, int] = {}
-    for number, unit in enumerate(units):
-        order.setdefault(unit.source.uri, number)
-    last = len(order)
-    session.diagnostics.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code))
-    session.analysis.diagnostics = session.diagnostics

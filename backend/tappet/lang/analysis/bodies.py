@@ -1,0 +1,96 @@
+"""Third pass: the statements of every POU, each with a record of its own, then the checks of the whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from tappet.lang import ast
+from tappet.lang.analysis import program
+from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.context import Body, Session
+from tappet.lang.analysis.declarations import Declarations
+from tappet.lang.analysis.result import Analysis
+from tappet.lang.analysis.statements import check_jumps, statements
+from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.rules import POU_RULES
+from tappet.lang.symbols import PouSymbol
+
+
+@dataclass(slots=True)
+class Record:
+    """What one part of the program has reported, named, written and called; sets hold id() of symbols."""
+
+    messages: list[Diagnostic]
+    used: set[int]
+    written: set[int]
+    called: set[int]
+
+
+@dataclass(slots=True)
+class State:
+    """What an analysis keeps so that the next one can reuse it."""
+
+    units: tuple[ast.Unit, ...]
+    session: Session
+    found: Collected
+    declarations: Declarations
+    declared: Record
+    """Of all declarations together."""
+    records: dict[int, Record] = field(default_factory=dict)
+    """Of each body, by id() of its symbol."""
+
+
+def with_children(pou: PouSymbol) -> Iterable[PouSymbol]:
+    """A POU and its methods, actions and accessors."""
+    yield pou
+    yield from pou.methods.values()
+    yield from pou.actions.values()
+    for property_ in pou.properties.values():
+        if property_.getter is not None:
+            yield property_.getter
+        if property_.setter is not None:
+            yield property_.setter
+
+
+def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
+    """Resolves and checks the statements of one POU, method, action or accessor."""
+    record = Record([], set(), set(), set())
+    session.diagnostics, session.used = record.messages, record.used
+    session.written, session.called = record.written, record.called
+    node = pou.pou
+    if node is None:
+        return record
+    try:
+        statements(body, node.body)
+    except RecursionError:
+        body.report("E0812", node.name_span, name=pou.name)
+    check_jumps(body)
+    session.calls[id(pou)] = body.called
+    for check in POU_RULES:
+        check(body)
+    return record
+
+
+def finish(state: State) -> Analysis:
+    """Checks the whole program and puts all messages together, in the order of the sources."""
+    session = state.session
+    records = [state.declared, *state.records.values()]
+    session.used = set().union(*(record.used for record in records))
+    session.written = set().union(*(record.written for record in records))
+    session.called = set().union(*(record.called for record in records))
+    session.diagnostics = []
+    program.check(session, state.found, state.declarations)
+    found = session.diagnostics
+    for record in records:
+        found += record.messages
+    order: dict[str, int] = {}
+    for number, unit in enumerate(state.units):
+        order.setdefault(unit.source.uri, number)
+    last = len(order)
+    found.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code))
+    analysis = session.analysis
+    analysis.diagnostics = found
+    analysis.called = session.called
+    analysis.state = state
+    return analysis
