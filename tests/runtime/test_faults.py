@@ -178,6 +178,21 @@ def test_fault_in_an_initialiser_is_reported() -> None:
         assert (report.code, report.task, report.pou) == (Fault.DIV_ZERO, "initialisation", "Broken")
 
 
+def test_endless_initialiser_is_reported() -> None:
+    text = """
+    FUNCTION Endless : DINT
+    WHILE TRUE DO Endless := Endless + 1; END_WHILE
+    END_FUNCTION
+    PROGRAM PLC_PRG
+    VAR x : DINT := Endless(); END_VAR
+    END_PROGRAM
+    """
+    with LocalRuntime(build(text), cycle_limit_s=0.1) as runtime:
+        report = runtime.exception
+        assert report is not None
+        assert (report.name, report.pou) == ("WATCHDOG", "Endless")
+
+
 def test_other_tasks_stop_at_their_cycle_boundary() -> None:
     text = """
     PROGRAM PLC_PRG

@@ -20,7 +20,7 @@ _RESERVED = 0xFF00
 _OF_THE_LINKER = {"", "_GLOBAL_OFFSET_TABLE_"}
 _numbers = itertools.count(1)
 
-_MEMORY = ["memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp"]
+_MEMORY = ["memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp", "calloc", "free"]
 _DOUBLE = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
     "exp10", "expm1", "log", "log2", "log10", "log1p", "pow", "sqrt", "cbrt", "fmod", "fabs", "floor",

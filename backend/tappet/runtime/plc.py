@@ -37,6 +37,7 @@ from tappet.runtime.threads import NORMAL, Scheduling
 State = Literal["empty", "stop", "run", "exception"]
 ResetKind = Literal["warm", "cold", "origin"]
 _STATES: dict[int, State] = {STOPPED: "stop", RUNNING: "run", FAULTED: "exception"}
+MOST_TASKS = 64
 _MOST_VALUES = 200
 """Variables listed in an exception report."""
 
@@ -144,7 +145,7 @@ class SoftPlc:
             state = self.state
             if state == "exception" and self._report is None:
                 self._report = self._build_report()
-                self.log.add("exception", "application", _summary(self._report))
+                self.log.add("exception", "application", summary(self._report))
             if state != self._seen_state:
                 entered = state == "exception"
                 self._seen_state = state
@@ -257,6 +258,10 @@ class SoftPlc:
         """Replace the application. Values to keep come from the running one (persistent only) or from
         `kept`.
         """
+        if len(package.tasks) > MOST_TASKS:
+            raise PlcError(
+                f"the package was refused: {len(package.tasks)} tasks; at most {MOST_TASKS} are possible"
+            )
         try:
             application = LoadedApplication(
                 self.executive,
@@ -460,7 +465,11 @@ class SoftPlc:
         name = application.package.tasks[number].name if is_task else "initialisation"  # type: ignore[index]
         raw = application.contexts.fault(task)
         message, values = describe(raw)
-        stack = Locator(application.code).call_stack(raw)
+        try:
+            stack = Locator(application.code).call_stack(raw)
+        except Exception as error:  # whatever is wrong with the debug information, the exception is reported
+            self.log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
+            stack = []
         here = stack[0] if stack else CallFrame("", "", 0)
         values |= self._values_of(application, [frame.pou for frame in stack])
         return ExceptionReport(
@@ -518,7 +527,8 @@ class SoftPlc:
             self._unload(application, leave=False)
 
 
-def _summary(report: ExceptionReport) -> str:
+def summary(report: ExceptionReport) -> str:
+    """One line for the log."""
     place = f" in {report.pou}" if report.pou else ""
     line = f", line {report.line}" if report.line else ""
     return f"task {report.task}: {report.message}{place}{line}"

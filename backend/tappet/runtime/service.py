@@ -379,14 +379,19 @@ class RuntimeService:
 
     async def _drain_loop(self) -> None:
         while True:
-            await asyncio.sleep(_DRAIN_S)
+            busy = any(c.subscriptions for c in self._connections)
+            await asyncio.sleep(_DRAIN_S if busy else _POLL_S)
             for connection in list(self._connections):
                 connection.drain()
 
     async def _poll_loop(self) -> None:
         while True:
             await asyncio.sleep(_POLL_S)
-            await asyncio.to_thread(self.plc.poll)
+            try:
+                await asyncio.to_thread(self.plc.poll)
+            except Exception as error:  # the loop that reports exceptions must not end by one
+                self.plc.log.add("error", "service", f"{type(error).__name__}: {error}")
+                await asyncio.sleep(_SYNC_S)
 
     async def _sync_loop(self) -> None:
         while True:
