@@ -17,6 +17,7 @@ from tappet.server import (
     problems,
     routes_auth,
     routes_build,
+    routes_docs,
     routes_events,
     routes_health,
     routes_libraries,
@@ -25,14 +26,17 @@ from tappet.server import (
     routes_online,
     routes_projects,
     routes_runtimes,
+    routes_scenes,
     routes_settings,
     routes_users,
     routes_values,
+    routes_views,
 )
 from tappet.server.guard import RequestGuard
 from tappet.server.plc_client import Connect
 from tappet.server.services import open_services
 from tappet.server.settings import ServerSettings
+from tappet.server.static import FrontEnd, find_static
 
 API = "/api/v1"
 ROUTERS: tuple[APIRouter, ...] = (
@@ -48,6 +52,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_libraries.router,
     routes_projects.router,
     routes_objects.router,
+    routes_scenes.router,
     routes_events.router,
 )
 """One router per resource, all below `API`."""
@@ -75,7 +80,7 @@ def create_app(settings: ServerSettings, connect: Connect = RuntimeClient.connec
         version=__version__,
         summary="Browser-based PLC engineering: the same operations as the workbench.",
         lifespan=lifespan,
-        openapi_url=f"{API}/openapi.json",
+        openapi_url=None,
         docs_url=None,
         redoc_url=None,
         generate_unique_id_function=_operation_id,
@@ -87,5 +92,8 @@ def create_app(settings: ServerSettings, connect: Connect = RuntimeClient.connec
     for router in ROUTERS:
         api.include_router(router)
     app.include_router(api)
+    app.include_router(routes_docs.router)
+    app.include_router(routes_views.router)
     openapi.install(app)
+    app.mount("/", FrontEnd(find_static(settings.static_dir)), name="front end")
     return app

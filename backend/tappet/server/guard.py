@@ -60,6 +60,10 @@ class RequestGuard:
         async def send_with_headers(message: Message) -> None:
             if message["type"] in ("http.response.start", "websocket.http.response.start"):
                 self._add_headers(scope["path"], MutableHeaders(scope=message))
+                services = getattr(scope["app"].state, "services", None)
+                if services is not None:
+                    method = scope.get("method", "SOCKET")
+                    services.metrics.requests[method, message["status"]] += 1
             await send(message)
 
         replaced = False

@@ -283,6 +283,10 @@ class RuntimeRegistry:
         """In the order they were added."""
         return list(self._links.values())
 
+    def find(self, runtime_id: str) -> RuntimeLink | None:
+        """The runtime, or None."""
+        return self._links.get(runtime_id)
+
     def get(self, runtime_id: str) -> RuntimeLink:
         """The runtime; raises a 404 problem."""
         link = self._links.get(runtime_id)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 
 from sqlalchemy import Connection, select
 
 from tappet.project.store import Store
-from tappet.server.auth import accounts
+from tappet.server.auth import accounts, sessions
 from tappet.server.auth.login import FIRST_ACCOUNT, Login
 from tappet.server.auth.one_time import OneTimeSecrets
 from tappet.server.auth.passwords import Passwords
@@ -23,6 +25,10 @@ from tappet.server.project_events import ProjectEvents
 from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.server.tables import runtimes as runtimes_table
+from tappet.server.views import ViewRegistry
+
+HOUSEKEEPING_S = 3600.0
+"""How often expired sessions are deleted; expired ones are never accepted anyway."""
 
 
 @dataclass(slots=True)
@@ -37,11 +43,13 @@ class Services:
     login: Login
     runtimes: RuntimeRegistry
     commissioning: Commissioning
+    views: ViewRegistry = field(default_factory=ViewRegistry)
     metrics: Metrics = field(default_factory=Metrics)
     first_account_token: str | None = field(default=None, repr=False)
     """Shown on the console at start-up while there is no account."""
     local_runtime: LocalRuntime | None = None
     _events: ProjectEvents | None = None
+    _housekeeping: asyncio.Task[None] | None = None
     _samplers: dict[RuntimeLink, SamplerPool] = field(default_factory=dict)
 
     def samplers(self, link: RuntimeLink) -> SamplerPool:
@@ -60,6 +68,7 @@ class Services:
 
     async def start(self) -> None:
         """Begins the work in the background."""
+        self._housekeeping = asyncio.create_task(self._keep_house(), name="housekeeping")
         self._events = ProjectEvents(self.store)
         if self.settings.local_runtime:
             link = self.runtimes.add("Local", "", "", LOCAL_RUNTIME)
@@ -68,10 +77,21 @@ class Services:
         for row in await self.database.read_async(_stored_runtimes):
             self.runtimes.add(row.name, row.url, row.token, row.id)
 
+    async def _keep_house(self) -> None:
+        """Forgets what has expired."""
+        while True:
+            await self.database.write_async(
+                lambda db: sessions.remove_expired(db, self.settings, datetime.now(UTC))
+            )
+            await asyncio.sleep(HOUSEKEEPING_S)
+
     async def close(self) -> None:
         """Ends everything."""
         if self._events is not None:
             self._events.close()
+        if self._housekeeping is not None:
+            self._housekeeping.cancel()
+        await self.views.close()
         await self.commissioning.builder.close()
         await self.runtimes.close()
         if self.local_runtime is not None:

@@ -1,0 +1,101 @@
+"""Example projects: brought into the store once, and run when the local runtime is empty."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from pathlib import Path
+
+from starlette.concurrency import run_in_threadpool
+
+import tappet
+from tappet.project import folder
+from tappet.project.edit import change_data
+from tappet.project.errors import ProjectError
+from tappet.project.model import DeviceData, Project
+from tappet.server.runtimes import RuntimeLink
+from tappet.server.services import Services
+from tappet.server.settings import LOCAL_RUNTIME
+
+log = logging.getLogger(__name__)
+PATIENCE_S = 120.0
+"""How long the local runtime may take to come up; its first start compiles the executive."""
+AUTHOR = "example"
+
+
+class UnknownExampleError(ProjectError):
+    """No example of this name is installed."""
+
+    code = "unknown_example"
+
+
+def example_folders() -> dict[str, Path]:
+    """The examples in the package or in the checkout, by name."""
+    package = Path(tappet.__file__).resolve().parent
+    roots = (package / "projects", package.parents[1] / "projects")
+    return {
+        path.parent.name: path.parent
+        for root in reversed(roots)
+        for path in sorted(root.glob("*/tappet-project.json"))
+    }
+
+
+def find_example(name: str) -> Path:
+    """The folder of an example. Raises UnknownExampleError naming those there are."""
+    found = example_folders()
+    if name not in found:
+        known = ", ".join(sorted(found)) or "none"
+        raise UnknownExampleError(f"there is no example '{name}'; installed: {known}")
+    return found[name]
+
+
+async def provide_example(services: Services, name: str) -> None:
+    """Loads the example unless it is there already, and downloads it if the local runtime is empty."""
+    project_id = await run_in_threadpool(_load_once, services, find_example(name))
+    link = services.runtimes.find(LOCAL_RUNTIME)
+    if link is None or not await _connected(link) or link.info is None or link.info.state != "empty":
+        return
+    project = await run_in_threadpool(services.store.load, project_id)
+    for application in project.applications()[:1]:
+        await services.commissioning.download(project_id, application.id, link, "download", start=True)
+        log.info("the example '%s' runs on the local runtime", name)
+
+
+def _load_once(services: Services, path: Path) -> str:
+    content = folder.load(path, with_extra_files=True)
+    for info in services.store.projects():
+        if info.name == content.name:
+            return info.id
+    info = services.store.create_project(
+        content.name,
+        AUTHOR,
+        description=content.description,
+        content=_on_local_runtime(content),
+        comment=f"Example from {path.name}",
+    )
+    return info.id
+
+
+def _on_local_runtime(project: Project) -> Project:
+    """Devices that lead nowhere lead to the local runtime."""
+    for item in project.find_kind("device"):
+        if isinstance(item.data, DeviceData) and item.data.runtime_id is None:
+            data = item.data.model_copy(update={"runtime_id": LOCAL_RUNTIME})
+            project = change_data(project, item.id, data)
+    return project
+
+
+async def _connected(link: RuntimeLink) -> bool:
+    """Waits for the runtime to be up."""
+    changed = asyncio.Event()
+    ignore = link.listen(lambda _: changed.set())
+    try:
+        async with asyncio.timeout(PATIENCE_S):
+            while not link.connected:
+                await changed.wait()
+                changed.clear()
+    except TimeoutError:
+        return False
+    finally:
+        ignore()
+    return True

@@ -1,0 +1,54 @@
+"""Serves the built front end: one page for every address of the workbench, files with a long life."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from starlette.exceptions import HTTPException
+from starlette.responses import HTMLResponse, Response
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
+
+import tappet
+
+HASHED = "assets/"
+"""Files below it carry a hash of their content in their names."""
+FOREVER = "public, max-age=31536000, immutable"
+NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Tappet</title>
+<body style="font-family: sans-serif; max-width: 40em; margin: 4em auto">
+<h1>The front end is not built</h1>
+<p>The server works, but there is no page to show. In a checkout, <code>make run</code> builds it; by hand:
+<code>cd frontend &amp;&amp; npm ci &amp;&amp; npm run build</code>.</p></body></html>"""
+
+
+def find_static(configured: Path | None) -> Path | None:
+    """The folder of the built front end: as configured, in the package, or in the checkout."""
+    package = Path(tappet.__file__).resolve().parent
+    candidates = (
+        [configured] if configured else [package / "frontend", package.parents[1] / "frontend" / "dist"]
+    )
+    return next((folder for folder in candidates if (folder / "index.html").is_file()), None)
+
+
+class FrontEnd(StaticFiles):
+    """The files of the front end; addresses of the workbench, which are no files, get its page."""
+
+    def __init__(self, folder: Path | None) -> None:
+        super().__init__(directory=folder, check_dir=False)
+        self._folder = folder
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        """The file, the page, or a 404 problem."""
+        if path.startswith(("api/", "views/")) or path in ("api", "views"):
+            raise HTTPException(404)
+        if self._folder is None:
+            return HTMLResponse(NOT_BUILT, headers={"Cache-Control": "no-store"})
+        try:
+            response = await super().get_response("index.html" if path == "." else path, scope)
+        except HTTPException as error:
+            if error.status_code != 404 or "." in path.rpartition("/")[2]:
+                raise
+            path = "."
+            response = await super().get_response("index.html", scope)
+        response.headers["Cache-Control"] = FOREVER if path.startswith(HASHED) else "no-cache"
+        return response
