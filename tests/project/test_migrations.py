@@ -1,6 +1,7 @@
 """One schema history for the whole database, run at every start."""
 
 import importlib
+from pathlib import Path
 from threading import Thread
 
 import pytest
@@ -63,3 +64,17 @@ def test_a_database_of_a_newer_version_is_left_alone(database_url: str) -> None:
 def test_other_databases_are_refused() -> None:
     with pytest.raises(StoreError, match="'mysql' is no database of the store"):
         open_engine("mysql://localhost/x")
+
+
+def test_a_database_that_cannot_be_opened(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match=r"missing/x\.db cannot be used: unable to open database file"):
+        Store(f"sqlite:///{tmp_path}/missing/x.db")
+    (tmp_path / "text.db").write_text("this is no database" * 100)
+    with pytest.raises(StoreError, match="cannot be used: file is not a database"):
+        Store(f"sqlite:///{tmp_path}/text.db")
+
+
+@pytest.mark.postgres
+def test_a_server_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match=r"postgresql\+psycopg://ann:\*\*\*@.* cannot be used"):
+        Store(f"postgresql://ann:secret@/x?host={tmp_path}")

@@ -15,6 +15,7 @@ from alembic.script import ScriptDirectory
 from alembic.util import CommandError
 from sqlalchemy import Connection, Engine, create_engine, event, make_url, text
 from sqlalchemy.engine.interfaces import DBAPIConnection
+from sqlalchemy.exc import OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
 from tappet.project.errors import ProjectError
@@ -68,11 +69,19 @@ def reading(engine: Engine) -> Engine:
 def migrate(engine: Engine) -> None:
     """Bring the schema to the newest revision; safe when several processes start at once.
 
-    Raises StoreError when the database was made by a newer Tappet.
+    Raises StoreError when the database cannot be reached, or was made by a newer Tappet.
     """
+    try:
+        if engine.dialect.name == "sqlite":
+            _use_write_ahead_log(engine)
+        _upgrade(engine)
+    except OperationalError as error:
+        where = engine.url.render_as_string(hide_password=True)
+        raise StoreError(f"The database {where} cannot be used: {error.orig}") from error
+
+
+def _upgrade(engine: Engine) -> None:
     config = _config()
-    if engine.dialect.name == "sqlite":
-        _use_write_ahead_log(engine)
     with (
         _ONE_AT_A_TIME,
         engine.begin() as connection,
@@ -116,9 +125,9 @@ def _use_write_ahead_log(engine: Engine) -> None:
             with engine.connect() as connection:
                 connection.connection.cursor().execute("PRAGMA journal_mode = WAL").close()
             return
-        except sqlite3.OperationalError:
-            if time.monotonic() > deadline:
-                raise
+        except sqlite3.DatabaseError as error:
+            if "locked" not in str(error) or time.monotonic() > deadline:
+                raise StoreError(f"The database {engine.url.database} cannot be used: {error}") from error
             time.sleep(0.02)
 
 

@@ -27,6 +27,14 @@ describe('events of others', () => {
     expect(order(after, null)).toEqual(['a', 'n', 'b', 'c']);
   });
 
+  it('count the roots of the two views apart', () => {
+    const device = { ...object('d', null, 0), kind: 'device' as const };
+    const after = applyChange([device, ...objects], event('created', object('n', null, 3)));
+    expect(order(after, null).filter((id) => id !== 'd')).toEqual(['a', 'b', 'c', 'n']);
+    expect(after.find((one) => one.id === 'd')!.index).toBe(0);
+    expect(after.find((one) => one.id === 'n')!.index).toBe(3);
+  });
+
   it('do nothing twice', () => {
     const once = applyChange(objects, event('created', object('n', null, 1)));
     expect(applyChange(once, event('created', object('n', null, 1)))).toEqual(once);

@@ -39,10 +39,16 @@ export function without(objects: readonly ObjectSummary[], ids: readonly string[
   return objects.filter((object) => !gone.has(object.id));
 }
 
+/** Whether two objects are counted together; the roots of the Devices and the POUs view are not. */
+function areSiblings(one: ObjectSummary, other: ObjectSummary): boolean {
+  if (one.parent_id !== other.parent_id || one.id === other.id) return false;
+  return one.parent_id !== null || (one.kind === 'device') === (other.kind === 'device');
+}
+
 /** Numbers the siblings of a placed object anew, without gaps, the object itself at its index. */
 function placed(objects: readonly ObjectSummary[], object: ObjectSummary): ObjectSummary[] {
   const siblings = objects
-    .filter((other) => other.parent_id === object.parent_id && other.id !== object.id)
+    .filter((other) => areSiblings(object, other))
     .sort((a, b) => a.index - b.index);
   siblings.splice(Math.min(object.index, siblings.length), 0, object);
   const index = new Map(siblings.map((sibling, at) => [sibling.id, at]));
