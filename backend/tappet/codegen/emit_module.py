@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tappet.codegen.debug_info import DebugInfo, Metadata
@@ -64,8 +65,13 @@ differ:
 }
 
 
-def emit_module(module: ir.Module, names: list[str], options: EmitOptions, whole: bool) -> str:
-    """LLVM text of the functions `names`; `whole` says that they are all there are."""
+def emit_module(
+    module: ir.Module, names: list[str], options: EmitOptions, whole: bool, copies: Iterable[str] = ()
+) -> str:
+    """LLVM text of the functions `names`; `whole` says that they are all there are.
+
+    `copies` are functions of other modules that may be inlined here.
+    """
     metadata = Metadata()
     metadata.add('!{!"branch_weights", i32 1, i32 1048575}')
     metadata.add("!{}")
@@ -73,10 +79,14 @@ def emit_module(module: ir.Module, names: list[str], options: EmitOptions, whole
     debug = DebugInfo(metadata)
     state = ModuleState(module, metadata, debug)
     body: list[str] = []
-    own = set(names)
+    own = {*names, *copies}
     for name in names:
         function = module.functions[name]
         linkage = "" if function.exported else ("internal " if whole else "hidden ")
+        body += FunctionEmitter(state, function).text(linkage)
+    for name in copies:
+        function = module.functions[name]
+        linkage = "available_externally " + ("" if function.exported else "hidden ")
         body += FunctionEmitter(state, function).text(linkage)
     tables = _dispatch(module, state, whole or bool(own & _dispatch_home(module)))
     head = [f'target triple = "{options.triple}"']

@@ -6,6 +6,7 @@ import hashlib
 import os
 import tempfile
 import threading
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -93,6 +94,8 @@ class ObjectCache:
     def __init__(self, folder: Path | None, limit: int = 512 << 20) -> None:
         self.folder = folder
         self.limit = limit
+        self.memory: dict[str, bytes] = {}
+        """Objects of the builds of this process since the last `forget`."""
         self.hits = 0
         self.misses = 0
 
@@ -117,8 +120,9 @@ class ObjectCache:
 
     def read(self, name: str) -> bytes | None:
         """A stored object; damaged ones count as missing."""
-        if self.folder is None:
-            return None
+        kept = self.memory.get(name)
+        if kept is not None or self.folder is None:
+            return kept
         try:
             data = (self.folder / name[:2] / name).read_bytes()
         except OSError:
@@ -128,6 +132,7 @@ class ObjectCache:
 
     def write(self, name: str, data: bytes) -> None:
         """Store an object; a full or read-only disk is no error."""
+        self.memory[name] = data
         if self.folder is None:
             return
         folder = self.folder / name[:2]
@@ -139,6 +144,11 @@ class ObjectCache:
             os.replace(temporary, folder / name)
         except OSError:
             return
+
+    def forget(self, keep: Iterable[str]) -> None:
+        """Drop the objects in memory that are not in `keep`."""
+        names = set(keep)
+        self.memory = {name: data for name, data in self.memory.items() if name in names}
 
     def trim(self) -> None:
         """Remove the objects used longest ago until the cache fits its limit."""

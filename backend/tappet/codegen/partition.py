@@ -1,19 +1,76 @@
-"""Splits large applications into modules that are compiled, and cached, one by one."""
+"""Splits large applications into modules that are compiled, and cached, one by one.
+
+A module holds bodies that belong together. Small bodies of other modules that it calls come along as copies
+for inlining only (`available_externally`), so that splitting costs no speed where it matters.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 from tappet.core import ir
+from tappet.core.walk import visit
 
-WHOLE = 400
-"""Up to this many functions an application is one module, so that everything can be inlined."""
-PART = 60
-"""Functions per module of a larger application."""
+WHOLE = 8_000
+"""Up to this weight an application is one module, and everything in it can be inlined."""
+PART = 3_000
+"""Weight of the modules of larger applications."""
+SMALL = 60
+"""Weight of bodies that are copied into the modules that call them."""
 
 
-def partition(module: ir.Module) -> list[list[str]]:
-    """Names of the functions of each module, in stable order."""
-    names = list(module.functions)
-    if len(names) <= WHOLE:
-        return [names]
-    ordered = sorted(names)
-    return [ordered[i : i + PART] for i in range(0, len(ordered), PART)]
+@dataclass(slots=True)
+class Part:
+    """One module: its functions, and the foreign ones it may inline."""
+
+    names: list[str]
+    copies: list[str] = field(default_factory=list)
+
+
+def partition(module: ir.Module) -> list[Part]:
+    """Modules in stable order: an edit of one body changes only the modules that hold a copy of it."""
+    functions = module.functions
+    if sum(f.weight for f in functions.values()) <= WHOLE:
+        return [Part(list(functions))]
+    parts: list[Part] = []
+    weight = PART
+    for name in sorted(functions):
+        owner = name.partition(".")[0]
+        whole = parts and parts[-1].names and parts[-1].names[-1].partition(".")[0] == owner
+        if weight >= PART and not (whole and weight < 2 * PART):
+            parts.append(Part([]))
+            weight = 0
+        parts[-1].names.append(name)
+        weight += functions[name].weight
+    for part in parts:
+        part.copies = _copies(module, part.names)
+    return parts
+
+
+def _copies(module: ir.Module, names: list[str]) -> list[str]:
+    """Small functions of other modules that these call, and what those call."""
+    own = set(names)
+    found: dict[str, None] = {}
+    todo = list(names)
+    while todo:
+        for callee in _callees(module.functions[todo.pop()]):
+            function = module.functions.get(callee)
+            if function is None or callee in own or callee in found:
+                continue
+            if function.weight <= SMALL and not function.returns_twice and not function.cold:
+                found[callee] = None
+                todo.append(callee)
+    return sorted(found)
+
+
+def _callees(function: ir.Function) -> set[str]:
+    found: set[str] = set()
+
+    def note(node: ir.Expr | ir.Stmt) -> None:
+        if isinstance(node, ir.Call):
+            found.add(node.function)
+
+    if function.callees is None:
+        visit(function.body, note)
+        function.callees = found
+    return function.callees

@@ -74,12 +74,14 @@ class Body:
 
     def line(self, node: ast.Node) -> None:
         """The following code belongs to the line of `node`."""
+        self.function.weight += 1
         self.out.append(ir.Line(node.span[0] + 1))
 
     # -- expressions ---------------------------------------------------------------------------------
 
     def value(self, e: ast.Expr) -> ir.Expr:
         """Value of a simple type, in the type analysis says it is carried in."""
+        self.function.weight += 1
         if e.is_constant and e.constant is not None:
             scalar = scalar_of(carried_type(e))
             if scalar is not None and not isinstance(e.constant, str | bytes):

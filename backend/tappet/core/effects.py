@@ -21,26 +21,42 @@ class Effects:
     calls: set[str] = field(default_factory=set)
 
 
-def effects_of(module: ir.Module) -> dict[str, Effects]:
-    """Effects of all functions, closed over calls."""
-    found = {name: _own(module, function) for name, function in module.functions.items()}
-    changed = True
-    while changed:
-        changed = False
-        for effects in found.values():
-            for name in effects.calls:
-                callee = found.get(name)
-                if callee is not None and _merge(effects, callee):
-                    changed = True
-    return found
+class EffectsTable:
+    """Effects of the functions of a module with their callees, found when somebody asks."""
 
+    def __init__(self, module: ir.Module) -> None:
+        self.module = module
+        self.own: dict[str, Effects] = {}
+        self.closed: dict[str, Effects] = {}
 
-def _merge(effects: Effects, callee: Effects) -> bool:
-    before = (len(effects.data), effects.pointers, effects.unknown)
-    effects.data |= callee.data
-    effects.pointers |= callee.pointers
-    effects.unknown |= callee.unknown
-    return before != (len(effects.data), effects.pointers, effects.unknown)
+    def of(self, name: str) -> Effects:
+        """Effects of a function and of everything it calls; unknown for functions outside the module."""
+        found = self.closed.get(name)
+        if found is None:
+            found = self.closed[name] = self._close(name)
+        return found
+
+    def _close(self, name: str) -> Effects:
+        total = Effects()
+        seen: set[str] = set()
+        todo = [name]
+        while todo:
+            current = todo.pop()
+            if current in seen:
+                continue
+            seen.add(current)
+            function = self.module.functions.get(current)
+            if function is None:
+                total.unknown = True
+                continue
+            effects = self.own.get(current)
+            if effects is None:
+                effects = self.own[current] = _own(self.module, function)
+            total.data |= effects.data
+            total.pointers |= effects.pointers
+            total.unknown |= effects.unknown
+            todo += effects.calls
+        return total
 
 
 def _own(module: ir.Module, function: ir.Function) -> Effects:

@@ -503,6 +503,12 @@ class Function:
     """Calls setjmp."""
     inline: str = ""
     """"", "never" or "always"."""
+    weight: int = 0
+    """Rough size: statements and operands."""
+    loops: bool = False
+    """Whether the body contains a loop."""
+    callees: set[str] | None = None
+    """Functions it calls, once somebody has looked."""
     subscripted: dict[Base, set[int]] = field(default_factory=dict)
     """Roots of places with subscripts, by base: what needs alias scopes."""
     aliases: dict[Local, int] = field(default_factory=dict)

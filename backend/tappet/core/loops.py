@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tappet.core import ir
-from tappet.core.effects import Effects
+from tappet.core.effects import EffectsTable
 from tappet.core.walk import blocks_of, places_of, visit
 
 _LOOPS = (ir.For, ir.While, ir.Repeat)
@@ -50,7 +50,7 @@ class _Survey:
 class Promotion:
     """Promotes the variables of one module."""
 
-    def __init__(self, module: ir.Module, effects: dict[str, Effects]) -> None:
+    def __init__(self, module: ir.Module, effects: EffectsTable) -> None:
         self.module = module
         self.effects = effects
 
@@ -90,8 +90,8 @@ class Promotion:
 
     def _calls_are_known(self, survey: _Survey) -> bool:
         for name in survey.calls:
-            effects = self.effects.get(name)
-            if effects is None or effects.unknown:
+            effects = self.effects.of(name)
+            if effects.unknown:
                 return False
             survey.data |= effects.data
             survey.pointers |= effects.pointers
@@ -121,7 +121,7 @@ class Promotion:
 
     def _called_data(self, survey: _Survey) -> set[str]:
         """Data objects that called functions touch."""
-        return {symbol for name in survey.calls for symbol in self.effects[name].data}
+        return {symbol for name in survey.calls for symbol in self.effects.of(name).data}
 
 
 def _survey(module: ir.Module, loop: ir.Stmt) -> _Survey:
@@ -226,8 +226,8 @@ def _writes(body: list[ir.Stmt], local: ir.Local) -> bool:
 def mark_pointer_walks(function: ir.Function) -> None:
     """Counters of `WHILE p[i] <> 0` loops do not overflow: memory ends before.
 
-    The index of a pointer that is dereferenced in every pass and grows by a small constant passes an unmapped
-    page long before 2^31, so the 32-bit addition may be treated as exact and the address as a running pointer.
+    The index of a pointer that is dereferenced in every pass and grows by a small constant passes an
+    unmapped page long before 2^31, so the 32-bit addition may be treated as exact.
     """
 
     def note(node: ir.Expr | ir.Stmt) -> None:

@@ -89,6 +89,7 @@ def _for(b: Body, s: ast.For) -> None:
         amount = convert(b.value(s.step), scalar)
         step = int(amount.value) if isinstance(amount, ir.Const) else amount
     body = body_of(b, s.body)
+    b.function.loops = True
     b.emit(ir.For(counter, scalar, start, stop, step, body, s.span[0] + 1))
 
 
@@ -115,14 +116,17 @@ def _checked_for(b: Body, s: ast.For, scalar: ir.Scalar) -> None:
         ir.If(running, [ir.Store(ir.Place(first), ir.Const(ir.BOOL, 0))], [ir.Store(counter, advance)]),
         ir.If(test, [], [ir.Break()]),
     ]
+    b.function.loops = True
     b.emit(ir.While(ir.Const(ir.BOOL, 1), [*head, *body_of(b, s.body)], s.span[0] + 1))
 
 
 def _while(b: Body, s: ast.While) -> None:
+    b.function.loops = True
     b.emit(ir.While(b.value(s.condition), body_of(b, s.body), s.span[0] + 1))
 
 
 def _repeat(b: Body, s: ast.RepeatUntil) -> None:
+    b.function.loops = True
     b.emit(ir.Repeat(body_of(b, s.body), b.value(s.condition), s.condition.span[0] + 1))
 
 
