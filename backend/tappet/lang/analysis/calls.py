@@ -23,7 +23,13 @@ _PASSED = frozenset({"VAR_INPUT", "VAR_IN_OUT"})
 
 
 def call(b: Body, e: ast.Call) -> None:
-    """Resolves a call and its arguments."""
+    """Resolves and checks a call and its arguments."""
+    _resolve(b, e)
+    for check in _CALL_RULES:
+        check(b, e)
+
+
+def _resolve(b: Body, e: ast.Call) -> None:
     e.type = e.constant = e.target = e.expansion = None
     e.is_constant = e.untyped = False
     callee = e.callee
@@ -36,8 +42,6 @@ def call(b: Body, e: ast.Call) -> None:
                 callee.type = None
                 resolve(b, e, key)
                 callee.symbol = e.target
-                for check in _CALL_RULES:
-                    check(b, e)
                 return
         elif symbol.__class__ is VarSymbol and symbol.storage is Storage.RESULT:
             own = b.pou

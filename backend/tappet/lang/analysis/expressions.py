@@ -65,12 +65,8 @@ def value(b: Body, e: ast.Expr) -> Type | None:
 
 def _no_value(b: Body, e: ast.Expr, target: Symbol) -> None:
     """Reports a call without result where a value is needed."""
-    if isinstance(target, PouSymbol):
-        if target.pou is not None and target.pou.return_type is not None:
-            return  # its type is faulty, which has been reported
-        if target.kind == "FUNCTION":
-            b.report("E0432", e.span, name=target.name)
-            return
+    if isinstance(target, PouSymbol) and target.pou is not None and target.pou.return_type is not None:
+        return  # its type is faulty, which has been reported
     b.report("E0325", e.span, name=target.name)
 
 

@@ -7,7 +7,8 @@ from tappet.lang.analysis.collect import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.scope import describe
-from tappet.lang.source import Source
+from tappet.lang.attributes import attribute
+from tappet.lang.source import Scope, Source
 from tappet.lang.symbols import (
     InterfaceSymbol,
     NamespaceSymbol,
@@ -142,6 +143,7 @@ class _Views:
         self._own(pou)
         if pou.kind == "FUNCTION":
             self._result(pou, pou.name)
+            self._check_return_type(pou)
         self._vtable(pou, base)
         visible: dict[str, Symbol] = {}
         self._members(visible, pou)
@@ -221,6 +223,15 @@ class _Views:
             decl.symbol = result
         pou.result = result
         pou.locals.setdefault(name.upper(), result)
+
+    def _check_return_type(self, pou: PouSymbol) -> None:
+        """A function yields one data element (POU-03); C functions and system sources may yield none."""
+        node, source = pou.pou, pou.source
+        if node is None or node.return_type is not None or source is None:
+            return
+        external = attribute(node.attributes, "tappet_external") is not None
+        if source.scope is not Scope.LIBRARY and not external and not self.session.options.system:
+            self.session.report("E0432", source.uri, node.name_span, name=pou.name)
 
     def _vtable(self, pou: PouSymbol, base: PouSymbol | None) -> None:
         if pou.kind != "FUNCTION_BLOCK":

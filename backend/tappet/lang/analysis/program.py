@@ -26,6 +26,7 @@ _FB_INIT_FIXED = 2
 def check(session: Session, found: Collected, declarations: Declarations) -> None:
     """Runs all checks of the whole program."""
     _recursion(session, found)
+    _hidden_objects(session)
     for pou, _ in found.pous:
         _interfaces(session, pou)
         _overrides(session, pou)
@@ -33,6 +34,14 @@ def check(session: Session, found: Collected, declarations: Declarations) -> Non
     _external_types(session, found, declarations)
     for rule in PROGRAM_RULES:
         rule(session)
+
+
+def _hidden_objects(session: Session) -> None:
+    """An object of the application hides an equally named one of the POUs view (CON-09)."""
+    outer = session.levels.pous.objects
+    for key, symbol in session.levels.application.objects.items():
+        if key in outer and symbol.source is not None and symbol.span is not None:
+            session.report("W1201", symbol.source.uri, symbol.span, name=symbol.name)
 
 
 # -- recursion --------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@ from tappet.lang.rules import (
     reserved_name,
     retain_no_effect,
     shift_width,
+    string_argument_cut,
     unreachable,
     unused_variable,
 )
@@ -46,6 +47,7 @@ RULES: tuple[ModuleType, ...] = (
     reserved_name,
     retain_no_effect,
     shift_width,
+    string_argument_cut,
     unreachable,
     unused_variable,
 )
