@@ -1,0 +1,370 @@
+"""What can be written at a position.
+
+The kind of place decides: behind a dot members, behind a colon types, in a call its parameters, elsewhere
+names and keywords. Names with the attribute 'hide' do not appear (spec LDEC-144, LPRG-24, LPRG-25).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol
+from tappet.lang.attributes import attribute
+from tappet.lang.lexer import ID
+from tappet.lang.services import describe
+from tappet.lang.services.cursor import (
+    Cursor,
+    EnclosingCall,
+    chain_before,
+    cursor_at,
+    enclosing_call,
+    in_pragma,
+    operand,
+    region_at,
+)
+from tappet.lang.services.documents import Position
+from tappet.lang.services.keywords import (
+    ATTRIBUTES,
+    DECLARATION_KEYWORDS,
+    EXPRESSION_KEYWORDS,
+    FLAGS,
+    OBJECT_KEYWORDS,
+    STATEMENT_KEYWORDS,
+    STATEMENT_SNIPPETS,
+    TYPE_KEYWORDS,
+)
+from tappet.lang.services.occurrences import children
+from tappet.lang.services.operators import CONVERTIBLE, OPERATOR_HEADS
+from tappet.lang.services.resolution import (
+    Scope,
+    block_members,
+    block_of,
+    callable_pou,
+    enum_values,
+    hides_locals,
+    is_hidden,
+    is_local,
+    members,
+    resolve,
+    scope_at,
+)
+from tappet.lang.services.results import Completion, ItemKind
+from tappet.lang.services.workspace import View, Workspace
+from tappet.lang.symbols import (
+    EnumValueSymbol,
+    InterfaceSymbol,
+    NamespaceSymbol,
+    PouSymbol,
+    Symbol,
+    TypeSymbol,
+    VarSymbol,
+)
+
+_VALUE_BEFORE = frozenset(
+    [":=", "=", "<>", "(", ",", "[", "+", "-", "*", "/", "AND", "OR", "XOR", "NOT", "=>"]
+)
+_STATEMENT_BEFORE = frozenset(
+    [";", "THEN", "ELSE", "DO", "REPEAT", ":", "OF", "END_VAR", "__TRY", "__FINALLY"]
+)
+
+
+def complete(workspace: Workspace, document: str, position: Position) -> list[Completion]:
+    """The proposals at a position, best first. What is typed of a word already does not filter them."""
+    view = workspace.quick_view(document, position)
+    cursor = cursor_at(view.lexed, view.position)
+    if cursor.inside != "code":
+        if cursor.inside == "pragma" and in_pragma(cursor):
+            return [Completion(name, ItemKind.ATTRIBUTE, detail, insert=name) for name, detail in ATTRIBUTES]
+        return []
+    found = {(item.label.upper(), item.kind): item for item in reversed(list(_proposals(view, cursor)))}
+    return sorted(found.values(), key=lambda item: (item.rank, item.label.upper()))
+
+
+def _proposals(view: View, cursor: Cursor) -> Iterator[Completion]:
+    lexed = view.lexed
+    before = lexed.kinds[cursor.previous] if cursor.previous >= 0 else ""
+    scope = scope_at(view)
+    if before == ".":
+        yield from _members(view, scope, cursor)
+        return
+    region = region_at(lexed, cursor.previous)
+    previous_word = lexed.texts[cursor.previous].upper() if cursor.previous >= 0 else ""
+    if previous_word in ("EXTENDS", "IMPLEMENTS"):
+        yield from _bases(view, previous_word)
+        return
+    if _wants_type(view, cursor, region, before):
+        yield from _types(view)
+        return
+    if region == "outside":
+        yield from _keywords(OBJECT_KEYWORDS, 3)
+        return
+    if region == "head":
+        if before in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "METHOD"):
+            return
+        yield from _keywords(("EXTENDS", "IMPLEMENTS"), 3)
+        yield from _keywords(DECLARATION_KEYWORDS, 4)
+    if region in ("variables", "type") and not _in_initial_value(view, cursor):
+        words = FLAGS if previous_word.startswith("VAR") or previous_word in FLAGS else ("END_VAR", "AT")
+        yield from _keywords(words, 4)
+        return
+    yield from _code(view, scope, cursor, before, region)
+
+
+def _code(view: View, scope: Scope, cursor: Cursor, before: str, region: str) -> Iterator[Completion]:
+    """In a body: what fits the type that is expected, parameters, names, operators, keywords."""
+    call = enclosing_call(view.lexed, view.source, cursor.previous)
+    if call is not None and before in ("(", ","):
+        yield from _parameters(view, scope, call)
+    expected = _expected_type(view, scope, cursor, before, call)
+    if isinstance(expected, t.Enum):
+        yield from _enum(view, expected, 0)
+    elif isinstance(expected, t.Elementary) and expected.kind is t.Kind.BOOL:
+        yield from _keywords(("TRUE", "FALSE"), 2)
+    if before in (";", "OF", "") or before.startswith("END_"):
+        selector = _case_selector(view, scope)
+        if selector is not None:
+            yield from _enum(view, selector, 2)
+    yield from _names(scope, expected)
+    at_statement = before in _STATEMENT_BEFORE or before.startswith("END_") or before == ""
+    if at_statement and call is None:
+        for label, text, detail in STATEMENT_SNIPPETS:
+            yield Completion(label, ItemKind.SNIPPET, detail, insert=text, snippet=True, rank=6)
+        yield from _keywords(STATEMENT_KEYWORDS, 7)
+        if region == "code":
+            yield from _keywords(DECLARATION_KEYWORDS, 8)
+    elif before not in _VALUE_BEFORE:
+        yield from _keywords(STATEMENT_KEYWORDS, 7)
+    yield from _keywords(EXPRESSION_KEYWORDS, 7)
+    yield from _operators(cursor.word.upper())
+
+
+def _keywords(words: Iterable[str], rank: int) -> Iterator[Completion]:
+    for word in words:
+        yield Completion(word, ItemKind.KEYWORD, rank=rank)
+
+
+# -- members
+
+
+def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
+    start = chain_before(view.lexed, cursor.previous)
+    if start == cursor.previous:  # `.name`: the global namespace
+        for symbol in view.snapshot.analysis.scope.values():
+            if _offered(symbol):
+                yield _item(symbol, 3)
+        return
+    meaning = resolve(scope, operand(view.lexed, view.source, start, cursor.previous))
+    block = block_of(meaning.type)
+    without_locals = hides_locals(block)
+    own = block is not None and scope.block is not None and block is scope.block
+    for symbol in members(meaning).values():
+        if isinstance(symbol, (AmbiguousSymbol, QualifiedSymbol)) or is_hidden(symbol):
+            continue
+        if without_locals and is_local(symbol) and not own:
+            continue
+        yield _item(symbol, 5 if is_local(symbol) else 3)
+    if isinstance(meaning.type, t.Elementary) and meaning.type.is_integer:
+        for bit in range(8 * meaning.type.size):
+            yield Completion(str(bit), ItemKind.FIELD, "BOOL", rank=6)
+    elif isinstance(meaning.type, t.Pointer):
+        yield Completion(
+            "^", ItemKind.OPERATOR, f"{meaning.type.base or ''}", "What the pointer points to.", rank=2
+        )
+
+
+def _item(symbol: Symbol, rank: int) -> Completion:
+    pragmas: list[ast.Pragma] = []
+    if isinstance(symbol, PouSymbol) and symbol.pou is not None:
+        pragmas = symbol.pou.attributes
+    elif isinstance(symbol, TypeSymbol):
+        decl = getattr(symbol.type, "decl", None)
+        pragmas = decl.attributes if isinstance(decl, ast.TypeDecl) else []
+    return Completion(
+        symbol.name,
+        describe.kind_of(symbol),
+        describe.short(symbol),
+        describe.comment_of(symbol),
+        rank=rank,
+        deprecated=attribute(pragmas, "obsolete") is not None,
+    )
+
+
+def _offered(symbol: Symbol) -> bool:
+    return not isinstance(symbol, (AmbiguousSymbol, QualifiedSymbol)) and not is_hidden(symbol)
+
+
+# -- names
+
+
+def _names(scope: Scope, expected: t.Type | None) -> Iterator[Completion]:
+    seen: set[str] = set()
+    for key, symbol in scope.locals.items():
+        seen.add(key)
+        if symbol.name and not symbol.name.startswith("__"):
+            yield _item(symbol, _rank(symbol, expected, 3, 1))
+    for key, symbol in block_members(scope.block).items():
+        if symbol.name and key not in seen and not symbol.name.startswith("__"):
+            seen.add(key)
+            yield _item(symbol, 3)
+    if scope.block is not None and scope.block.kind == "FUNCTION_BLOCK":
+        yield Completion("THIS^", ItemKind.KEYWORD, scope.block.name, "The own instance.", rank=6)
+        if scope.block.base is not None:
+            yield Completion("SUPER^", ItemKind.KEYWORD, scope.block.base.name, "The base block.", rank=6)
+    for key, symbol in scope.snapshot.analysis.scope.items():
+        if key not in seen and _offered(symbol):
+            library = symbol.source is not None and symbol.source.library is not None
+            yield _item(symbol, _rank(symbol, expected, 6 if library else 4, 2))
+
+
+def _rank(symbol: Symbol, expected: t.Type | None, rank: int, fitting: int) -> int:
+    """What has the very type that is expected comes first."""
+    if expected is not None and isinstance(symbol, VarSymbol) and symbol.type == expected:
+        return fitting
+    return rank
+
+
+def _operators(word: str) -> Iterator[Completion]:
+    for name, (head, text) in OPERATOR_HEADS.items():
+        yield Completion(name, ItemKind.OPERATOR, head, text, rank=8)
+    if word.startswith("TO_"):
+        for target in CONVERTIBLE:
+            yield Completion(f"TO_{target}", ItemKind.OPERATOR, f"TO_{target}(IN : ANY) : {target}", rank=8)
+    source = word.partition("_")[0]
+    if "_" in word and source in CONVERTIBLE:
+        for target in CONVERTIBLE:
+            if target != source:
+                name = f"{source}_TO_{target}"
+                yield Completion(name, ItemKind.OPERATOR, f"{name}(IN : {source}) : {target}", rank=8)
+
+
+def _enum(view: View, type_: t.Enum, rank: int) -> Iterator[Completion]:
+    for value in enum_values(type_).values():
+        assert isinstance(value, EnumValueSymbol)
+        plain = view.snapshot.analysis.scope.get(value.name.upper())
+        bare = isinstance(plain, EnumValueSymbol) and plain.type is type_
+        label = value.name if bare else f"{type_.name}.{value.name}"
+        yield Completion(
+            label, ItemKind.ENUM_VALUE, f"{type_.name} = {value.number}", value.comment, rank=rank
+        )
+
+
+# -- calls
+
+
+def _parameters(view: View, scope: Scope, call: EnclosingCall) -> Iterator[Completion]:
+    pou = callable_pou(resolve(scope, call.callee))
+    if pou is None:
+        return
+    for variable in describe.pins(pou):
+        if variable.name.upper() in call.given:
+            continue
+        arrow = "=>" if variable.section == "VAR_OUTPUT" else ":="
+        yield Completion(
+            f"{variable.name} {arrow}",
+            ItemKind.PARAMETER,
+            f"{variable.section} {describe.type_as_written(variable)}",
+            variable.comment,
+            insert=f"{variable.name} {arrow} ",
+            rank=1 if variable.section != "VAR_OUTPUT" else 2,
+        )
+
+
+def _expected_type(
+    view: View, scope: Scope, cursor: Cursor, before: str, call: EnclosingCall | None
+) -> t.Type | None:
+    """The type that the place wants, as far as the tokens before it tell."""
+    lexed = view.lexed
+    if before in ("IF", "ELSIF", "WHILE", "UNTIL"):
+        return t.BOOL
+    if before not in (":=", "=", "<>"):
+        return None
+    name = cursor.previous - 1
+    if before == ":=" and call is not None and name > call.opening and lexed.kinds[name] is ID:
+        pou = callable_pou(resolve(scope, call.callee))
+        if pou is not None:
+            for variable in describe.pins(pou):
+                if variable.name.upper() == lexed.texts[name].upper():
+                    return variable.type
+            return None
+    start = chain_before(lexed, cursor.previous)
+    return resolve(scope, operand(lexed, view.source, start, cursor.previous)).type
+
+
+def _case_selector(view: View, scope: Scope) -> t.Enum | None:
+    """The enumeration that the innermost CASE around the position selects by."""
+    position = view.position
+    found: ast.Case | None = None
+    node: ast.Node | None = view.unit
+    while node is not None:
+        inner: ast.Node | None = None
+        for child in children(node):
+            span = child.span
+            if (span.line, span.column) <= position <= (span.end_line, span.end_column):
+                inner = child
+        if isinstance(inner, ast.Case):
+            found = inner
+        node = inner
+    if found is None:
+        return None
+    type_ = resolve(scope, found.selector).type
+    return type_ if isinstance(type_, t.Enum) else None
+
+
+# -- types
+
+
+def _wants_type(view: View, cursor: Cursor, region: str, before: str) -> bool:
+    lexed = view.lexed
+    at = cursor.previous
+    if before == "TO":
+        return at > 0 and lexed.kinds[at - 1] in ("POINTER", "REFERENCE")
+    if before == "OF":
+        return at > 0 and lexed.kinds[at - 1] == "]" and region in ("variables", "type", "head")
+    return before == ":" and region in ("variables", "type", "head")
+
+
+def _in_initial_value(view: View, cursor: Cursor) -> bool:
+    """Whether the place belongs to the value behind ':=' of a declaration."""
+    for at in range(cursor.previous, -1, -1):
+        kind = view.lexed.kinds[at]
+        if kind == ":=":
+            return True
+        if kind in (";", ":") or kind.startswith(("VAR", "END_")) or kind in ("STRUCT", "UNION", "TYPE"):
+            return kind == ":" and view.lexed.kinds[cursor.previous] in ("[", "..", "(")
+    return False
+
+
+def _types(view: View) -> Iterator[Completion]:
+    for symbol in view.snapshot.analysis.scope.values():
+        if not _offered(symbol):
+            continue
+        library = symbol.source is not None and symbol.source.library is not None
+        block = isinstance(symbol, PouSymbol) and symbol.kind == "FUNCTION_BLOCK"
+        if block or isinstance(symbol, (TypeSymbol, InterfaceSymbol)):
+            yield _item(symbol, 4 if library else 3)
+        elif isinstance(symbol, NamespaceSymbol):
+            yield _item(symbol, 6)
+    for name in sorted({type_.name for type_ in t.ELEMENTARY.values()} | {"TOD", "DT", "STRING", "WSTRING"}):
+        if not name.startswith("__"):
+            yield Completion(name, ItemKind.TYPE, "elementary", rank=2)
+    for label, text in TYPE_KEYWORDS:
+        yield Completion(label, ItemKind.KEYWORD, insert=text, snippet=True, rank=5)
+
+
+def _bases(view: View, word: str) -> Iterator[Completion]:
+    """Blocks, interfaces or structures, by the word and by what is being declared."""
+    heads = [k for k in view.lexed.kinds if k in ("FUNCTION_BLOCK", "INTERFACE", "TYPE")]
+    head = heads[0] if heads else "FUNCTION_BLOCK"
+    for symbol in view.snapshot.analysis.scope.values():
+        if isinstance(symbol, InterfaceSymbol):
+            fits = word == "IMPLEMENTS" or head == "INTERFACE"
+        elif isinstance(symbol, PouSymbol):
+            fits = word == "EXTENDS" and head == "FUNCTION_BLOCK" and symbol.kind == "FUNCTION_BLOCK"
+        elif isinstance(symbol, TypeSymbol):
+            fits = word == "EXTENDS" and head == "TYPE" and isinstance(symbol.type, t.Struct)
+        else:
+            fits = isinstance(symbol, NamespaceSymbol)
+        if fits and _offered(symbol):
+            yield _item(symbol, 3)

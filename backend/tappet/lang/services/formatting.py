@@ -1,0 +1,338 @@
+"""Indentation, blanks and the case of keywords. Line breaks, comments and the order of tokens stay.
+
+Alignment inside declarations is kept: blanks are added where they are missing there, never taken away.
+Source: spec LDEC-17 (keywords in upper case).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tappet.lang.lexer import END, ID, INT, KEYWORDS, NUMBER, STRING, Lexed, Trivia, lex
+from tappet.lang.parser_core import SECTIONS
+from tappet.lang.services.documents import Place
+from tappet.lang.services.results import Edit
+from tappet.lang.source import Span
+from tappet.lang.types import ELEMENTARY
+
+_TYPE_NAMES = frozenset(ELEMENTARY) | {"STRING", "WSTRING"}
+_INDENTING = frozenset(["IF", "CASE", "FOR", "WHILE", "REPEAT", "__TRY", "STRUCT", "UNION"]) | SECTIONS
+_CLOSED_BY = {
+    "END_IF": "IF",
+    "END_CASE": "CASE",
+    "END_FOR": "FOR",
+    "END_WHILE": "WHILE",
+    "END_REPEAT": "REPEAT",
+    "__ENDTRY": "__TRY",
+    "END_STRUCT": "STRUCT",
+    "END_UNION": "UNION",
+}
+_BRANCH = {
+    "ELSE": ("IF", "CASE"),
+    "ELSIF": ("IF",),
+    "UNTIL": ("REPEAT",),
+    "__CATCH": ("__TRY",),
+    "__FINALLY": ("__TRY",),
+}
+_LAST_BRANCH = "CASE ELSE"
+"""Stands for a CASE in its ELSE, where nothing is a label."""
+_BEGINS_STATEMENT = frozenset([";", "THEN", "ELSE", "DO", "REPEAT", "END_VAR", "__TRY", "__FINALLY"]) | set(
+    _CLOSED_BY
+)
+_HEADS = frozenset(
+    [
+        "PROGRAM",
+        "FUNCTION",
+        "FUNCTION_BLOCK",
+        "METHOD",
+        "ACTION",
+        "TRANSITION",
+        "PROPERTY",
+        "INTERFACE",
+        "TYPE",
+    ]
+)
+_FLAGS = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"])
+_NO_BLANK_BEFORE = frozenset([";", ",", ")", "]", ".", "^", ".."])
+_NO_BLANK_AFTER = frozenset(["(", "[", ".", ".."])
+_BINARY = frozenset([":=", "=>", "=", "<>", "<", ">", "<=", ">=", "+", "-", "*", "/", "**", "&"])
+_OPERAND_END = frozenset(
+    [ID, INT, NUMBER, STRING, "address", ")", "]", "^", "TRUE", "FALSE", "THIS", "SUPER", "NULL"]
+)
+_LABEL_PARTS = frozenset([ID, INT, NUMBER, STRING, ".", ",", "..", "-", "+", "*", "(", ")", "TRUE", "FALSE"])
+
+
+@dataclass(slots=True)
+class _Piece:
+    """A token or trivia as it stands in the text."""
+
+    kind: str
+    text: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    index: int
+    """Of the token; -1 for trivia."""
+
+
+def format_text(text: str, indent: str = "    ") -> str:
+    """The text of a document, formatted; unchanged when a comment or string in it is not closed."""
+    lexed = lex(text, "")
+    if lexed.unclosed_comment or any(d.code in ("E0003", "E0004") for d in lexed.diagnostics):
+        return text
+    return _Formatter(text, lexed, indent).run()
+
+
+def formatting(document: str, text: str, indent: str = "    ") -> list[Edit]:
+    """The edits that format a document, one for each line that changes."""
+    before, after = text.split("\n"), format_text(text, indent).split("\n")
+    return [
+        Edit(Place(document, Span(number, 0, number, len(old))), new)
+        for number, (old, new) in enumerate(zip(before, after, strict=True))
+        if old != new
+    ]
+
+
+class _Formatter:
+    def __init__(self, text: str, lexed: Lexed, indent: str) -> None:
+        self.lexed = lexed
+        self.indent = indent
+        self.lines = text.split("\n")
+        self.stack: list[str] = []
+        """Open constructs; 'label' stands for the branch of a CASE that has begun."""
+        self.at_start = True
+        """Whether the next token begins a statement or declaration."""
+        self.statement_shift = 0
+        self.depth = 0
+        """Open parentheses and brackets."""
+
+    def run(self) -> str:
+        by_line: dict[int, list[_Piece]] = {}
+        covered: set[int] = set()
+        for piece in self.pieces():
+            by_line.setdefault(piece.line, []).append(piece)
+            covered.update(range(piece.line + 1, piece.end_line + 1))
+        out: list[str] = []
+        for number, line in enumerate(self.lines):
+            found = by_line.get(number)
+            if found and number in covered:  # behind the end of a comment of several lines
+                for piece in found:
+                    self.advance(piece)
+                out.append(line.rstrip())
+            elif found:
+                out.append(self.line(found, line))
+            else:
+                out.append(line if number in covered else "")
+        return "\n".join(line.rstrip() if n not in covered else line for n, line in enumerate(out))
+
+    def pieces(self) -> list[_Piece]:
+        lexed = self.lexed
+        found: list[_Piece] = []
+        for index, kind in enumerate(lexed.kinds):
+            found.extend(_trivia(item) for item in lexed.trivia.get(index, ()))
+            if kind is not END:
+                line, column, text = lexed.lines[index], lexed.columns[index], lexed.texts[index]
+                found.append(_Piece(kind, text, line, column, line, column + len(text), index))
+        return found
+
+    # -- one line
+
+    def line(self, pieces: list[_Piece], original: str) -> str:
+        first = pieces[0]
+        width = self.leading(first)
+        own = len(original) - len(original.lstrip())
+        old = len(original[:own].expandtabs(4))
+        if first.index < 0 or self.at_start or first.kind in _CLOSED_BY or first.kind == "END_VAR":
+            lead = self.indent * width
+            self.statement_shift = len(lead.expandtabs(4)) - old
+        else:  # goes on from the line before: keep how it stands to it
+            lead = " " * max(old + self.statement_shift, 0)
+        text = lead
+        previous: _Piece | None = None
+        for piece in pieces:
+            if previous is not None:
+                text += self.gap(previous, piece, original)
+            text += self.cased(piece)
+            self.advance(piece)
+            previous = piece
+        return text
+
+    def leading(self, piece: _Piece) -> int:
+        """Levels of indentation of a line that begins with `piece`."""
+        stack = self.stack
+        kind = piece.kind
+        level = len(stack)
+        if kind == "END_VAR":
+            return max(level - 1, 0) if stack and stack[-1] in SECTIONS else level
+        if kind in _CLOSED_BY:
+            opener = _CLOSED_BY[kind]
+            for depth in range(len(stack) - 1, -1, -1):
+                if _closes(stack[depth], opener):
+                    return depth
+            return level
+        if kind in _BRANCH:
+            for depth in range(len(stack) - 1, -1, -1):
+                if stack[depth] in _BRANCH[kind]:
+                    return depth
+            return level
+        if kind in _HEADS or kind in ("END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TYPE"):
+            return 0
+        if self.is_label(piece) and stack[-1] == "label":
+            return level - 1
+        if piece.index < 0 and stack and stack[-1] == "label" and self.next_is_label(piece):
+            return level - 1
+        return level
+
+    def is_label(self, piece: _Piece) -> bool:
+        """Whether `piece` begins the label of a CASE branch."""
+        stack = self.stack
+        if piece.index < 0 or not self.at_start or not stack or stack[-1] not in ("CASE", "label"):
+            return False
+        kinds = self.lexed.kinds
+        index = piece.index
+        while kinds[index] in _LABEL_PARTS:
+            index += 1
+        return index > piece.index and kinds[index] == ":"
+
+    def next_is_label(self, piece: _Piece) -> bool:
+        """Whether the token behind a comment begins a label: the comment belongs to it then."""
+        lexed = self.lexed
+        for index, kind in enumerate(lexed.kinds):
+            if (lexed.lines[index], lexed.columns[index]) > (piece.line, piece.column):
+                if kind in ("END_CASE", "ELSE"):
+                    return False
+                token = _Piece(kind, "", 0, 0, 0, 0, index)
+                return kind is not END and self.is_label(token)
+        return False
+
+    # -- state
+
+    def advance(self, piece: _Piece) -> None:
+        """Take note of a token."""
+        if piece.index < 0:
+            return
+        kind, stack = piece.kind, self.stack
+        if self.is_label(piece) and stack[-1] == "CASE":
+            stack.append("label")
+        if kind in ("(", "["):
+            self.depth += 1
+        elif kind in (")", "]"):
+            self.depth = max(self.depth - 1, 0)
+        elif kind in SECTIONS:
+            self.close_to(None)
+            stack.append(kind)
+            self.depth = 0
+        elif kind == "END_VAR":
+            if stack and stack[-1] in SECTIONS:
+                stack.pop()
+        elif kind in _CLOSED_BY:
+            self.close_to(_CLOSED_BY[kind])
+            self.depth = 0
+        elif kind == "ELSE" and stack and stack[-1] in ("CASE", "label"):
+            if stack[-1] == "label":
+                stack.pop()
+            stack[-1] = _LAST_BRANCH
+        elif kind in _INDENTING:
+            stack.append(kind)
+        elif kind in _HEADS:
+            self.close_to(None)
+            self.depth = 0
+        self.at_start = self.starts(piece)
+
+    def starts(self, piece: _Piece) -> bool:
+        """Whether a statement or declaration begins behind `piece`."""
+        kind, stack = piece.kind, self.stack
+        if self.depth:
+            return False
+        if kind in _BEGINS_STATEMENT or kind in SECTIONS or kind in ("STRUCT", "UNION"):
+            return True
+        if kind in _FLAGS:
+            return bool(stack) and stack[-1] in SECTIONS
+        if kind == "OF":
+            return bool(stack) and stack[-1] == "CASE"
+        if kind == ":":
+            return bool(stack) and stack[-1] == "label"
+        kinds = self.lexed.kinds
+        following = kinds[piece.index + 1]
+        if following in SECTIONS or following in _HEADS:
+            return True
+        return not stack and self.lexed.lines[piece.index + 1] != piece.line and self.in_head(piece.index)
+
+    def in_head(self, index: int) -> bool:
+        """Whether the line of a token begins with the head of an object; the next line begins a new thing."""
+        lexed = self.lexed
+        line = lexed.lines[index]
+        while index and lexed.lines[index - 1] == line:
+            index -= 1
+        kind, word = lexed.kinds[index], lexed.texts[index].upper()
+        return kind in _HEADS or kind.startswith("END_") or word in ("GET", "SET")
+
+    def close_to(self, opener: str | None) -> None:
+        """Leave constructs up to and with the innermost `opener`; None: all of them."""
+        if opener is None:
+            self.stack.clear()
+        elif any(_closes(entry, opener) for entry in self.stack):
+            while not _closes(self.stack.pop(), opener):
+                pass
+
+    # -- blanks
+
+    def gap(self, left: _Piece, right: _Piece, original: str) -> str:
+        """What stands between two pieces of a line."""
+        written = original[left.end_column : right.column] if left.end_line == left.line else ""
+        if left.index < 0 or right.index < 0:
+            return written.expandtabs(4) if written else (" " if right.index < 0 else "")
+        wanted = self.blank(left, right, bool(written))
+        if written and not wanted and lex(left.text + right.text, "").texts[:2] != [left.text, right.text]:
+            return " "  # together they would be another token
+        if self.stack and self.declaring() and len(written) > len(wanted) and right.kind not in (";", ","):
+            return written.expandtabs(4)
+        return wanted
+
+    def blank(self, left: _Piece, right: _Piece, written: bool) -> str:
+        a, b = left.kind, right.kind
+        keep = " " if written else ""
+        if a == ":" and b == ";":
+            return " "
+        if a in _NO_BLANK_AFTER or b in _NO_BLANK_BEFORE:
+            return ""
+        if b == "(" or b == "[":
+            if a in _OPERAND_END:
+                return keep if a is ID and b == "(" and left.text.upper() in _TYPE_NAMES else ""
+            return keep if a in KEYWORDS else " " if a in _BINARY else keep
+        if b == ":":
+            return keep if self.declaring() else ""
+        if a == "-" or a == "+":
+            return "" if self.is_sign(left) else " "
+        return " "
+
+    def is_sign(self, piece: _Piece) -> bool:
+        """Whether `-` or `+` stands before its only operand."""
+        return piece.index == 0 or self.lexed.kinds[piece.index - 1] not in _OPERAND_END
+
+    def cased(self, piece: _Piece) -> str:
+        """Keywords in upper case, elementary types where a type stands."""
+        text = piece.text
+        if piece.index < 0:
+            return text.split("\n", 1)[0].rstrip("\r")  # the other lines of a comment stay as they are
+        if piece.kind in KEYWORDS:
+            behind_dot = piece.index > 0 and self.lexed.kinds[piece.index - 1] == "."
+            is_name = self.lexed.kinds[piece.index + 1] in (":=", "=>") and self.depth > 0
+            return text if behind_dot or is_name else text.upper()
+        behind = self.lexed.kinds[piece.index - 1] if piece.index else ""
+        is_type = piece.kind is ID and behind in (":", "OF", "TO") and self.declaring()
+        return text.upper() if is_type and text.upper() in _TYPE_NAMES else text
+
+    def declaring(self) -> bool:
+        """Whether declarations stand here, not statements."""
+        return not self.stack or self.stack[-1] in SECTIONS or self.stack[-1] in ("STRUCT", "UNION")
+
+
+def _closes(entry: str, opener: str) -> bool:
+    return entry == opener or (entry == _LAST_BRANCH and opener == "CASE")
+
+
+def _trivia(item: Trivia) -> _Piece:
+    span = item.span
+    return _Piece(item.kind, item.text, span.line, span.column, span.end_line, span.end_column, -1)

@@ -1,0 +1,61 @@
+"""Words that completion proposes, by the place they fit."""
+
+from __future__ import annotations
+
+from typing import Final
+
+OBJECT_KEYWORDS: Final = (
+    "PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "METHOD", "PROPERTY", "ACTION", "INTERFACE", "TYPE",
+    "VAR_GLOBAL", "VAR_CONFIG",
+)  # fmt: skip
+DECLARATION_KEYWORDS: Final = (
+    "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_STAT", "VAR_EXTERNAL", "VAR_INST",
+)  # fmt: skip
+FLAGS: Final = ("CONSTANT", "RETAIN", "PERSISTENT")
+STATEMENT_KEYWORDS: Final = (
+    "IF", "THEN", "ELSIF", "ELSE", "END_IF", "CASE", "OF", "END_CASE", "FOR", "TO", "BY", "DO", "END_FOR",
+    "WHILE", "END_WHILE", "REPEAT", "UNTIL", "END_REPEAT", "EXIT", "CONTINUE", "RETURN", "JMP",
+)  # fmt: skip
+EXPRESSION_KEYWORDS: Final = ("AND", "OR", "XOR", "NOT", "MOD", "AND_THEN", "OR_ELSE", "TRUE", "FALSE")
+STATEMENT_SNIPPETS: Final = (
+    ("IF ... END_IF", "IF ${1:condition} THEN\n    $0\nEND_IF", "branch"),
+    (
+        "IF ... ELSE ... END_IF",
+        "IF ${1:condition} THEN\n    $2\nELSE\n    $0\nEND_IF",
+        "branch with alternative",
+    ),
+    ("CASE ... END_CASE", "CASE ${1:selector} OF\n    ${2:1}: $0\nEND_CASE", "selection"),
+    ("FOR ... END_FOR", "FOR ${1:i} := ${2:0} TO ${3:9} DO\n    $0\nEND_FOR", "counted loop"),
+    ("WHILE ... END_WHILE", "WHILE ${1:condition} DO\n    $0\nEND_WHILE", "loop while"),
+    ("REPEAT ... END_REPEAT", "REPEAT\n    $0\nUNTIL ${1:condition}\nEND_REPEAT", "loop until"),
+)
+"""Label, text with places to fill, explanation."""
+TYPE_KEYWORDS: Final = (
+    ("ARRAY", "ARRAY[${1:0}..${2:9}] OF $0"),
+    ("POINTER TO", "POINTER TO $0"),
+    ("REFERENCE TO", "REFERENCE TO $0"),
+    ("STRING(n)", "STRING(${1:80})"),
+)
+ATTRIBUTES: Final = (
+    ("call_after_init", "method: call it after the initialisation"),
+    ("displaymode", "variable: number format of its monitored value, 'hex', 'bin' or 'dec'"),
+    ("enable_dynamic_creation", "function block: __NEW may create it"),
+    ("global_init_slot", "list: order of initialisation, lower is earlier"),
+    ("hide", "not shown in lists of components"),
+    ("hide_all_locals", "locals are not shown in lists of components"),
+    ("init_on_onlchange", "variable: initialised at every online change"),
+    ("initialize_on_call", "input: initialised at every call"),
+    ("instance-path", "STRING: initialised with the path of the instance"),
+    ("linkalways", "compiled and downloaded even if nothing calls it"),
+    ("monitoring", "property: 'variable' or 'call'"),
+    ("no_check", "POU: without the implicit check functions"),
+    ("no_copy", "variable: not copied at an online change"),
+    ("no_init", "variable: keeps its value over a reset"),
+    ("obsolete", "every use gives a warning with the text of the value"),
+    ("pack_mode", "structure: largest gap between members, '0', '1', '2', '4' or '8'"),
+    ("qualified_only", "list or enumeration: members only with its name in front"),
+    ("reflection", "POU: has variables with 'instance-path'"),
+    ("strict", "enumeration: no integers, no arithmetic"),
+    ("symbol", "exported variable: 'none', 'read', 'write' or 'readwrite'"),
+)
+"""Attributes the product knows (spec LPRG-21..LPRG-45), with what they do."""

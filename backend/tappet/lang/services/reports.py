@@ -1,0 +1,42 @@
+"""The messages of a document, at their places in it."""
+
+from __future__ import annotations
+
+from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.services.results import RelatedReport, Report
+from tappet.lang.services.workspace import Snapshot
+
+MAX_PER_DOCUMENT = 500
+"""An editor shows no more; a text with more has one mistake that makes the others."""
+
+
+def reports(snapshot: Snapshot) -> dict[str, list[Report]]:
+    """All messages of a program by document, libraries left out; without an entry a document has none."""
+    found: dict[str, list[Report]] = {}
+    for diagnostic in snapshot.diagnostics:
+        text = snapshot.text_of(diagnostic.uri)
+        if text is None or text.read_only:
+            continue
+        place = text.place(diagnostic.span)
+        entries = found.setdefault(place.document, [])
+        if len(entries) < MAX_PER_DOCUMENT:
+            entries.append(
+                Report(
+                    place.span,
+                    diagnostic.code,
+                    diagnostic.severity,
+                    diagnostic.message,
+                    diagnostic.advice,
+                    tuple(_related(snapshot, diagnostic)),
+                )
+            )
+    return found
+
+
+def _related(snapshot: Snapshot, diagnostic: Diagnostic) -> list[RelatedReport]:
+    found = []
+    for item in diagnostic.related:
+        place = snapshot.place(item.uri, item.span)
+        if place is not None:
+            found.append(RelatedReport(place, item.message))
+    return found

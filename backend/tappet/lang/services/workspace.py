@@ -1,0 +1,234 @@
+"""The documents of one project with their unsaved texts, and the checked programs they make.
+
+`Workspace` keeps what was parsed and analyses again only when a text has changed. A `Snapshot` is what one
+analysis knows; every service works on one. One thread at a time may use a workspace.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
+
+from tappet.lang import ast
+from tappet.lang.analysis import Analysis, AnalysisOptions, analyse
+from tappet.lang.conditional import ParseOptions, parse_sources
+from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.lexer import Lexed, lex
+from tappet.lang.parser import ParseResult
+from tappet.lang.services.documents import Place, Position, Program, Programs, Text
+from tappet.lang.services.results import ServiceError
+from tappet.lang.source import Source, Span
+from tappet.lang.symbols import InterfaceSymbol, PouSymbol
+
+SLOW_S = 0.15
+"""From here on, an analysis is too slow to be repeated at every key; completion then uses the last one."""
+
+
+class View:
+    """A text with its tokens, its tree and a position in it: where a service starts."""
+
+    def __init__(
+        self, snapshot: Snapshot, index: int, text: Text, result: ParseResult, position: Position
+    ) -> None:
+        self.snapshot = snapshot
+        self.index = index
+        """Number of the text in the program."""
+        self.text = text
+        self.result = result
+        self.position = position
+
+    @property
+    def source(self) -> Source:
+        """The text for the compiler."""
+        return self.text.source
+
+    @property
+    def unit(self) -> ast.Unit:
+        """Its tree."""
+        return self.result.unit
+
+    @cached_property
+    def lexed(self) -> Lexed:
+        """Its tokens."""
+        return lex(self.source.text, self.source.uri)
+
+    def place(self, span: Span) -> Place:
+        """A range of the text in its document."""
+        return self.text.place(span)
+
+
+class Snapshot:
+    """One analysis of one program."""
+
+    def __init__(self, program: Program, results: list[ParseResult], analysis: Analysis) -> None:
+        self.program = program
+        self.results = results
+        self.analysis = analysis
+        self.derived: dict[str, Any] = {}
+        """What services have worked out and keep for their next request."""
+        self._by_source: dict[str, int] = {}
+        self._by_document: dict[str, int] = {}
+        for index, text in enumerate(program.texts):
+            self._by_source.setdefault(text.source.uri, index)
+            for segment in text.segments:
+                self._by_document.setdefault(segment.document, index)
+
+    def shows(self, document: str) -> bool:
+        """Whether a document is part of the program."""
+        return document in self._by_document
+
+    def documents(self) -> Iterator[str]:
+        """All documents of the program."""
+        return iter(self._by_document)
+
+    def view(self, document: str, position: Position) -> View:
+        """What stands at a position of a document. Raises ServiceError for a document of another program."""
+        index = self._by_document.get(document)
+        if index is None:
+            raise ServiceError(f"'{document}' is no document of {self.program.name}")
+        text = self.program.texts[index]
+        inside = text.position(document, position)
+        assert inside is not None
+        return View(self, index, text, self.results[index], inside)
+
+    def place(self, source_uri: str, span: Span) -> Place | None:
+        """A range of a source in its document."""
+        index = self._by_source.get(source_uri)
+        return None if index is None else self.program.texts[index].place(span)
+
+    def text_of(self, source_uri: str) -> Text | None:
+        """The text with this source uri."""
+        index = self._by_source.get(source_uri)
+        return None if index is None else self.program.texts[index]
+
+    def units(self) -> Iterator[tuple[Text, ast.Unit]]:
+        """Every text with its tree."""
+        for text, result in zip(self.program.texts, self.results, strict=True):
+            yield text, result.unit
+
+    @cached_property
+    def diagnostics(self) -> list[Diagnostic]:
+        """All messages, those of the parser first."""
+        found = [item for result in self.results for item in result.diagnostics]
+        return found + self.analysis.diagnostics
+
+    @cached_property
+    def pous(self) -> dict[str, PouSymbol]:
+        """Programs, functions, blocks, and `BLOCK.METHOD`, by upper-case name."""
+        found: dict[str, PouSymbol] = {}
+        for pou in self.analysis.pous:
+            found.setdefault(pou.qualified_name.upper(), pou)
+            for child in (*pou.methods.values(), *pou.actions.values()):
+                found.setdefault(f"{pou.name}.{child.name}".upper(), child)
+            for property_ in pou.properties.values():
+                for accessor in (property_.getter, property_.setter):
+                    if accessor is not None:
+                        found.setdefault(f"{pou.name}.{accessor.name}".upper(), accessor)
+        for interface in self.analysis.interfaces.values():
+            for method in interface.methods.values():
+                found.setdefault(f"{interface.name}.{method.name}".upper(), method)
+        return found
+
+    @cached_property
+    def interfaces(self) -> dict[str, InterfaceSymbol]:
+        """Interfaces by upper-case name."""
+        return {name.upper(): symbol for name, symbol in self.analysis.interfaces.items()}
+
+
+class Workspace:
+    """The programs of a project and the documents open in an editor."""
+
+    def __init__(self, programs: Programs, options: AnalysisOptions | None = None) -> None:
+        self._programs = programs
+        self._options = options or AnalysisOptions()
+        self._unsaved: dict[str, str] = {}
+        self._parsed: dict[str, dict[Source, ParseResult]] = {}
+        self._snapshots: dict[str, Snapshot] = {}
+        self._seconds: dict[str, float] = {}
+        self._composed: list[Program] | None = None
+        self.generation = 0
+        """Grows with every change."""
+        self._analysed: dict[str, int] = {}
+
+    # -- documents
+
+    def open(self, document: str, text: str) -> None:
+        """Use `text` for a document until it is closed."""
+        if self._unsaved.get(document) != text:
+            self._unsaved[document] = text
+            self.refresh()
+
+    def close(self, document: str) -> None:
+        """Use the stored text of a document again."""
+        if self._unsaved.pop(document, None) is not None:
+            self.refresh()
+
+    def is_open(self, document: str) -> bool:
+        """Whether a text of the editor stands for a document."""
+        return document in self._unsaved
+
+    def unsaved(self, document: str) -> str | None:
+        """The text of the editor for a document."""
+        return self._unsaved.get(document)
+
+    def refresh(self) -> None:
+        """Something has changed: compose the programs anew at the next request."""
+        self.generation += 1
+        self._composed = None
+
+    # -- programs
+
+    def programs(self) -> list[Program]:
+        """The programs with all unsaved texts in them."""
+        if self._composed is None:
+            self._composed = list(self._programs(self._unsaved))
+        return self._composed
+
+    def program_of(self, document: str) -> Program:
+        """The first program that shows a document. Raises ServiceError when none does."""
+        for program in self.programs():
+            if any(segment.document == document for text in program.texts for segment in text.segments):
+                return program
+        raise ServiceError(f"'{document}' belongs to no application; it is not compiled")
+
+    def snapshot(self, document: str) -> Snapshot:
+        """The analysis of the program that shows a document, of the texts as they are now."""
+        return self._analyse(self.program_of(document))
+
+    def snapshots(self) -> list[Snapshot]:
+        """The analyses of all programs."""
+        return [self._analyse(program) for program in self.programs()]
+
+    def quick_view(self, document: str, position: Position) -> View:
+        """What stands at a position now, with symbols of the last analysis if a new one would take long."""
+        program = self.program_of(document)
+        last = self._snapshots.get(program.name)
+        slow = self._seconds.get(program.name, 0.0) > SLOW_S
+        if last is None or not slow or self._analysed.get(program.name) == self.generation:
+            return self._analyse(program).view(document, position)
+        for index, text in enumerate(program.texts):
+            inside = text.position(document, position)
+            if inside is not None:
+                (result,) = parse_sources([text.source])
+                return View(last, index, text, result, inside)
+        raise AssertionError(document)
+
+    def _analyse(self, program: Program) -> Snapshot:
+        if self._analysed.get(program.name) == self.generation:
+            return self._snapshots[program.name]
+        started = time.perf_counter()
+        sources = [text.source for text in program.texts]
+        plain = self._parsed.get(program.name, {})
+        options = ParseOptions(defines=program.defines, tasks=program.tasks)
+        results = parse_sources(sources, options, plain=plain)
+        self._parsed[program.name] = dict(zip(sources, results, strict=True))
+        last = self._snapshots.get(program.name)
+        previous = last.analysis if last is not None else None
+        analysis = analyse([result.unit for result in results], self._options, previous)
+        snapshot = Snapshot(program, results, analysis)
+        self._snapshots[program.name] = snapshot
+        self._analysed[program.name] = self.generation
+        self._seconds[program.name] = time.perf_counter() - started
+        return snapshot
