@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.project import edit
+from tappet.project.data import TaskData
 from tappet.project.errors import (
     InvalidDataError,
     InvalidNameError,
@@ -13,7 +14,7 @@ from tappet.project.errors import (
     ProjectError,
     UnknownObjectError,
 )
-from tappet.project.model import Project, ProjectObject, TaskData, make_object, new_id
+from tappet.project.model import Project, ProjectObject, make_object, new_id
 from tappet.project.placement import RULES, PlacementRule, check_project, check_spelling, proposed_name
 from tappet.project.templates import new_project
 

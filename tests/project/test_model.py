@@ -3,16 +3,9 @@
 import pytest
 from pydantic import TypeAdapter
 
+from tappet.project.data import UnknownData
 from tappet.project.errors import InvalidDataError, UnknownObjectError
-from tappet.project.model import (
-    KIND_CLASSES,
-    Project,
-    ProjectObject,
-    UnknownData,
-    changed_object,
-    make_object,
-    new_id,
-)
+from tappet.project.model import KIND_CLASSES, Project, ProjectObject, changed_object, make_object, new_id
 from tappet.project.templates import new_project
 
 

@@ -9,21 +9,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from tappet.project.data import Data
+from tappet.project.data import Data, DeclarationData, MethodData, PouData, TaskData, UnknownData
 from tappet.project.declaration_text import rename_header
 from tappet.project.errors import NotPlaceableError
-from tappet.project.model import (
-    DeclarationData,
-    MethodData,
-    PouData,
-    Project,
-    ProjectObject,
-    TaskData,
-    UnknownData,
-    changed_object,
-    make_object,
-    new_id,
-)
+from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
 from tappet.project.naming import name_key, normal_name, unique_name
 from tappet.project.placement import (
     RULES,

@@ -5,7 +5,6 @@ Everything here is a frozen value. `edit` makes changed projects from it; `place
 
 from __future__ import annotations
 
-import json
 import uuid
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -14,188 +13,32 @@ from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
 from pydantic import (
-    AfterValidator,
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Discriminator,
     Field,
-    StrictBool,
     StrictInt,
     Tag,
     TypeAdapter,
     ValidationError,
-    model_validator,
 )
 
-from tappet.project.data import Data
+from tappet.project.data import (
+    AccessorData,
+    ActionData,
+    DeclarationData,
+    DeviceData,
+    LibraryManagerData,
+    MethodData,
+    NoData,
+    PouData,
+    TaskData,
+    UnknownData,
+)
 from tappet.project.declaration_text import subkind_of
-from tappet.project.durations import duration_ns
-from tappet.project.errors import InvalidDataError, InvalidTimeError, UnknownObjectError
+from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.naming import name_key
 from tappet.project.scene import Scene
-
-MAX_TEXT = 16 * 1024 * 1024
-"""Characters in one text of an object; more is no source but a data file."""
-
-
-def _clean_text(text: str) -> str:
-    """The text without byte order mark and with line feeds as the only line breaks.
-
-    NUL is refused: no database keeps it.
-    """
-    text = text.lstrip("\ufeff")
-    if "\r" in text:
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-    position = text.find("\x00")
-    if position >= 0:
-        line = text.count("\n", 0, position) + 1
-        raise ValueError(f"line {line} contains the character U+0000, which no text can hold")
-    return text
-
-
-def _clean_time(text: str) -> str:
-    try:
-        duration_ns(text)
-    except InvalidTimeError as error:
-        raise ValueError(str(error)) from None
-    return text.strip()
-
-
-def _microseconds_as_text(value: object) -> object:
-    return str(value) if isinstance(value, int) and not isinstance(value, bool) and value >= 0 else value
-
-
-Text = Annotated[str, Field(max_length=MAX_TEXT), AfterValidator(_clean_text)]
-Line = Annotated[str, Field(max_length=4000), AfterValidator(_clean_text)]
-Duration = Annotated[str, BeforeValidator(_microseconds_as_text), AfterValidator(_clean_time)]
-"""A TIME literal (`T#20ms`) or a number of microseconds as text (`300`); TASK-17."""
-Language = Literal["ST"]
-
-
-class NoData(Data):
-    """Data of objects that are nothing but a place in the tree."""
-
-
-class DeviceData(Data):
-    """A device of the Devices view (CON-01)."""
-
-    device_type: Line = Field(
-        default="tappet.softplc", description="Device description that this device follows."
-    )
-    runtime_id: Line | None = Field(
-        default=None, description="Runtime that the active path leads to (COM-10)."
-    )
-    simulated: StrictBool = Field(
-        default=False, description="Run in the simulation instead of the runtime (ONL-08)."
-    )
-    description: Text = ""
-
-
-class BodyData(Data):
-    """A declaration and its implementation, edited apart and compiled together."""
-
-    declaration: Text = ""
-    implementation: Text = ""
-    language: Language = "ST"
-
-
-class PouData(BodyData):
-    """PROGRAM, FUNCTION_BLOCK or FUNCTION: the declaration says which (POU-01)."""
-
-
-class MethodData(BodyData):
-    """METHOD of a function block, a program or an interface (POU-09)."""
-
-
-class AccessorData(BodyData):
-    """Get or Set of a property; the declaration holds local variables only."""
-
-
-class ActionData(Data):
-    """ACTION: a further body that works on the variables of its POU (POU-08)."""
-
-    implementation: Text = ""
-    language: Language = "ST"
-
-
-class DeclarationData(Data):
-    """An object that is only declaration text: property, interface, DUT, variable list."""
-
-    declaration: Text = ""
-
-
-class ProgramCall(Data):
-    """A program that a task calls, in the order of the list (TASK-20, TASK-21)."""
-
-    name: Line = Field(min_length=1, description="Name of the program, e.g. PLC_PRG.")
-    comment: Line = ""
-
-
-class WatchdogData(Data):
-    """Watchdog of a task (TASK-30..33)."""
-
-    enabled: StrictBool = False
-    time: Duration = Field(default="T#100ms", description="Longest allowed duration of a cycle.")
-    sensitivity: StrictInt = Field(
-        default=1, ge=0, le=1_000_000, description="Number of overruns that are one too many."
-    )
-
-
-class TaskData(Data):
-    """A task: when it runs and what it calls (tasks.md, section 2)."""
-
-    priority: StrictInt = Field(
-        default=1, ge=0, le=31, description="0 is the highest, 31 the lowest (TASK-11)."
-    )
-    type: Literal["cyclic", "freewheeling", "event", "status", "external"] = "cyclic"
-    interval: Duration = Field(
-        default="T#20ms", description="TIME literal or microseconds; cyclic tasks (TASK-12)."
-    )
-    event: Line = Field(default="", description="Path of the BOOL variable, or the system event (TASK-18).")
-    watchdog: WatchdogData = WatchdogData()
-    pous: tuple[ProgramCall, ...] = ()
-
-    @model_validator(mode="after")
-    def _cyclic_needs_interval(self) -> TaskData:
-        if self.type == "cyclic" and duration_ns(self.interval) == 0:
-            raise ValueError("a cyclic task needs an interval longer than 0, such as T#20ms")
-        return self
-
-
-class LibraryReference(Data):
-    """A library that an application uses (LIB-02, LIB-08)."""
-
-    name: Line = Field(min_length=1)
-    version: Line = Field(
-        default="*", min_length=1, description="A version, or * for the newest installed one."
-    )
-    namespace: Line = Field(
-        default="", description="Prefix of the library's names; empty means its own namespace."
-    )
-
-
-class LibraryManagerData(Data):
-    """The libraries of one application or of the POUs view."""
-
-    references: tuple[LibraryReference, ...] = ()
-
-
-class UnknownData(BaseModel):
-    """Data of a kind whose plug-in is missing: kept as they are (CON-03)."""
-
-    model_config = ConfigDict(frozen=True, extra="allow")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _is_json(cls, value: object) -> object:
-        try:
-            json.dumps(value, allow_nan=False, ensure_ascii=False).encode()
-        except (TypeError, ValueError, RecursionError) as error:
-            if isinstance(value, UnknownData):
-                return value
-            raise ValueError(f"the data of a plug-in must be JSON ({error})") from None
-        return value
 
 
 class ObjectHead(BaseModel):

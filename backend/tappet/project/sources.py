@@ -10,20 +10,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from tappet.project.declaration_text import end_keyword
-from tappet.project.durations import duration_ns
-from tappet.project.errors import UnknownObjectError
-from tappet.project.model import (
+from tappet.project.data import (
     AccessorData,
     ActionData,
     BodyData,
     DeclarationData,
     LibraryManagerData,
     LibraryReference,
-    Project,
-    ProjectObject,
     TaskData,
 )
+from tappet.project.declaration_text import end_keyword
+from tappet.project.durations import duration_ns
+from tappet.project.errors import UnknownObjectError
+from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of, owner_of
 

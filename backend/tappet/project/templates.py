@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from tappet.project.data import Data
-from tappet.project.errors import InvalidDataError
-from tappet.project.model import (
+from tappet.project.data import (
     AccessorData,
     ActionData,
+    Data,
     DeclarationData,
     DeviceData,
     LibraryManagerData,
@@ -15,12 +14,10 @@ from tappet.project.model import (
     NoData,
     PouData,
     ProgramCall,
-    Project,
-    ProjectObject,
     TaskData,
-    make_object,
-    new_id,
 )
+from tappet.project.errors import InvalidDataError
+from tappet.project.model import Project, ProjectObject, make_object, new_id
 from tappet.project.placement import RULES
 from tappet.project.scene import Scene
 

@@ -10,9 +10,10 @@ from starlette.concurrency import run_in_threadpool
 
 import tappet
 from tappet.project import folder
+from tappet.project.data import DeviceData
 from tappet.project.edit import change_data
 from tappet.project.errors import ProjectError
-from tappet.project.model import DeviceData, Project
+from tappet.project.model import Project
 from tappet.server.runtimes import RuntimeLink
 from tappet.server.services import Services
 from tappet.server.settings import LOCAL_RUNTIME

@@ -10,6 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from tappet.project.data import NoData
 from tappet.project.declaration_text import subkind_of, words
 from tappet.project.errors import FolderFormatError, ProjectError
 from tappet.project.folder.filenames import name_of, stem_of
@@ -29,7 +30,7 @@ from tappet.project.folder.layout import (
     write_project_file,
 )
 from tappet.project.folder.texts import TEXT_KINDS, Parts, read_text, write_text
-from tappet.project.model import KIND_CLASSES, NoData, Project, ProjectObject, make_object
+from tappet.project.model import KIND_CLASSES, Project, ProjectObject, make_object
 from tappet.project.naming import check_project_name, name_key, normal_name
 from tappet.project.placement import check_project
 
