@@ -209,33 +209,13 @@ async def hello(url: str):
 
 
 OPERATIONS = [
-    "info", "start", "stop", "reset", "download_begin", "download_chunk", "download_commit", "symbols", "read",
-    "write", "force", "unforce", "forces", "record", "end_record", "tasks", "reset_statistics", "exception",
-    "log",
+    "info", "start", "stop", "reset", "download_begin", "download_chunk", "download_commit", "symbols",
+    "read", "write", "force", "unforce", "forces", "record", "end_record", "tasks", "reset_statistics",
+    "exception", "log",
 ]  # fmt: skip
 FIELDS = [
     "places", "values", "keys", "items", "kind", "mode", "size", "data", "task", "recorder", "since",
 ]  # fmt: skip
-    "info",
-    "start",
-    "stop",
-    "reset",
-    "download_begin",
-    "download_chunk",
-    "download_commit",
-    "symbols",
-    "read",
-    "write",
-    "force",
-    "unforce",
-    "forces",
-    "record",
-    "end_record",
-    "tasks",
-    "reset_statistics",
-    "exception",
-    "log",
-]
 scalars = (
     st.none()
     | st.booleans()
@@ -244,9 +224,7 @@ scalars = (
     | st.binary(max_size=9)
 )
 arguments = st.dictionaries(
-    st.sampled_from(
-        ["places", "values", "keys", "items", "kind", "mode", "size", "data", "task", "recorder", "since"]
-    ),
+    st.sampled_from(FIELDS),
     scalars | st.lists(st.lists(scalars, max_size=3), max_size=3),
     max_size=4,
 )

@@ -20,7 +20,10 @@ _RESERVED = 0xFF00
 _OF_THE_LINKER = {"", "_GLOBAL_OFFSET_TABLE_"}
 _numbers = itertools.count(1)
 
-_MEMORY = ["memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp", "calloc", "free"]
+_MEMORY = [
+    "memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp", "strtod", "gcvt", "calloc",
+    "free",
+]  # fmt: skip
 _DOUBLE = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
     "exp10", "expm1", "log", "log2", "log10", "log1p", "pow", "sqrt", "cbrt", "fmod", "fabs", "floor",
