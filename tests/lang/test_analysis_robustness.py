@@ -291,3 +291,23 @@ def test_no_dispatch_by_chains_of_isinstance() -> None:
     assert set(ast.Expr.__subclasses__()) == set(TABLE)
     assert set(ast.Stmt.__subclasses__()) - silent == set(STATEMENTS)
     assert Path(ast.__file__).exists()
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [("NOT ", ""), ("a[", "]"), ("F(", ")"), ("-", ""), ("SEL(b, 1, ", ")"), ("(x := ", ")")],
+)
+def test_the_deepest_nesting_the_parser_accepts(before: str, after: str) -> None:
+    depth = 2000
+    while True:
+        nested = f"{before * depth}1{after * depth}"
+        text = (
+            "FUNCTION F : INT\nVAR_INPUT v : INT; END_VAR\nF := v;\nEND_FUNCTION\n"
+            "PROGRAM P\nVAR a : ARRAY[0..9] OF INT; b : BOOL; x, y : INT; END_VAR "
+            f"VAR z : INT := {nested}; END_VAR\nVAR CONSTANT c : INT := {nested}; END_VAR\ny := {nested};\nEND_PROGRAM"
+        )
+        result = parse(Source("t", text))
+        if not any(d.code == "E0107" for d in result.diagnostics) or depth < 10:
+            break
+        depth = depth * 3 // 4
+    analyse([result.unit])
