@@ -38,6 +38,18 @@ def test_divider_and_interval() -> None:
         assert [s.values["PLC_PRG.a"] for s in slow.samples] == [1, 6, 11, 16]
 
 
+def test_recording_goes_on_after_a_reset() -> None:
+    """The virtual clock begins anew, cycle numbers do not."""
+    with LocalRuntime(build(TEXT)) as runtime:
+        trace = runtime.trace(["PLC_PRG.a"], min_interval_ns=20 * MS)
+        runtime.run(cycles=5)
+        runtime.reset("cold")
+        runtime.start()
+        runtime.run(cycles=3)
+        assert [s.values["PLC_PRG.a"] for s in trace.samples] == [1, 3, 5, 1, 3]
+        assert [s.cycle for s in trace.samples] == [1, 3, 5, 6, 8]
+
+
 def test_frames_are_of_one_cycle_in_real_time() -> None:
     task = TaskSpec("Main", interval_ns=1 * MS, programs=("PLC_PRG",))
     with LocalRuntime(build(TEXT, (task,)), virtual=False) as runtime:

@@ -104,6 +104,8 @@ class LoadedApplication:
             self.contexts.watchdog(task)["overruns"] = 0
             self.contexts.clear_statistics(task)
         self.contexts.application["pFaulted"] = 0
+        for recorder in (r for recorders in self.recorders.values() for r in recorders):
+            recorder.restart()
         if self.virtual:
             self.contexts.application["virtualNow"] = 0
             self.contexts.application["nextScan"] = 0

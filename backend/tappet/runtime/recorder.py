@@ -103,6 +103,11 @@ class Recorder:
         self._ranges = block
         self.located = tuple(items)
 
+    def restart(self) -> None:
+        """The clock begins anew: the next cycle is sampled; only while the task stands."""
+        self.record["lastSample"] = -(1 << 62)
+        self.record["skipped"] = self.record["divider"]
+
     @property
     def dropped(self) -> int:
         """Frames that found the ring full and were not stored."""
