@@ -8,7 +8,13 @@ interface ThemeTarget {
 /** Tokens of the page as hex colours; `token('--fg')` gives `#1d2330`. */
 export type TokenReader = (name: string) => string;
 
-export function themeFrom(token: TokenReader, dark: boolean): editor.IStandaloneThemeData {
+/** `#fff` as `#ffffff`: minified style sheets shorten colours, and Monaco does not take short ones. */
+export function longHex(colour: string): string {
+  return /^#[0-9a-f]{3,4}$/i.test(colour) ? `#${[...colour.slice(1)].map((digit) => digit + digit).join('')}` : colour;
+}
+
+export function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeData {
+  const token = (name: string) => longHex(read(name));
   const plain = (name: string) => token(name).replace('#', '');
   const rule = (scope: string, name: string, fontStyle = ''): editor.ITokenThemeRule => ({
     token: scope,
