@@ -6,6 +6,7 @@ import ctypes
 import json
 import math
 import os
+import re
 import select
 import signal
 from collections.abc import Callable
@@ -46,7 +47,7 @@ def sources_of(case: dict[str, Any]) -> list[Source]:
         elif text.lstrip().startswith(("VAR_GLOBAL", "VAR_CONFIG", "{")) and "VAR_" in text:
             found.append(Source(f"Globals{number}", text, name=f"Globals{number}"))
         else:
-            replaced |= text.upper().lstrip().startswith("PROGRAM PLC_PRG")
+            replaced |= re.search(r"^\s*PROGRAM\s+PLC_PRG\b", text, re.IGNORECASE | re.MULTILINE) is not None
             found.append(Source(f"object{number}", text))
     if not replaced:
         body = f"PROGRAM PLC_PRG\n{case['declaration']}\n{case['code']}\nEND_PROGRAM"

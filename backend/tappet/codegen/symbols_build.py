@@ -90,14 +90,16 @@ class TypeTable:
             kind = "union" if type_.union else "struct"
         else:
             kind = "program" if type_.program else "fb"
-        members = tuple(self.member(m) for m in type_.members.values())
+        pou = type_.pou if isinstance(type_, t.FunctionBlock) else None
+        locals_hidden = pou is not None and attribute_value(pou.attributes, "hide_all_locals") is not None
+        members = tuple(self.member(m, locals_hidden and m.section == "VAR") for m in type_.members.values())
         return TypeInfo(str(type_), kind, type_.size, members=members)
 
-    def member(self, m: t.Member) -> MemberInfo:
+    def member(self, m: t.Member, out_of_sight: bool = False) -> MemberInfo:
         """Description of a stored member; VAR_IN_OUT is the pointer it is stored as."""
         type_ = t.Pointer(m.type) if m.section == "VAR_IN_OUT" else m.type
         flags = set(m.flags)
-        if m.name.upper() == VFTABLE or hidden(m.decl):
+        if out_of_sight or m.name.upper() == VFTABLE or hidden(m.decl):
             flags.add("HIDDEN")
         return MemberInfo(m.name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
 
