@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from marked_texts import Project, split_object
 
-from tappet.lang.services.documents import Program
+from tappet.lang.services.documents import Position, Program
 from tappet.lang.services.folding import folds
+from tappet.lang.services.hover import hover
 from tappet.lang.services.outline import outline
 from tappet.lang.services.reports import MAX_PER_DOCUMENT, reports
 from tappet.lang.services.results import Outline
@@ -208,6 +209,14 @@ def test_reports_name_related_places() -> None:
     project = Project(P="PROGRAM P\nVAR\n  a : INT;\n  A : INT;\nEND_VAR\nEND_PROGRAM")
     (found,) = [r for r in reports(project.snapshot)["P"] if r.code == "E0205"]
     assert [(r.place.document, r.place.span.line) for r in found.related] == [("P", 2)]
+
+
+def test_lines_are_counted_as_editors_count_them() -> None:
+    text = "PROGRAM P // \x0c form feed \u2028 and more\nVAR a : INT := 1; END_VAR\na := a;\nEND_PROGRAM"
+    snapshot = Project(P=text).snapshot
+    explained = hover(snapshot, "P", Position(2, 0))
+    assert explained is not None
+    assert explained.code == "VAR a : INT := 1;"
 
 
 def test_reports_are_limited() -> None:

@@ -120,8 +120,8 @@ def test_text_with_something_unclosed_stays(text: str) -> None:
     assert format_text(text) == text
 
 
-WORDS = [*sorted(KEYWORDS), "a", "b1", "5", "'s'", "(", ")", "[", "]", ":=", ":", ";", ",",
-         ".", "-", "=", "..", "\n", "\n",          "// c\n", "(* c *)", "(* c\n d *)", "T#5s", "^", "{p}"]  # fmt: skip
+MARKS = ["(", ")", "[", "]", ":=", ":", ";", ",", ".", "-", "=", "..", "^", "\n", "\n"]
+WORDS = [*sorted(KEYWORDS), *MARKS, "a", "b1", "5", "'s'", "// c\n", "(* c *)", "(* c\n d *)", "T#5s", "{p}"]
 
 
 @given(st.lists(st.sampled_from(WORDS), max_size=60))

@@ -57,7 +57,8 @@ def renamed(p: Project, name: str) -> dict[str, str]:
 )
 def test_every_place_changes(code: str, name: str, expected: dict[str, str]) -> None:
     p = project(code)
-    assert renameable(p.snapshot, p.document, p.position) is not None
+    span = renameable(p.snapshot, p.document, p.position)
+    assert span.column <= p.position.column <= span.end_column
     found = renamed(p, name)
     assert set(found) == set(expected)
     for document, text in expected.items():
@@ -103,4 +104,5 @@ def test_reason_why_not(code: str, name: str, reason: str) -> None:
 def test_what_cannot_be_renamed_has_no_range() -> None:
     for code in ("t(I|N := TRUE);", "GV|L.g_a := 1;", "I|F TRUE THEN END_IF"):
         p = project(code)
-        assert renameable(p.snapshot, p.document, p.position) is None
+        with pytest.raises(ServiceError):
+            renameable(p.snapshot, p.document, p.position)

@@ -170,7 +170,12 @@ def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
             yield Completion(str(bit), ItemKind.FIELD, "BOOL", rank=6)
     elif isinstance(meaning.type, t.Pointer):
         yield Completion(
-            "^", ItemKind.OPERATOR, f"{meaning.type.base or ''}", "What the pointer points to.", rank=2
+            "^",
+            ItemKind.OPERATOR,
+            f"{meaning.type.base or ''}",
+            "What the pointer points to.",
+            rank=2,
+            over=1,
         )
 
 

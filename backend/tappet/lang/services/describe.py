@@ -9,7 +9,7 @@ from tappet.lang import types as t
 from tappet.lang.attributes import attribute
 from tappet.lang.services.results import ItemKind
 from tappet.lang.services.workspace import Snapshot
-from tappet.lang.source import Source, Span
+from tappet.lang.source import Source, Span, split_lines
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -154,7 +154,7 @@ def initial_text(snapshot: Snapshot, symbol: VarSymbol) -> str:
 
 def slice_of(source: Source, span: Span) -> str:
     """The text of a span."""
-    lines = source.text.splitlines()[span.line : span.end_line + 1]
+    lines = split_lines(source.text)[span.line : span.end_line + 1]
     if not lines:
         return ""
     lines[-1] = lines[-1][: span.end_column] if span.end_line > span.line else lines[-1]

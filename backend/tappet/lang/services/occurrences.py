@@ -12,7 +12,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis import Analysis
 from tappet.lang.services.documents import Position
 from tappet.lang.services.workspace import Snapshot
-from tappet.lang.source import NOWHERE, Source, Span
+from tappet.lang.source import NOWHERE, Source, Span, split_lines
 from tappet.lang.symbols import (
     EnumValueSymbol,
     InterfaceSymbol,
@@ -288,7 +288,7 @@ class _Finder:
 
     def jump(self, node: ast.Jump, body: int) -> None:
         if self.lines is None:
-            self.lines = self.source.text.splitlines()
+            self.lines = split_lines(self.source.text)
         span = node.span
         start = span.column
         if node.label is not None:

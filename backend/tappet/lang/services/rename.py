@@ -10,20 +10,27 @@ from tappet.lang.services.occurrences import Occurrence, occurrence_at, occurren
 from tappet.lang.services.resolution import block_members, is_operator, scope_at
 from tappet.lang.services.results import Edit, ServiceError
 from tappet.lang.services.workspace import Snapshot, View
-from tappet.lang.source import Span
+from tappet.lang.source import Span, split_lines
 from tappet.lang.symbols import EnumValueSymbol, GvlSymbol, NamespaceSymbol, PouSymbol, Symbol, VarSymbol
 from tappet.lang.types import ELEMENTARY, Struct
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 
 
-def renameable(snapshot: Snapshot, document: str, position: Position) -> Span | None:
-    """The range of the name at a position; None when nothing there can be renamed."""
+def renameable(snapshot: Snapshot, document: str, position: Position) -> Span:
+    """The range of the name at a position. Raises ServiceError with the reason when it cannot be renamed."""
     view = snapshot.view(document, position)
+    return view.place(_target(snapshot, view).span).span
+
+
+def _target(snapshot: Snapshot, view: View) -> Occurrence:
     found = occurrence_at(snapshot, view.index, view.position)
-    if found is None or _obstacle(snapshot, found):
-        return None
-    return view.place(found.span).span
+    if found is None:
+        raise ServiceError("Nothing that has a declaration stands here")
+    obstacle = _obstacle(snapshot, found)
+    if obstacle:
+        raise ServiceError(obstacle)
+    return found
 
 
 def rename(snapshot: Snapshot, document: str, position: Position, name: str) -> list[Edit]:
@@ -32,12 +39,7 @@ def rename(snapshot: Snapshot, document: str, position: Position, name: str) -> 
     Raises ServiceError when nothing there can be renamed, or when the new name is no name or taken.
     """
     view = snapshot.view(document, position)
-    found = occurrence_at(snapshot, view.index, view.position)
-    if found is None:
-        raise ServiceError("Nothing that has a declaration stands here")
-    obstacle = _obstacle(snapshot, found)
-    if obstacle:
-        raise ServiceError(obstacle)
+    found = _target(snapshot, view)
     _check_name(name)
     places = list(occurrences_of(snapshot, found.key))
     _check_free(snapshot, view, found, places, name)
@@ -100,7 +102,7 @@ def _check_free(
 
 
 def _is_member_access(text: str, span: Span) -> bool:
-    line = text.splitlines()[span.line]
+    line = split_lines(text)[span.line]
     return line[: span.column].rstrip().endswith((".", "#"))
 
 

@@ -52,6 +52,8 @@ class Completion:
     rank: int = 5
     """0 (fits best) to 9; equal ranks are sorted by label."""
     deprecated: bool = False
+    over: int = 0
+    """Characters before the word that the proposal replaces as well."""
 
 
 @dataclass(frozen=True, slots=True)

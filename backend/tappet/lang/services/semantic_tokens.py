@@ -12,7 +12,7 @@ from tappet.lang.services.occurrences import Occurrence, occurrences
 from tappet.lang.services.operators import head_of
 from tappet.lang.services.results import ItemKind
 from tappet.lang.services.workspace import Snapshot
-from tappet.lang.source import Span
+from tappet.lang.source import Span, split_lines
 from tappet.lang.types import ELEMENTARY
 
 TOKEN_TYPES: Final = (
@@ -100,7 +100,7 @@ def semantic_tokens(snapshot: Snapshot, document: str) -> list[SemanticToken]:
 
 def _by_line(span: Span, text: str) -> list[Span]:
     """A comment over several lines in pieces of one line."""
-    pieces = text.splitlines() or [text]
+    pieces = split_lines(text)
     found = []
     for number, piece in enumerate(pieces):
         column = span.column if number == 0 else 0
