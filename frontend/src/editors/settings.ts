@@ -23,7 +23,7 @@ const DEFAULTS: EditorSettings = {
   declarationShare: 0.4,
   numberFormat: 'dec',
   lastType: 'BOOL',
-  autoDeclare: true,
+  autoDeclare: false,
 };
 const KEY = 'editors';
 const SAVE_AFTER_MS = 1000;
@@ -46,7 +46,7 @@ export function loadEditorSettings(): Promise<void> {
 function sound(stored: Partial<EditorSettings> | null): Partial<EditorSettings> {
   const known = Object.entries(DEFAULTS) as [keyof EditorSettings, unknown][];
   const right = known.filter(([key, value]) => typeof stored?.[key] === typeof value);
-  return Object.fromEntries(right.map(([key]) => [key, stored?.[key]])) as Partial<EditorSettings>;
+  return Object.fromEntries(right.map(([key]) => [key, stored?.[key]]));
 }
 
 export function setEditorSettings(change: Partial<EditorSettings>): void {

@@ -21,10 +21,16 @@ const CLIENT_CAPABILITIES = {
   textDocument: {
     synchronization: { dynamicRegistration: false },
     completion: {
-      completionItem: { snippetSupport: true, documentationFormat: ['markdown', 'plaintext'], labelDetailsSupport: true },
+      completionItem: {
+        snippetSupport: true,
+        documentationFormat: ['markdown', 'plaintext'],
+        labelDetailsSupport: true,
+      },
     },
     hover: { contentFormat: ['markdown', 'plaintext'] },
-    signatureHelp: { signatureInformation: { parameterInformation: { labelOffsetSupport: true }, activeParameterSupport: true } },
+    signatureHelp: {
+      signatureInformation: { parameterInformation: { labelOffsetSupport: true }, activeParameterSupport: true },
+    },
     documentSymbol: { hierarchicalDocumentSymbolSupport: true },
     publishDiagnostics: { relatedInformation: true, dataSupport: true, tagSupport: { valueSet: [1, 2] } },
     rename: { prepareSupport: true },
@@ -54,6 +60,8 @@ export class LanguageClient {
   constructor(
     private readonly monaco: Monaco,
     readonly projectId: string,
+    /** Hears what the server finds in a text that is open. */
+    private readonly published: (uri: string, diagnostics: readonly Diagnostic[]) => void,
   ) {
     this.disposables.push(
       monaco.editor.onDidCreateModel((model) => this.watch(model)),
@@ -105,7 +113,9 @@ export class LanguageClient {
     const socket = new WebSocket(socketUrl('/lsp', { project: this.projectId })) as RpcSocket;
     const rpc = new RpcConnection(socket, () => this.lost());
     this.rpc = rpc;
-    rpc.on<{ uri: string; diagnostics: Diagnostic[] }>('textDocument/publishDiagnostics', (p) => this.diagnostics(p.uri, p.diagnostics));
+    rpc.on<{ uri: string; diagnostics: Diagnostic[] }>('textDocument/publishDiagnostics', (p) =>
+      this.diagnostics(p.uri, p.diagnostics),
+    );
     this.ready = new Promise<RpcConnection>((resolve, reject) => {
       socket.onopen = () => {
         this.initialise(rpc).then(() => resolve(rpc), reject);
@@ -148,10 +158,16 @@ export class LanguageClient {
     if (!this.mine(model)) return;
     const uri = model.uri.toString();
     if (this.listeners.has(uri)) return;
-    this.listeners.set(uri, model.onDidChangeContent((event) => this.changed(model, event)));
-    void this.ready?.then((rpc) => {
-      if (!model.isDisposed()) this.open(rpc, model);
-    }, () => undefined);
+    this.listeners.set(
+      uri,
+      model.onDidChangeContent((event) => this.changed(model, event)),
+    );
+    void this.ready?.then(
+      (rpc) => {
+        if (!model.isDisposed()) this.open(rpc, model);
+      },
+      () => undefined,
+    );
   }
 
   private readonly opened = new WeakMap<RpcConnection, Set<string>>();
@@ -190,6 +206,8 @@ export class LanguageClient {
 
   private diagnostics(uri: string, diagnostics: readonly Diagnostic[]): void {
     const model = this.monaco.editor.getModel(this.monaco.Uri.parse(uri));
-    if (model !== null) this.monaco.editor.setModelMarkers(model, MARKERS, diagnostics.map(fromDiagnostic));
+    if (model === null) return;
+    this.monaco.editor.setModelMarkers(model, MARKERS, diagnostics.map(fromDiagnostic));
+    this.published(uri, diagnostics);
   }
 }

@@ -1,6 +1,16 @@
 /** Between the protocol's shapes (lines and characters from 0) and Monaco's (from 1). Pure functions. */
 import type { IMarkdownString, IRange, editor, languages } from 'monaco-editor/editor/editor.api';
-import type { CompletionItem, Diagnostic, DocumentSymbol, Hover, Markup, Position, Range, SignatureHelp, TextEdit } from './protocol';
+import type {
+  CompletionItem,
+  Diagnostic,
+  DocumentSymbol,
+  Hover,
+  Markup,
+  Position,
+  Range,
+  SignatureHelp,
+  TextEdit,
+} from './protocol';
 
 export function toPosition(position: { lineNumber: number; column: number }): Position {
   return { line: position.lineNumber - 1, character: position.column - 1 };
@@ -135,7 +145,10 @@ export function applyTextEdits(text: string, edits: readonly TextEdit[]): string
   };
   const ordered = edits.map((edit) => ({ edit, start: offset(edit.range.start), end: offset(edit.range.end) }));
   ordered.sort((a, b) => b.start - a.start || b.end - a.end);
-  return ordered.reduce((result, { edit, start, end }) => result.slice(0, start) + edit.newText + result.slice(end), text);
+  return ordered.reduce(
+    (result, { edit, start, end }) => result.slice(0, start) + edit.newText + result.slice(end),
+    text,
+  );
 }
 
 export interface PartAddress {

@@ -65,7 +65,13 @@ describe('json rpc', () => {
 describe('conversions', () => {
   const range = { start: { line: 2, character: 4 }, end: { line: 2, character: 4 } };
   it('count from one in the editor', () => {
-    const marker = fromDiagnostic({ range, severity: 2, code: 'W1001', message: 'unused', data: { advice: 'remove it' } });
+    const marker = fromDiagnostic({
+      range,
+      severity: 2,
+      code: 'W1001',
+      message: 'unused',
+      data: { advice: 'remove it' },
+    });
     expect(marker).toMatchObject({
       startLineNumber: 3, startColumn: 5, endLineNumber: 3, endColumn: 6, severity: 4, code: 'W1001', message: 'unused\nremove it',
     }); // prettier-ignore
@@ -86,7 +92,9 @@ describe('conversions', () => {
       range: { start: { line, character: from }, end: { line, character: to } },
       newText,
     });
-    expect(applyTextEdits('ab\ncd\n', [edit(0, 0, 1, 'X'), edit(1, 1, 2, 'Y'), edit(2, 0, 0, 'end')])).toBe('Xb\ncY\nend');
+    expect(applyTextEdits('ab\ncd\n', [edit(0, 0, 1, 'X'), edit(1, 1, 2, 'Y'), edit(2, 0, 0, 'end')])).toBe(
+      'Xb\ncY\nend',
+    );
   });
   it('read addresses', () => {
     expect(parsePartUri('tappet:/p1/o1/declaration')).toEqual({ projectId: 'p1', objectId: 'o1', part: 'declaration' });

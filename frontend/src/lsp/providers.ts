@@ -3,8 +3,26 @@ import type { editor, IDisposable, languages } from 'monaco-editor/editor/editor
 import { LANGUAGE_ID } from '@/editors/st/language';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import type { LanguageClient } from './client';
-import { fromCompletion, fromHover, fromRange, fromSignatureHelp, fromSymbol, fromTextEdit, parsePartUri, toPosition } from './convert';
-import type { CompletionItem, CompletionList, DocumentSymbol, Hover, Location, LocationLink, SignatureHelp, TextEdit } from './protocol';
+import {
+  fromCompletion,
+  fromHover,
+  fromRange,
+  fromSignatureHelp,
+  fromSymbol,
+  fromTextEdit,
+  parsePartUri,
+  toPosition,
+} from './convert';
+import type {
+  CompletionItem,
+  CompletionList,
+  DocumentSymbol,
+  Hover,
+  Location,
+  LocationLink,
+  SignatureHelp,
+  TextEdit,
+} from './protocol';
 
 /** Makes the texts of these addresses available as models, so that a peek view can show them. */
 export type ModelSource = (uris: readonly string[]) => Promise<void>;
@@ -20,10 +38,17 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
   const triggers = client.capabilities.completionProvider?.triggerCharacters ?? ['.', ':', '%'];
   const signature = client.capabilities.signatureHelpProvider;
 
-  const locations = async (method: string, model: editor.ITextModel, params: object, token: Parameters<LanguageClient['request']>[2]) => {
+  const locations = async (
+    method: string,
+    model: editor.ITextModel,
+    params: object,
+    token: Parameters<LanguageClient['request']>[2],
+  ) => {
     const answer = await client.request<Location | (Location | LocationLink)[]>(method, params, token);
     const list = answer === null ? [] : Array.isArray(answer) ? answer : [answer];
-    const found = list.map((place) => ('targetUri' in place ? { uri: place.targetUri, range: place.targetSelectionRange } : place));
+    const found = list.map((place) =>
+      'targetUri' in place ? { uri: place.targetUri, range: place.targetSelectionRange } : place,
+    );
     const shown = found.filter((place) => parsePartUri(place.uri) !== null);
     const own = model.uri.toString();
     await source([...new Set(shown.map((place) => place.uri))].filter((uri) => uri !== own));
@@ -34,7 +59,11 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
     registry.registerCompletionItemProvider(LANGUAGE_ID, {
       triggerCharacters: triggers,
       provideCompletionItems: async (model, position, _context, token) => {
-        const answer = await client.request<CompletionList | CompletionItem[]>('textDocument/completion', at(model, position), token);
+        const answer = await client.request<CompletionList | CompletionItem[]>(
+          'textDocument/completion',
+          at(model, position),
+          token,
+        );
         const word = model.getWordUntilPosition(position);
         const range = {
           startLineNumber: position.lineNumber,
@@ -98,11 +127,15 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
     }),
   ];
   const legend = client.capabilities.semanticTokensProvider?.legend;
-  if (legend !== undefined) made.push(registry.registerDocumentSemanticTokensProvider(LANGUAGE_ID, semanticTokens(client, legend)));
+  if (legend !== undefined)
+    made.push(registry.registerDocumentSemanticTokensProvider(LANGUAGE_ID, semanticTokens(client, legend)));
   return made;
 }
 
-function semanticTokens(client: LanguageClient, legend: languages.SemanticTokensLegend): languages.DocumentSemanticTokensProvider {
+function semanticTokens(
+  client: LanguageClient,
+  legend: languages.SemanticTokensLegend,
+): languages.DocumentSemanticTokensProvider {
   return {
     getLegend: () => legend,
     provideDocumentSemanticTokens: async (model, _last, token) => {

@@ -1,12 +1,15 @@
 /** The language client of the open project: started with the first text editor, changed with the project. */
 import type { IDisposable } from 'monaco-editor/editor/editor.api';
 import { keys, queryClient } from '@/api/queries';
-import type { ObjectSummary } from '@/api/types';
+import type { Diagnostic, ObjectSummary } from '@/api/types';
 import { openDocument, type TextDocument } from '@/editors/documents/documents';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import { openObject } from '@/workbench/docking/dock';
+import { publishDiagnostics } from '@/workbench/messages/store';
+import { objectPath } from '@/workbench/tree/model';
 import { LanguageClient } from './client';
-import { parsePartUri } from './convert';
+import { adviceOf, parsePartUri, type PartAddress } from './convert';
+import type { Diagnostic as ServerDiagnostic } from './protocol';
 import { registerProviders } from './providers';
 
 let client: LanguageClient | null = null;
@@ -26,7 +29,7 @@ function nameOf(projectId: string, objectId: string): string {
 export function languageClient(monaco: Monaco, projectId: string): LanguageClient {
   if (client?.projectId === projectId) return client;
   closeLanguageClient();
-  const made = new LanguageClient(monaco, projectId);
+  const made = new LanguageClient(monaco, projectId, publish);
   client = made;
   const source = (uris: readonly string[]) => provideModels(monaco, uris);
   providers = registerProviders(monaco, made, source);
@@ -52,6 +55,33 @@ export function languageClient(monaco: Monaco, projectId: string): LanguageClien
     },
   });
   return made;
+}
+
+/** What was found in the two parts of each object; the message window shows them together. */
+const found = new Map<string, Partial<Record<PartAddress['part'], Diagnostic[]>>>();
+const SEVERITIES = { 1: 'error', 2: 'warning', 3: 'info', 4: 'info' } as const;
+
+function publish(uri: string, diagnostics: readonly ServerDiagnostic[]): void {
+  const address = parsePartUri(uri);
+  if (address === null) return;
+  const { projectId, objectId, part } = address;
+  const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+  const messages = diagnostics.map((one): Diagnostic => ({
+    code: String(one.code ?? ''),
+    severity: SEVERITIES[one.severity ?? 1],
+    message: one.message,
+    advice: adviceOf(one),
+    object_id: objectId,
+    object_path: objectPath(objects, objectId),
+    part,
+    line: one.range.start.line + 1,
+    column: one.range.start.character + 1,
+    end_line: one.range.end.line + 1,
+    end_column: one.range.end.character + 1,
+  }));
+  const own = { ...found.get(objectId), [part]: messages };
+  found.set(objectId, own);
+  publishDiagnostics(objectId, [...(own.declaration ?? []), ...(own.implementation ?? [])]);
 }
 
 function rangeStart(selection: unknown): { line: number; column: number } {
@@ -88,4 +118,5 @@ export function closeLanguageClient(): void {
   client = null;
   peeked.forEach((document) => document.release());
   peeked.clear();
+  found.clear();
 }

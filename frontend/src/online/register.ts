@@ -1,2 +1,51 @@
-/** Registers the online panels and commands. */
-export {};
+/** Registers the online room: channels follow the logins, watch lists follow the project; panels and commands. */
+import { Eye, LockKeyhole } from 'lucide-react';
+import { lazy } from 'react';
+import { useOnline } from '@/workbench/onlineSession';
+import { registerPanel } from '@/workbench/panels';
+import { useProject } from '@/workbench/project';
+import { registerValueCommands } from './commands';
+import { followSessions } from './connections';
+import { followProject, WATCH_LISTS } from './watch/lists';
+
+const WatchPanel = lazy(() => import('./watch/WatchPanel'));
+const ForcesPanel = lazy(() => import('./watch/ForcesPanel'));
+
+for (const list of WATCH_LISTS) {
+  registerPanel({
+    id: `watch${String(list)}`,
+    title: 'watch.title',
+    titleValues: { number: list },
+    icon: Eye,
+    component: WatchPanel,
+    props: { list },
+    position: 'bottom',
+    order: 20 + list,
+    initial: list === 1,
+    submenu: 'watch.menu',
+  });
+}
+
+function useForceCount() {
+  const applicationId = useProject((state) => state.applicationId);
+  const count = useOnline((state) => {
+    const session = applicationId === null ? undefined : state.sessions[applicationId];
+    return session === undefined ? 0 : (state.forces[session.runtimeId] ?? []).length;
+  });
+  return count === 0 ? null : { text: String(count), tone: 'forced' as const };
+}
+
+registerPanel({
+  id: 'forces',
+  title: 'forces.title',
+  icon: LockKeyhole,
+  component: ForcesPanel,
+  position: 'bottom',
+  order: 26,
+  initial: true,
+  useBadge: useForceCount,
+});
+
+registerValueCommands();
+followSessions();
+followProject();

@@ -44,7 +44,8 @@ export function InputAssistant({ projectId, object, category = null, typed = '',
       close(entry.insert);
       return;
     }
-    if (event.key === 'Home' || event.key === 'End' || event.key.startsWith('ArrowL') || event.key.startsWith('ArrowR')) return;
+    if (event.key === 'Home' || event.key === 'End' || event.key.startsWith('ArrowL') || event.key.startsWith('ArrowR'))
+      return;
     const next = cursorAfterKey(event.key, event.ctrlKey, { row, column: 0 }, entries.length, 1, 10);
     if (next === null) return;
     event.preventDefault();
@@ -59,14 +60,23 @@ export function InputAssistant({ projectId, object, category = null, typed = '',
         <>
           <span className={styles.count}>{t('assistant.count', { count: entries.length })}</span>
           <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button variant="primary" disabledReason={entry ? null : t('assistant.nothing')} onClick={() => close(entry?.insert)}>
+          <Button
+            variant="primary"
+            disabledReason={entry ? null : t('assistant.nothing')}
+            onClick={() => close(entry?.insert)}
+          >
             {t('assistant.insert')}
           </Button>
         </>
       }
     >
       <div className={styles.assistant}>
-        <div className={styles.categories} role="tablist" aria-orientation="vertical" aria-label={t('assistant.categories')}>
+        <div
+          className={styles.categories}
+          role="tablist"
+          aria-orientation="vertical"
+          aria-label={t('assistant.categories')}
+        >
           {[null, ...CATEGORIES].map((one) => (
             <button
               key={one ?? 'all'}
@@ -101,7 +111,9 @@ export function InputAssistant({ projectId, object, category = null, typed = '',
               columns={columns}
               count={entries.length}
               keyOf={(index) => `${String(index)}.${entries[index]?.name ?? ''}`}
-              cell={(index, column) => <span>{entries[index]?.[column.id as 'name' | 'detail' | 'group' | 'comment']}</span>}
+              cell={(index, column) => (
+                <span>{entries[index]?.[column.id as 'name' | 'detail' | 'group' | 'comment']}</span>
+              )}
               hint={(index) => entries[index]?.comment || undefined}
               selected={new Set([row])}
               cursor={selection.cursor}

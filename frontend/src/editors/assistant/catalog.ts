@@ -112,11 +112,18 @@ export function libraryEntries(library: LibraryDetail): Entry[] {
 }
 
 /** Elementary types, keywords and operators of the language itself. */
-export function languageEntries(groups: { types: string; keywords: string; operators: string; functions: string }): Entry[] {
+export function languageEntries(groups: {
+  types: string;
+  keywords: string;
+  operators: string;
+  functions: string;
+}): Entry[] {
   const make = (names: readonly string[], category: Category, group: string): Entry[] =>
     names.map((name) => ({ name, insert: name, detail: '', comment: '', group, category }));
   const conversions = ['BOOL', 'INT', 'DINT', 'UINT', 'UDINT', 'WORD', 'DWORD', 'REAL', 'LREAL', 'TIME', 'STRING'];
-  const converted = conversions.flatMap((from) => conversions.filter((to) => to !== from).map((to) => `${from}_TO_${to}`));
+  const converted = conversions.flatMap((from) =>
+    conversions.filter((to) => to !== from).map((to) => `${from}_TO_${to}`),
+  );
   return [
     ...make(ELEMENTARY_TYPES, 'types', groups.types),
     ...make([...STATEMENT_KEYWORDS, ...DECLARATION_KEYWORDS, ...CONSTANT_KEYWORDS], 'keywords', groups.keywords),
@@ -144,7 +151,10 @@ export function search(entries: readonly Entry[], category: Category | null, typ
 }
 
 /** Libraries the project refers to; all installed ones where it has no library manager yet. */
-export function referenced(references: readonly LibraryReference[] | null, installed: readonly string[]): readonly string[] {
+export function referenced(
+  references: readonly LibraryReference[] | null,
+  installed: readonly string[],
+): readonly string[] {
   if (references === null) return installed;
   const names = new Set(references.map((reference) => reference.name));
   return installed.filter((name) => names.has(name));

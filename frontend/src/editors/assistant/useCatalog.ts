@@ -28,9 +28,14 @@ function objectQuery<Data>(projectId: string, id: string) {
 export function useLibraries(projectId: string, object: ObjectSummary | undefined): readonly LibraryDetail[] {
   const { data: objects } = useObjects(projectId);
   const application = object && objects ? ancestorOfKind(objects, object.id, 'application') : undefined;
-  const manager = objects?.find((o) => o.kind === 'library_manager' && (application === undefined || o.parent_id === application.id));
+  const manager = objects?.find(
+    (o) => o.kind === 'library_manager' && (application === undefined || o.parent_id === application.id),
+  );
   const installed = useQuery({ queryKey: keys.libraries, queryFn: () => api.get<{ name: string }[]>('/libraries') });
-  const chosen = useQuery({ ...objectQuery<LibraryManagerData>(projectId, manager?.id ?? ''), enabled: manager !== undefined });
+  const chosen = useQuery({
+    ...objectQuery<LibraryManagerData>(projectId, manager?.id ?? ''),
+    enabled: manager !== undefined,
+  });
   const names = referenced(
     manager === undefined ? null : (chosen.data?.data.references ?? []),
     (installed.data ?? []).map((library) => library.name),
@@ -64,7 +69,11 @@ export function useCatalog(projectId: string, object: ObjectSummary | undefined)
     const global = lists.flatMap((list) => {
       const text = texts.find((candidate) => candidate.id === list.id);
       if (text === undefined) return [];
-      return variableEntries(text.data.declaration, list.name, isQualifiedOnly(text.data.declaration) ? `${list.name}.` : '');
+      return variableEntries(
+        text.data.declaration,
+        list.name,
+        isQualifiedOnly(text.data.declaration) ? `${list.name}.` : '',
+      );
     });
     return [
       ...local,

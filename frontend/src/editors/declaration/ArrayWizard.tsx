@@ -30,9 +30,15 @@ export function ArrayWizard({ projectId, object, type, close }: ArrayWizardProps
   });
   const used = bounds.filter((d) => d.low !== '' || d.high !== '');
   const wrong = used.find((d) => !BOUND.test(d.low) || !BOUND.test(d.high) || Number(d.high) < Number(d.low));
-  const gap = bounds.some((d, i) => (d.low !== '' || d.high !== '') && bounds.slice(0, i).some((e) => e.low === '' && e.high === ''));
+  const gap = bounds.some(
+    (d, i) => (d.low !== '' || d.high !== '') && bounds.slice(0, i).some((e) => e.low === '' && e.high === ''),
+  );
   const reason =
-    base.trim() === '' ? t('decl.typeNeeded') : used.length === 0 || wrong !== undefined || gap ? t('decl.badBounds') : null;
+    base.trim() === ''
+      ? t('decl.typeNeeded')
+      : used.length === 0 || wrong !== undefined || gap
+        ? t('decl.badBounds')
+        : null;
   const result = formatArrayType({ dimensions: used, element: base.trim() });
   const change = (index: number, part: keyof ArrayDimension, value: string) =>
     setBounds(bounds.map((d, i) => (i === index ? { ...d, [part]: value.trim() } : d)));

@@ -56,7 +56,15 @@ export function AttributesDialog({ value, close }: AttributesDialogProps) {
 }
 
 /** The attributes cell has no field of its own: it opens the dialog at once. */
-export function AttributesCell({ value, onCommit, onCancel }: { value: string; onCommit: (value: string) => void; onCancel: () => void }) {
+export function AttributesCell({
+  value,
+  onCommit,
+  onCancel,
+}: {
+  value: string;
+  onCommit: (value: string) => void;
+  onCancel: () => void;
+}) {
   useEffect(() => {
     let current = true;
     void openDialog<string>((close) => <AttributesDialog value={value} close={close} />).then((text) => {

@@ -75,7 +75,9 @@ export function CellEditor(props: CellEditorProps) {
     return problem === null ? null : t(`decl.identifier.${problem}`, { name: text.trim() });
   };
   const checkAddress = (text: string) =>
-    text.trim() === '' || /^%[IQM](\*|[XBWDL]?\d+(\.\d+)*)$/i.test(text.trim()) ? null : t('decl.badAddress', { text: text.trim() });
+    text.trim() === '' || /^%[IQM](\*|[XBWDL]?\d+(\.\d+)*)$/i.test(text.trim())
+      ? null
+      : t('decl.badAddress', { text: text.trim() });
 
   switch (column) {
     case 'scope':
@@ -83,7 +85,16 @@ export function CellEditor(props: CellEditorProps) {
     case 'attributes':
       return <AttributesCell value={value} onCommit={(text) => commit(text, 'blur')} onCancel={onCancel} />;
     case 'comment':
-      return <CellInput label={label} value={value} initial={props.initial} multiline onCommit={commit} onCancel={onCancel} />;
+      return (
+        <CellInput
+          label={label}
+          value={value}
+          initial={props.initial}
+          multiline
+          onCommit={commit}
+          onCancel={onCancel}
+        />
+      );
     case 'type':
       return (
         <CellInput
@@ -106,7 +117,12 @@ export function CellEditor(props: CellEditorProps) {
           onCommit={commit}
           onCancel={onCancel}
           button={(text) => (
-            <button type="button" className={styles.cellButton} title={t('decl.initialDialog')} onClick={() => void editInitial(text)}>
+            <button
+              type="button"
+              className={styles.cellButton}
+              title={t('decl.initialDialog')}
+              onClick={() => void editInitial(text)}
+            >
               …
             </button>
           )}

@@ -46,8 +46,20 @@ export function DeclarationPane(props: DeclarationPaneProps) {
         {view === 'table' && !online && <DeclarationTable {...props} showText={() => choose('text')} />}
       </div>
       <div className={styles.switch} role="group" aria-label={t('decl.view')}>
-        <IconButton small icon={TextInitial} label={t('decl.viewText')} pressed={view === 'text'} onClick={() => choose('text')} />
-        <IconButton small icon={Table2} label={t('decl.viewTable')} pressed={view === 'table'} onClick={() => choose('table')} />
+        <IconButton
+          small
+          icon={TextInitial}
+          label={t('decl.viewText')}
+          pressed={view === 'text'}
+          onClick={() => choose('text')}
+        />
+        <IconButton
+          small
+          icon={Table2}
+          label={t('decl.viewTable')}
+          pressed={view === 'table'}
+          onClick={() => choose('table')}
+        />
       </div>
     </div>
   );

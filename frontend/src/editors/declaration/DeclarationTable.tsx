@@ -37,7 +37,18 @@ export function DeclarationTable(props: DeclarationTableProps) {
   const columns = useMemo(() => tableColumns(t, model), [t, model]);
   const shown = useMemo(() => displayOrder(model, draft, sorting), [model, draft, sorting]);
   const selection = useGridSelection(shown.length);
-  const acts = useTableActs({ document, model, shown, selection, draft, setDraft, setEditing, setSorting, locked, columns });
+  const acts = useTableActs({
+    document,
+    model,
+    shown,
+    selection,
+    draft,
+    setDraft,
+    setEditing,
+    setSorting,
+    locked,
+    columns,
+  });
 
   const onFocus = useCallback(() => {
     const history = document.models.declaration as unknown as { undo: () => void; redo: () => void };
@@ -52,7 +63,11 @@ export function DeclarationTable(props: DeclarationTableProps) {
       <Empty
         icon={TextInitial}
         title={serious.length > 0 ? t('decl.notReadable') : t('decl.notTabular')}
-        text={serious.length > 0 ? t('decl.problemAt', { line, column, problem: problemText(problem) }) : t('decl.notTabularText')}
+        text={
+          serious.length > 0
+            ? t('decl.problemAt', { line, column, problem: problemText(problem) })
+            : t('decl.notTabularText')
+        }
       >
         <Button variant="primary" onClick={showText}>
           {t('decl.showText')}
@@ -62,31 +77,98 @@ export function DeclarationTable(props: DeclarationTableProps) {
   }
 
   const onKey = (event: KeyboardEvent): boolean => {
-    if (event.key === 'Delete') return acts.remove(), true;
-    if (event.key === 'Insert') return acts.insert(true), true;
-    if (event.altKey && event.key === 'ArrowUp') return event.preventDefault(), acts.move(-1), true;
-    if (event.altKey && event.key === 'ArrowDown') return event.preventDefault(), acts.move(1), true;
-    if (event.key === ' ' && selection.cursor) return event.preventDefault(), acts.edit(selection.cursor), true;
+    if (event.key === 'Delete') return (acts.remove(), true);
+    if (event.key === 'Insert') return (acts.insert(true), true);
+    if (event.altKey && event.key === 'ArrowUp') return (event.preventDefault(), acts.move(-1), true);
+    if (event.altKey && event.key === 'ArrowDown') return (event.preventDefault(), acts.move(1), true);
+    if (event.key === ' ' && selection.cursor) return (event.preventDefault(), acts.edit(selection.cursor), true);
     return false;
   };
   const entries = (): MenuEntry[] => [
-    { kind: 'item', key: 'insert', text: t('decl.insert'), icon: ListPlus, shortcut: 'Ins', disabledReason: acts.reason.edit, run: () => acts.insert(true) },
-    { kind: 'item', key: 'append', text: t('decl.append'), disabledReason: acts.reason.edit, run: () => acts.insert(false) },
+    {
+      kind: 'item',
+      key: 'insert',
+      text: t('decl.insert'),
+      icon: ListPlus,
+      shortcut: 'Ins',
+      disabledReason: acts.reason.edit,
+      run: () => acts.insert(true),
+    },
+    {
+      kind: 'item',
+      key: 'append',
+      text: t('decl.append'),
+      disabledReason: acts.reason.edit,
+      run: () => acts.insert(false),
+    },
     { kind: 'line', key: 'l1' },
-    { kind: 'item', key: 'up', text: t('decl.moveUp'), icon: ArrowUp, shortcut: 'Alt+\u2191', disabledReason: acts.reason.one, run: () => acts.move(-1) },
-    { kind: 'item', key: 'down', text: t('decl.moveDown'), icon: ArrowDown, shortcut: 'Alt+\u2193', disabledReason: acts.reason.one, run: () => acts.move(1) },
+    {
+      kind: 'item',
+      key: 'up',
+      text: t('decl.moveUp'),
+      icon: ArrowUp,
+      shortcut: 'Alt+\u2191',
+      disabledReason: acts.reason.one,
+      run: () => acts.move(-1),
+    },
+    {
+      kind: 'item',
+      key: 'down',
+      text: t('decl.moveDown'),
+      icon: ArrowDown,
+      shortcut: 'Alt+\u2193',
+      disabledReason: acts.reason.one,
+      run: () => acts.move(1),
+    },
     { kind: 'line', key: 'l2' },
-    { kind: 'item', key: 'delete', text: t('decl.delete'), icon: Trash2, shortcut: 'Del', danger: true, disabledReason: acts.reason.some, run: acts.remove },
+    {
+      kind: 'item',
+      key: 'delete',
+      text: t('decl.delete'),
+      icon: Trash2,
+      shortcut: 'Del',
+      danger: true,
+      disabledReason: acts.reason.some,
+      run: acts.remove,
+    },
   ];
 
   return (
     <div className={styles.table} onFocusCapture={onFocus}>
       <div className={styles.bar}>
         <HeaderLine object={object} document={document} model={model} locked={locked} />
-        <IconButton small icon={ListPlus} label={t('decl.insert')} shortcut="Ins" disabledReason={acts.reason.edit} onClick={() => acts.insert(true)} />
-        <IconButton small icon={Trash2} label={t('decl.delete')} shortcut="Del" disabledReason={acts.reason.some} onClick={acts.remove} />
-        <IconButton small icon={ArrowUp} label={t('decl.moveUp')} shortcut={'Alt+\u2191'} disabledReason={acts.reason.one} onClick={() => acts.move(-1)} />
-        <IconButton small icon={ArrowDown} label={t('decl.moveDown')} shortcut={'Alt+\u2193'} disabledReason={acts.reason.one} onClick={() => acts.move(1)} />
+        <IconButton
+          small
+          icon={ListPlus}
+          label={t('decl.insert')}
+          shortcut="Ins"
+          disabledReason={acts.reason.edit}
+          onClick={() => acts.insert(true)}
+        />
+        <IconButton
+          small
+          icon={Trash2}
+          label={t('decl.delete')}
+          shortcut="Del"
+          disabledReason={acts.reason.some}
+          onClick={acts.remove}
+        />
+        <IconButton
+          small
+          icon={ArrowUp}
+          label={t('decl.moveUp')}
+          shortcut={'Alt+\u2191'}
+          disabledReason={acts.reason.one}
+          onClick={() => acts.move(-1)}
+        />
+        <IconButton
+          small
+          icon={ArrowDown}
+          label={t('decl.moveDown')}
+          shortcut={'Alt+\u2193'}
+          disabledReason={acts.reason.one}
+          onClick={() => acts.move(1)}
+        />
       </div>
       <ContextMenu entries={entries}>
         <div className={styles.grid}>

@@ -26,7 +26,13 @@ export function HeaderDialog({ values, close }: HeaderDialogProps) {
   const choices = keywordChoices(values.keyword).map((choice) => ({ value: choice, text: choice }));
   const editAttributes = async () => {
     const text = await openDialog<string>((done) => <AttributesDialog value={attributes.join('\n')} close={done} />);
-    if (text !== undefined) setAttributes(text.split('\n').map((line) => line.trim()).filter((line) => line !== ''));
+    if (text !== undefined)
+      setAttributes(
+        text
+          .split('\n')
+          .map((line) => line.trim())
+          .filter((line) => line !== ''),
+      );
   };
   return (
     <Dialog
@@ -48,7 +54,9 @@ export function HeaderDialog({ values, close }: HeaderDialogProps) {
     >
       <div className={styles.stack}>
         <Field label={t('decl.headerKind')}>
-          {({ id }) => <Select id={id} value={keyword} choices={choices} onValue={setKeyword} disabled={choices.length === 1} />}
+          {({ id }) => (
+            <Select id={id} value={keyword} choices={choices} onValue={setKeyword} disabled={choices.length === 1} />
+          )}
         </Field>
         <Field label={t('decl.column.name')} error={error}>
           {(field) => <TextInput {...field} value={name} onValue={setName} data-autofocus />}

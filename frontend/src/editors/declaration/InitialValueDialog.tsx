@@ -23,7 +23,10 @@ export function InitialValueDialog({ projectId, name, type, initial, close }: In
   const t = useText();
   const members = useMemberSource(projectId, type);
   const shape = useMemo(() => shapeOf(type, members), [type, members]);
-  const start = useMemo(() => givenValues(shape, initial.trim() === '' ? null : parseInitial(initial)), [shape, initial]);
+  const start = useMemo(
+    () => givenValues(shape, initial.trim() === '' ? null : parseInitial(initial)),
+    [shape, initial],
+  );
   const [changed, setChanged] = useState<GivenValues | null>(null);
   const given = changed ?? start;
   const lines = useMemo(() => initialLines(shape, name, given), [shape, name, given]);
@@ -43,7 +46,9 @@ export function InitialValueDialog({ projectId, name, type, initial, close }: In
   };
   const reset = () => {
     const paths = chosen.map((line) => line.path);
-    setChanged(Object.fromEntries(Object.entries(given).filter(([path]) => !paths.some((p) => path === p || isBelow(path, p)))));
+    setChanged(
+      Object.fromEntries(Object.entries(given).filter(([path]) => !paths.some((p) => path === p || isBelow(path, p)))),
+    );
   };
   const columns: GridColumn[] = [
     { id: 'name', title: t('decl.component'), width: 200, grow: true, code: true },

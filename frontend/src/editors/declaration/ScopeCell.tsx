@@ -25,7 +25,8 @@ export function ScopeCell({ model, value, onCommit, onCancel }: ScopeCellProps) 
     list.current?.querySelector<HTMLElement>('[aria-checked="true"]')?.focus();
   }, []);
 
-  const compose = (next: string, with_: readonly string[]) => [next, ...VARIABLE_FLAGS.filter((flag) => with_.includes(flag))].join(' ');
+  const compose = (next: string, with_: readonly string[]) =>
+    [next, ...VARIABLE_FLAGS.filter((flag) => with_.includes(flag))].join(' ');
   const onKeyDown = (event: KeyboardEvent) => {
     event.stopPropagation();
     if (event.key === 'Escape') onCancel();
@@ -48,7 +49,15 @@ export function ScopeCell({ model, value, onCommit, onCancel }: ScopeCellProps) 
       <span className={styles.scope} style={{ padding: '0 8px' }}>
         {value}
       </span>
-      <div ref={list} className={styles.scopeMenu} role="menu" aria-label={t('decl.column.scope')} tabIndex={-1} onKeyDown={onKeyDown} onBlur={onBlur}>
+      <div
+        ref={list}
+        className={styles.scopeMenu}
+        role="menu"
+        aria-label={t('decl.column.scope')}
+        tabIndex={-1}
+        onKeyDown={onKeyDown}
+        onBlur={onBlur}
+      >
         {choices.map((choice) => (
           <button
             key={choice}

@@ -9,7 +9,12 @@ export function TypeButton({ onAssistant, onArray }: { onAssistant: () => void; 
     <DropdownMenu
       align="end"
       trigger={
-        <button type="button" className={styles.cellButton} aria-label={t('decl.chooseType')} title={t('decl.chooseType')}>
+        <button
+          type="button"
+          className={styles.cellButton}
+          aria-label={t('decl.chooseType')}
+          title={t('decl.chooseType')}
+        >
           ›
         </button>
       }

@@ -79,7 +79,8 @@ export function displayOrder(model: DeclarationModel, draft: Draft | null, sorti
 
 /** A click on a head sorts; further clicks change the direction (DECL-24 .. DECL-34). */
 export function nextSorting(present: Sorting | null, column: string): Sorting | null {
-  if (column === 'number') return present?.column === 'number' && !present.descending ? { column, descending: true } : null;
+  if (column === 'number')
+    return present?.column === 'number' && !present.descending ? { column, descending: true } : null;
   return { column, descending: present?.column === column && !present.descending };
 }
 
@@ -101,7 +102,14 @@ export function withCell(text: string, row: number, column: string, value: strin
       return setScope(text, row, scope, flags);
     }
     case 'attributes':
-      return setAttributes(text, row, value.split('\n').map((line) => line.trim()).filter((line) => line !== ''));
+      return setAttributes(
+        text,
+        row,
+        value
+          .split('\n')
+          .map((line) => line.trim())
+          .filter((line) => line !== ''),
+      );
     default:
       return text;
   }
@@ -116,7 +124,14 @@ export function newDraft(model: DeclarationModel, before: number | null, type: s
   const global = model.header === null && (model.blocks.length === 0 || model.blocks[0]?.scope === 'VAR_GLOBAL');
   const target = before === null ? undefined : model.rows[before];
   const frame = model.blocks[0]?.frame ?? 'variables';
-  const scope = frame !== 'variables' ? '' : global ? 'VAR_GLOBAL' : model.header?.keyword.text.toUpperCase() === 'INTERFACE' ? 'VAR_INPUT' : 'VAR';
+  const scope =
+    frame !== 'variables'
+      ? ''
+      : global
+        ? 'VAR_GLOBAL'
+        : model.header?.keyword.text.toUpperCase() === 'INTERFACE'
+          ? 'VAR_INPUT'
+          : 'VAR';
   const first = target === undefined ? before : model.rows.findIndex((row) => row.statement === target.statement);
   return { before: first, scope, type };
 }

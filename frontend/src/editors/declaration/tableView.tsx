@@ -21,7 +21,13 @@ export function tableColumns(t: typeof Text, model: DeclarationModel): readonly 
 }
 
 /** How a cell looks while it is not edited. */
-export function cellContent(t: typeof Text, model: DeclarationModel, index: number, draft: Draft | null, column: string): ReactNode {
+export function cellContent(
+  t: typeof Text,
+  model: DeclarationModel,
+  index: number,
+  draft: Draft | null,
+  column: string,
+): ReactNode {
   if (index === DRAFT_KEY) {
     if (column === 'scope') return <span className={styles.scope}>{draft?.scope}</span>;
     if (column === 'type') return <span className={styles.type}>{draft?.type}</span>;

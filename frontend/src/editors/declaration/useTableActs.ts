@@ -6,7 +6,16 @@ import type { GridSelection } from '../grid/useGridSelection';
 import { setEditorSettings, useEditorSettings } from '../settings';
 import type { DeclarationModel } from './model';
 import { deleteRows, moveRow } from './structure';
-import { cellText, DRAFT_KEY, newDraft, nextSorting, withCell, withDraft, type Draft, type Sorting } from './tableModel';
+import {
+  cellText,
+  DRAFT_KEY,
+  newDraft,
+  nextSorting,
+  withCell,
+  withDraft,
+  type Draft,
+  type Sorting,
+} from './tableModel';
 
 interface TableActsInput {
   document: TextDocument;
@@ -39,7 +48,11 @@ export function useTableActs(input: TableActsInput) {
   const some = edit ?? (rows.length === 0 ? t('decl.selectRows') : null);
   const one = edit ?? (rows.length === 1 ? null : t('decl.selectOneRow'));
   const replace = (text: string) => document.replaceText('declaration', text);
-  const columnAt = (id: string) => Math.max(0, columns.findIndex((column) => column.id === id));
+  const columnAt = (id: string) =>
+    Math.max(
+      0,
+      columns.findIndex((column) => column.id === id),
+    );
 
   const open = (cell: GridEditing): void => {
     const index = shown[cell.row] ?? DRAFT_KEY;
@@ -84,7 +97,12 @@ export function useTableActs(input: TableActsInput) {
         replace(withCell(model.text, row, column, value));
       }
       if (column === 'type' && value.trim() !== '') setEditorSettings({ lastType: value.trim() });
-      const next = nextCell(columns.findIndex((c) => c.id === column), columns.length, key, backwards);
+      const next = nextCell(
+        columns.findIndex((c) => c.id === column),
+        columns.length,
+        key,
+        backwards,
+      );
       if (next === null || at < 0) return;
       const cell = { row: at, column: next };
       selection.move(cell, 'one');
@@ -112,4 +130,3 @@ function nextCell(column: number, columns: number, key: string, backwards: boole
   const next = column + (backwards ? -1 : 1);
   return next >= 1 && next < columns ? next : null;
 }
-

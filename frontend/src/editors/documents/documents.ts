@@ -116,13 +116,14 @@ export class TextDocument {
   }
 
   /** Stores now what is not stored; resolves when the server has answered, whatever it said. */
-  async save(): Promise<void> {
-    clearTimeout(this.saveTimer);
+  async save(autosave = false): Promise<void> {
     if (this.running !== null) await this.running;
+    clearTimeout(this.saveTimer);
     if (!wantsSaving(this.store.getState())) return;
-    this.running = this.send();
+    this.running = this.send(autosave).finally(() => {
+      this.running = null;
+    });
     await this.running;
-    this.running = null;
   }
 
   resolve(resolution: Resolution, merged?: TextParts): void {
@@ -152,12 +153,12 @@ export class TextDocument {
     return useSession.getState().user?.id ?? '';
   }
 
-  private async send(): Promise<void> {
+  private async send(autosave: boolean): Promise<void> {
     const state = this.store.getState();
     this.store.setState(savingStarted(state), true);
     try {
       const data = { ...this.object.data, ...state.text };
-      const answer = await saveObject<TextData>(this.projectId, this.objectId, state.base.revision, data);
+      const answer = await saveObject<TextData>(this.projectId, this.objectId, state.base.revision, data, { autosave });
       this.object = answer;
       this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer.data) }));
     } catch (error) {
@@ -217,7 +218,7 @@ export class TextDocument {
 
   private scheduleSave(ms: number): void {
     clearTimeout(this.saveTimer);
-    this.saveTimer = setTimeout(() => void this.save(), ms);
+    this.saveTimer = setTimeout(() => void this.save(true), ms);
   }
 
   private storeDraft(): void {

@@ -9,9 +9,7 @@ export interface OpenText {
 }
 
 export type TextDocumentState =
-  | { status: 'loading' }
-  | { status: 'failed'; error: unknown; retry: () => void }
-  | ({ status: 'ready' } & OpenText);
+  { status: 'loading' } | { status: 'failed'; error: unknown; retry: () => void } | ({ status: 'ready' } & OpenText);
 
 /** Loads Monaco and the object's shared document, and holds it while the component is there. */
 export function useTextDocument(projectId: string, objectId: string): TextDocumentState {

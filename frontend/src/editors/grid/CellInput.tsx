@@ -99,7 +99,9 @@ export function CellInput(props: CellInputProps) {
       )}
       {listId && (
         <datalist id={listId}>
-          {props.suggestions?.map((suggestion) => <option key={suggestion} value={suggestion} />)}
+          {props.suggestions?.map((suggestion) => (
+            <option key={suggestion} value={suggestion} />
+          ))}
         </datalist>
       )}
       {props.button?.(text)}

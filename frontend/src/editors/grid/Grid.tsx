@@ -1,6 +1,16 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { ArrowDown, ArrowUp } from 'lucide-react';
-import { useEffect, useId, useImperativeHandle, useRef, useState, type DragEvent, type KeyboardEvent, type ReactNode, type Ref } from 'react';
+import {
+  useEffect,
+  useId,
+  useImperativeHandle,
+  useRef,
+  useState,
+  type DragEvent,
+  type KeyboardEvent,
+  type ReactNode,
+  type Ref,
+} from 'react';
 import { Grip } from './Grip';
 import { cursorAfterKey, type GridCursor } from './cursor';
 import styles from './Grid.module.css';
@@ -51,6 +61,8 @@ interface GridProps {
   rowState?: (row: number) => string | undefined;
   level?: (row: number) => number;
   expanded?: (row: number) => boolean | undefined;
+  /** Rows on screen, told whenever they change. */
+  onRange?: (first: number, last: number) => void;
   onDragRow?: (row: number, event: DragEvent) => void;
   empty?: ReactNode;
   ref?: Ref<GridHandle>;
@@ -87,6 +99,16 @@ export function Grid(props: GridProps) {
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [cursorRow]);
 
+  const items = virtual.getVirtualItems();
+  const first = items[0]?.index ?? 0;
+  const last = items[items.length - 1]?.index ?? 0;
+  const { onRange } = props;
+  useEffect(() => {
+    onRange?.(first, last);
+    // Told for other rows only, not for another function.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [first, last]);
+
   const onKeyDown = (event: KeyboardEvent) => {
     if (event.target !== scroll.current || onKey?.(event) === true) return;
     const page = Math.max(1, Math.floor((scroll.current.clientHeight ?? 260) / ROW_HEIGHT) - 2);
@@ -108,7 +130,9 @@ export function Grid(props: GridProps) {
   const widthOf = (column: GridColumn) => {
     const width = widths[column.id] ?? column.width;
     const grows = column.grow === true && widths[column.id] === undefined;
-    return grows ? { flex: `1 0 ${String(width)}px`, minWidth: width, width: 0 } : { flex: `0 0 ${String(width)}px`, width };
+    return grows
+      ? { flex: `1 0 ${String(width)}px`, minWidth: width, width: 0 }
+      : { flex: `0 0 ${String(width)}px`, width };
   };
 
   return (
@@ -132,11 +156,14 @@ export function Grid(props: GridProps) {
             className={styles.headCell}
             style={widthOf(column)}
             data-sortable={column.sortable === true ? '' : undefined}
-            aria-sort={props.sorting?.column === column.id ? (props.sorting.descending ? 'descending' : 'ascending') : undefined}
+            aria-sort={
+              props.sorting?.column === column.id ? (props.sorting.descending ? 'descending' : 'ascending') : undefined
+            }
             onClick={column.sortable === true ? () => props.onSort?.(column.id) : undefined}
           >
             <span className={styles.headText}>{column.title}</span>
-            {props.sorting?.column === column.id && (props.sorting.descending ? <ArrowDown size={12} /> : <ArrowUp size={12} />)}
+            {props.sorting?.column === column.id &&
+              (props.sorting.descending ? <ArrowDown size={12} /> : <ArrowUp size={12} />)}
             <Grip onResize={(width) => setWidths({ ...widths, [column.id]: Math.max(LEAST_WIDTH, width) })} />
           </div>
         ))}
@@ -148,7 +175,7 @@ export function Grid(props: GridProps) {
         role="presentation"
         onPointerDown={(event) => event.target === event.currentTarget && props.onEmptyClick?.()}
       >
-        {virtual.getVirtualItems().map(({ index: row, start }) => (
+        {items.map(({ index: row, start }) => (
           <div
             key={props.keyOf(row)}
             role="row"
@@ -176,7 +203,10 @@ export function Grid(props: GridProps) {
                   title={edited ? undefined : props.hint?.(row, column)}
                   onPointerDown={(event) => {
                     if (edited || (event.button !== 0 && props.selected.has(row))) return;
-                    onCursor({ row, column: at }, event.ctrlKey || event.metaKey ? 'toggle' : event.shiftKey ? 'range' : 'one');
+                    onCursor(
+                      { row, column: at },
+                      event.ctrlKey || event.metaKey ? 'toggle' : event.shiftKey ? 'range' : 'one',
+                    );
                   }}
                   onDoubleClick={() => !edited && onEdit?.({ row, column: at })}
                 >

@@ -1,4 +1,4 @@
-import { useCallback, useState } from 'react';
+import { useCallback, useMemo, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
@@ -7,11 +7,12 @@ import type { OpenText } from '../documents/useTextDocument';
 import { useOnlineView } from '../online/useOnlineView';
 import { CodePane, type CodeEditor } from './CodePane';
 import { addPanelEditor, removePanelEditor } from './focus';
+import { useAutoDeclare } from './useAutoDeclare';
 import { useEditingLock } from './useEditingLock';
 
 /** The ST text of the body, with values behind the variables while online. */
 export function ImplementationPane(props: EditorProps & OpenText & { object: ObjectSummary }) {
-  const { panelId, projectId, object, monaco, document } = props;
+  const { panelId, projectId, object, instance, monaco, document } = props;
   const t = useText();
   const [editor, setEditor] = useState<CodeEditor | null>(null);
   const readOnly = useEditingLock(object, editor);
@@ -26,6 +27,11 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
     },
     [panelId, monaco, projectId],
   );
+  const panel = useMemo(
+    () => ({ monaco, document, projectId, object, instance }),
+    [monaco, document, projectId, object, instance],
+  );
+  useAutoDeclare(panel, editor);
   useOnlineView({ ...props, editor });
   return (
     <CodePane

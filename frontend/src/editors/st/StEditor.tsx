@@ -1,6 +1,7 @@
 import { useEffect, useMemo } from 'react';
 import { useStore } from 'zustand';
 import { useObjects } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/workbench/editors';
 import { setDirty } from '@/workbench/selection';
@@ -27,24 +28,30 @@ export default function StEditor(props: EditorProps) {
 }
 
 function OpenStEditor(props: EditorProps & OpenText) {
-  const { panelId, projectId, objectId, monaco, document, reveal } = props;
+  const { data: objects } = useObjects(props.projectId);
+  const object = objects?.find((candidate) => candidate.id === props.objectId);
+  return object === undefined ? <Loading /> : <StPanes {...props} object={object} />;
+}
+
+function StPanes(props: EditorProps & OpenText & { object: ObjectSummary }) {
+  const { panelId, projectId, object, instance, monaco, document, reveal } = props;
   const t = useText();
-  const { data: objects } = useObjects(projectId);
-  const object = objects?.find((candidate) => candidate.id === objectId);
   const share = useEditorSettings((settings) => settings.declarationShare);
   const changed = useStore(document.store, (state) => phaseOf(state) !== 'clean');
   useEffect(() => {
     setDirty(panelId, changed);
     return () => setDirty(panelId, false);
   }, [panelId, changed]);
-  const handlers = useMemo(() => textHandlers(panelId, document), [panelId, document]);
+  const handlers = useMemo(
+    () => textHandlers(panelId, { monaco, document, projectId, object, instance }),
+    [panelId, monaco, document, projectId, object, instance],
+  );
   useHandlers(panelId, handlers);
   useReveal(panelId, reveal);
 
-  if (object === undefined) return <Loading />;
   const parts = partsShown(object.kind);
-  const declaration = parts.includes('declaration') && <DeclarationPane {...props} object={object} />;
-  const implementation = parts.includes('implementation') && <ImplementationPane {...props} object={object} />;
+  const declaration = parts.includes('declaration') && <DeclarationPane {...props} />;
+  const implementation = parts.includes('implementation') && <ImplementationPane {...props} />;
   return (
     <div className={styles.editor} aria-label={t('st.editorOf', { name: object.name })}>
       <DocumentBars monaco={monaco} document={document} />

@@ -1,7 +1,10 @@
 /** What the delegated commands do in a text editor. */
 import type { Handlers } from '@/workbench/commands';
-import type { TextDocument } from '../documents/documents';
+import { setDirty } from '@/workbench/selection';
+import { addToWatch, autoDeclare, inputAssistant, rename, revisions, type TextPanel } from './acts';
+import type { CodeEditor } from './CodePane';
 import { panelEditor, panelHistory } from './focus';
+import { partsShown } from './parts';
 
 const ACTIONS: Readonly<Record<string, string>> = {
   'edit.find': 'actions.find',
@@ -23,7 +26,14 @@ const ACTIONS: Readonly<Record<string, string>> = {
 };
 
 /** Acts of a panel with Monaco editors: they go to the one that had the focus last. */
-export function textHandlers(panelId: string, document: TextDocument): Handlers {
+export function textHandlers(panelId: string, panel: TextPanel): Handlers {
+  const { document, object } = panel;
+  const onEditor = (run: (editor: CodeEditor) => Promise<void> | void) => ({
+    run: () => {
+      const editor = panelEditor(panelId);
+      if (editor !== null) return run(editor);
+    },
+  });
   const act = (id: string) => ({
     run: () => {
       const editor = panelEditor(panelId);
@@ -48,6 +58,17 @@ export function textHandlers(panelId: string, document: TextDocument): Handlers 
     ...Object.fromEntries(Object.entries(ACTIONS).map(([command, action]) => [command, act(action)])),
     'edit.undo': history('undo'),
     'edit.redo': history('redo'),
-    'file.save': { run: () => document.save() },
+    'st.inputAssistant': onEditor((editor) => inputAssistant(panel, editor)),
+    'st.autoDeclare': onEditor((editor) => autoDeclare(panel, editor)),
+    'st.renameSymbol': onEditor((editor) => rename(panel, editor)),
+    'watch.add': onEditor((editor) => addToWatch(panel, editor)),
+    'st.revisions': { run: () => revisions(panel, partsShown(object.kind)) },
+    'file.save': {
+      run: async () => {
+        await document.save();
+        // At once, since a build that has just asked for saving looks at it next.
+        setDirty(panelId, document.phase !== 'clean');
+      },
+    },
   };
 }

@@ -34,7 +34,9 @@ export function useEditingLock(object: ObjectSummary, editor: CodeEditor | null)
     if (editor === null) return;
     editor.updateOptions({ readOnlyMessage: { value: engineer ? t('st.lockedOnline') : t('st.lockedRole') } });
     if (!engineer || !locked) return;
-    const subscription = editor.onDidAttemptReadOnlyEdit(() => void unlockForEditing(object).then(() => editor.focus()));
+    const subscription = editor.onDidAttemptReadOnlyEdit(
+      () => void unlockForEditing(object).then(() => editor.focus()),
+    );
     return () => subscription.dispose();
   }, [editor, engineer, locked, object]);
 

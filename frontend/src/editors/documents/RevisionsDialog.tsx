@@ -1,0 +1,142 @@
+import { useQuery } from '@tanstack/react-query';
+import { useMemo, useState } from 'react';
+import { api } from '@/api/client';
+import { keys, queryClient } from '@/api/queries';
+import type { ProjectObject, TextData } from '@/api/types';
+import { useLanguage, useText } from '@/i18n';
+import { guard } from '@/workbench/notices';
+import { Button } from '@/workbench/ui/Button';
+import { Dialog } from '@/workbench/ui/Dialog';
+import { Failed, Loading } from '@/workbench/ui/Empty';
+import type { Monaco } from '../st/monacoLoader';
+import { DiffView } from './DiffView';
+import styles from './DocumentBars.module.css';
+import type { Part, TextDocument } from './documents';
+import { PartTabs } from './PartTabs';
+
+interface Revision {
+  revision: number;
+  at: string;
+  author: string;
+  comment: string;
+  autosave: boolean;
+  action: string;
+}
+
+interface RevisionsDialogProps {
+  monaco: Monaco;
+  document: TextDocument;
+  parts: readonly Part[];
+  mayRevert: string | null;
+  close: (answer?: true) => void;
+}
+
+/** All stored versions of an object: what each looked like beside today's text, and going back to it. */
+export function RevisionsDialog({ monaco, document, parts, mayRevert, close }: RevisionsDialogProps) {
+  const t = useText();
+  const base = `/projects/${document.projectId}/objects/${document.objectId}`;
+  const list = useQuery({
+    queryKey: [...keys.object(document.projectId, document.objectId), 'revisions'],
+    queryFn: () => api.get<Revision[]>(`${base}/revisions`),
+    staleTime: 0,
+  });
+  const [chosen, setChosen] = useState<number | null>(null);
+  const [part, setPart] = useState<Part>(parts.includes('implementation') ? 'implementation' : 'declaration');
+  const revisions = list.data ?? [];
+  const current = document.store.getState();
+  const shown = chosen ?? revisions[1]?.revision ?? revisions[0]?.revision ?? null;
+  const old = useQuery({
+    queryKey: [...keys.object(document.projectId, document.objectId), 'revisions', shown],
+    queryFn: () => api.get<ProjectObject<TextData>>(`${base}/revisions/${String(shown)}`),
+    enabled: shown !== null,
+    staleTime: Infinity,
+  });
+  const revert = async () => {
+    const done = await guard(async () => {
+      await document.save();
+      await api.post(`${base}/revert`, { revision: shown });
+      await queryClient.invalidateQueries({ queryKey: keys.object(document.projectId, document.objectId) });
+      return true as const;
+    });
+    if (done) close(true);
+  };
+  const data = old.data?.data;
+  const reason = mayRevert ?? (shown === null || shown === current.base.revision ? t('doc.currentRevision') : null);
+  return (
+    <Dialog
+      title={t('doc.revisionsTitle', { name: document.name })}
+      width={1160}
+      onClose={() => close()}
+      footer={
+        <>
+          <Button onClick={() => close()}>{t('action.close')}</Button>
+          <Button variant="primary" disabledReason={reason} onClick={() => void revert()}>
+            {t('doc.revert')}
+          </Button>
+        </>
+      }
+    >
+      {list.isError ? (
+        <Failed error={list.error} retry={() => void list.refetch()} />
+      ) : (
+        <div className={styles.history}>
+          <RevisionList revisions={revisions} current={current.base.revision} shown={shown} onShow={setChosen} />
+          <div className={styles.diff} style={{ height: 'auto', minHeight: 0 }}>
+            <PartTabs parts={parts} part={part} onPart={setPart} />
+            <div className={styles.sides}>
+              <span>{t('doc.revision', { revision: shown ?? 0 })}</span>
+              <span>{t('doc.textNow')}</span>
+            </div>
+            {data === undefined ? (
+              <Loading />
+            ) : (
+              <DiffView monaco={monaco} left={data[part] ?? ''} right={current.text[part]} />
+            )}
+          </div>
+        </div>
+      )}
+    </Dialog>
+  );
+}
+
+interface RevisionListProps {
+  revisions: readonly Revision[];
+  current: number;
+  shown: number | null;
+  onShow: (revision: number) => void;
+}
+
+function RevisionList({ revisions, current, shown, onShow }: RevisionListProps) {
+  const t = useText();
+  const language = useLanguage();
+  const format = useMemo(
+    () => new Intl.DateTimeFormat(language, { dateStyle: 'short', timeStyle: 'medium' }),
+    [language],
+  );
+  return (
+    <div className={styles.revisions} role="listbox" aria-label={t('doc.revisions')}>
+      {revisions.map((one) => (
+        <button
+          key={one.revision}
+          type="button"
+          role="option"
+          aria-selected={one.revision === shown}
+          className={styles.revision}
+          onClick={() => onShow(one.revision)}
+        >
+          <b>{t('doc.revision', { revision: one.revision })}</b>
+          <time dateTime={one.at}>{format.format(new Date(one.at))}</time>
+          <small>
+            {[
+              one.author,
+              one.comment || t(one.autosave ? 'doc.autosave' : 'doc.saved'),
+              one.revision === current ? t('doc.current') : '',
+            ]
+              .filter(Boolean)
+              .join(' · ')}
+          </small>
+        </button>
+      ))}
+    </div>
+  );
+}

@@ -1,0 +1,226 @@
+/**
+ * Values behind the variables of the visible lines of one Monaco editor.
+ *
+ * Asks for what is on screen (and a little around it), and draws again only when one of these values changes.
+ */
+import type { editor, IDisposable } from 'monaco-editor/editor/editor.api';
+import type { GroupHandle, OnlineChannel } from '@/online/channel';
+import type { NumberFormat } from '@/online/format';
+import { expressionKey } from '@/online/item';
+import { usePrepared } from '@/online/prepared';
+import { forcedKeys } from '@/online/useLive';
+import { useOnline } from '@/workbench/onlineSession';
+import type { CodeEditor } from '../st/CodePane';
+import type { Monaco } from '../st/monacoLoader';
+import { expressionOf, findVariables, indexExpressions, type MonitorScope, type VariableUse } from '../st/variables';
+import styles from './inlineMonitor.module.css';
+import { FRESH_MS, pillOf, PillWidths } from './pills';
+
+export interface MonitorSettings {
+  readonly runtimeId: string;
+  readonly scope: MonitorScope;
+  readonly format: NumberFormat;
+  readonly lost: boolean;
+  /** For each line whether it is the running one; null when all are. */
+  readonly running: readonly boolean[] | null;
+}
+
+/** Attached to the text of a pill, so that a click on it is known. */
+export interface PillTarget {
+  readonly expression: string;
+}
+
+interface ShownUse {
+  readonly use: VariableUse;
+  readonly expression: string;
+  readonly line: number;
+  readonly column: number;
+}
+
+const AROUND_LINES = 20;
+const MOST_USES = 1500;
+
+export class InlineMonitor {
+  private uses: readonly VariableUse[] = [];
+  private shown: readonly ShownUse[] = [];
+  private readonly widths = new PillWidths();
+  private readonly decorations: editor.IEditorDecorationsCollection;
+  private readonly group: GroupHandle;
+  private readonly disposables: IDisposable[] = [];
+  private readonly stops: (() => void)[] = [];
+  private listening: (() => void)[] = [];
+  private listened = '';
+  private frame = 0;
+  private fading: ReturnType<typeof setTimeout> | undefined;
+  private drawn = '';
+  /** Nothing is shown before the first settings. */
+  private settings: MonitorSettings | null = null;
+
+  constructor(
+    private readonly monaco: Monaco,
+    private readonly target: CodeEditor,
+    private readonly channel: OnlineChannel,
+  ) {
+    this.decorations = target.createDecorationsCollection();
+    this.group = channel.watch([], 100);
+    this.disposables.push(
+      target.onDidScrollChange((event) => event.scrollTopChanged && this.look()),
+      target.onDidLayoutChange(() => this.look()),
+      target.onDidChangeModelContent(() => this.read()),
+      target.onDidChangeHiddenAreas(() => this.look()),
+    );
+    this.stops.push(
+      usePrepared.subscribe(() => this.redraw()),
+      useOnline.subscribe((now, before) => now.forces !== before.forces && this.redraw()),
+    );
+    this.read();
+  }
+
+  set(settings: MonitorSettings): void {
+    this.settings = settings;
+    this.look();
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.frame);
+    clearTimeout(this.fading);
+    this.disposables.forEach((disposable) => disposable.dispose());
+    this.stops.forEach((stop) => stop());
+    this.listening.forEach((stop) => stop());
+    this.group.release();
+    this.decorations.clear();
+  }
+
+  /** The text has changed: find its variables anew. */
+  private read(): void {
+    const model = this.target.getModel();
+    this.uses = model === null ? [] : findVariables(model.getValue());
+    this.look();
+  }
+
+  private readonly indexValue = (expression: string): number | null => {
+    const value = this.channel.board.get(expression)?.value;
+    return typeof value === 'number' ? value : typeof value === 'bigint' ? Number(value) : null;
+  };
+
+  /** Scrolled, resized or other settings: what is on screen and what has to be asked for. */
+  private look(): void {
+    const model = this.target.getModel();
+    const settings = this.settings;
+    if (model === null || settings === null) return;
+    const ranges = this.target.getVisibleRanges();
+    const visible = (line: number) =>
+      ranges.some((r) => line >= r.startLineNumber - AROUND_LINES && line <= r.endLineNumber + AROUND_LINES);
+    const first = model.getOffsetAt({
+      lineNumber: Math.max(1, (ranges[0]?.startLineNumber ?? 1) - AROUND_LINES),
+      column: 1,
+    });
+    const shown: ShownUse[] = [];
+    const wanted: string[] = [];
+    for (const use of this.uses) {
+      if (use.end < first) continue;
+      const { lineNumber: line, column } = model.getPositionAt(use.end);
+      if (!visible(line)) {
+        if (line > (ranges[ranges.length - 1]?.endLineNumber ?? 1) + AROUND_LINES) break;
+        continue;
+      }
+      wanted.push(...indexExpressions(use.path, settings.scope, this.indexValue));
+      const expression = expressionOf(use.path, settings.scope, this.indexValue);
+      if (expression === null) continue;
+      wanted.push(expression);
+      shown.push({ use, expression, line, column });
+      if (shown.length >= MOST_USES) break;
+    }
+    this.shown = shown;
+    this.group.update(wanted);
+    this.listen(wanted, settings.scope);
+    this.redraw();
+  }
+
+  private listen(expressions: readonly string[], scope: MonitorScope): void {
+    const keys = [...new Set(expressions.map(expressionKey))].sort();
+    const all = keys.join('\n');
+    if (all === this.listened) return;
+    this.listened = all;
+    this.listening.forEach((stop) => stop());
+    const indices = new Set(
+      this.uses.flatMap((use) => indexExpressions(use.path, scope, this.indexValue)).map(expressionKey),
+    );
+    // A moved index means another element: what is asked for changes with it.
+    this.listening = keys.map((key) => this.channel.board.subscribe(key, indices.has(key) ? this.moved : this.redraw));
+  }
+
+  private readonly moved = () => this.look();
+
+  private readonly redraw = () => {
+    if (this.frame !== 0) return;
+    this.frame = requestAnimationFrame(() => {
+      this.frame = 0;
+      this.draw();
+    });
+  };
+
+  private draw(): void {
+    if (this.settings === null) return;
+    const { runtimeId, format, lost, running } = this.settings;
+    const prepared = usePrepared.getState().values[runtimeId] ?? {};
+    const forced = forcedKeys(useOnline.getState().forces[runtimeId] ?? []);
+    const now = performance.now();
+    let freshUntil = 0;
+    const next: editor.IModelDeltaDecoration[] = [];
+    const signature: string[] = [];
+    for (const { expression, line, column } of this.shown) {
+      const live = this.channel.board.get(expression);
+      if (live === null) continue;
+      const key = expressionKey(expression);
+      const pill = pillOf(
+        {
+          live,
+          forced: forced.has(key),
+          prepared: prepared[key]?.literal ?? null,
+          lost,
+          stale: running !== null && running[line - 1] === false,
+          now,
+          format,
+        },
+        this.widths.widthOf(key, live, format),
+      );
+      if (pill === null) continue;
+      if (pill.classes.includes('fresh')) freshUntil = Math.max(freshUntil, live.changedAt + FRESH_MS);
+      signature.push(`${String(line)}.${String(column)} ${pill.text} ${pill.classes.join()} ${pill.prepared ?? ''}`);
+      next.push(this.decoration({ expression }, pill, line, column));
+    }
+    const drawn = signature.join('\n');
+    if (drawn !== this.drawn) {
+      this.drawn = drawn;
+      this.decorations.set(next);
+    }
+    clearTimeout(this.fading);
+    if (freshUntil > 0) this.fading = setTimeout(this.redraw, freshUntil - now + 20);
+  }
+
+  private decoration(
+    attachedData: PillTarget,
+    pill: { text: string; classes: readonly string[]; prepared: string | null },
+    line: number,
+    column: number,
+  ): editor.IModelDeltaDecoration {
+    const { None } = this.monaco.editor.InjectedTextCursorStops;
+    const injected = (content: string, inlineClassName: string): editor.InjectedTextOptions => ({
+      content,
+      inlineClassName,
+      inlineClassNameAffectsLetterSpacing: true,
+      cursorStops: None,
+      attachedData,
+    });
+    return {
+      range: { startLineNumber: line, startColumn: column, endLineNumber: line, endColumn: column },
+      options: {
+        showIfCollapsed: true,
+        stickiness: this.monaco.editor.TrackedRangeStickiness.NeverGrowsWhenTypingAtEdges,
+        before: injected(pill.text, pill.classes.map((name) => styles[name]).join(' ')),
+        ...(pill.prepared !== null && { after: injected(pill.prepared, styles.prepared ?? '') }),
+      },
+    };
+  }
+}

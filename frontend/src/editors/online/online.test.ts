@@ -1,0 +1,114 @@
+import { describe, expect, it } from 'vitest';
+import type { ObjectSummary } from '@/api/types';
+import type { SubscribedItem } from '@/online/item';
+import { monitorTarget } from './monitorScope';
+import { pillOf, PillWidths, type PillState } from './pills';
+import { unchangedLines } from './staleLines';
+
+const object = (id: string, kind: string, parent: string | null, subkind: string | null = null) =>
+  ({ id, kind, parent_id: parent, subkind, name: id, index: 0, revision: 1, badges: [] }) as ObjectSummary;
+
+const objects = [
+  object('App', 'application', null),
+  object('PLC_PRG', 'pou', 'App', 'program'),
+  object('FB', 'pou', 'App', 'function_block'),
+  object('Start', 'method', 'FB'),
+  object('Act', 'action', 'PLC_PRG'),
+  object('F', 'pou', 'App', 'function'),
+  object('GVL', 'gvl', 'App'),
+];
+const of = (id: string, instance: string | null = null, declaration = '') => {
+  const found = objects.find((o) => o.id === id);
+  if (found === undefined) throw new Error(id);
+  const { path, needsInstanceOf, temporary } = monitorTarget(objects, found, instance, declaration);
+  return { path, needsInstanceOf, temporary: [...temporary] };
+};
+
+describe('what an editor shows online', () => {
+  it('is fixed for programs, their actions and lists', () => {
+    expect(of('PLC_PRG', null, 'PROGRAM PLC_PRG\nVAR_TEMP\n t : INT;\nEND_VAR')).toEqual({
+      path: 'PLC_PRG',
+      needsInstanceOf: null,
+      temporary: ['T'],
+    });
+    expect(of('Act').path).toBe('PLC_PRG');
+    expect(of('GVL').path).toBe('GVL');
+  });
+  it('has to be chosen for function blocks and their methods', () => {
+    expect(of('FB')).toMatchObject({ path: null, needsInstanceOf: 'FB' });
+    expect(of('FB', 'PLC_PRG.fb1')).toMatchObject({ path: 'PLC_PRG.fb1', needsInstanceOf: null });
+    const start = of(
+      'Start',
+      'PLC_PRG.fb1',
+      'METHOD Start : BOOL\nVAR_INPUT\n n : INT;\nEND_VAR\nVAR_STAT\n k : INT;\nEND_VAR',
+    );
+    expect(start).toEqual({ path: 'PLC_PRG.fb1', needsInstanceOf: null, temporary: ['N', 'START'] });
+  });
+  it('is nothing for functions', () => {
+    expect(of('F', null, 'FUNCTION F : INT\nVAR\n i : INT;\nEND_VAR')).toEqual({
+      path: null,
+      needsInstanceOf: null,
+      temporary: ['I', 'F'],
+    });
+  });
+});
+
+describe('pills', () => {
+  const item: SubscribedItem = { expression: 'x', offset: 0, size: 2, type: 'INT', kind: 'int' };
+  const state = (value: number | boolean | null, more: Partial<PillState> = {}): PillState => ({
+    live: {
+      item: typeof value === 'boolean' ? { ...item, kind: 'bool', type: 'BOOL', size: 1 } : item,
+      value,
+      changedAt: 0,
+    },
+    forced: false,
+    prepared: null,
+    lost: false,
+    stale: false,
+    now: 10_000,
+    format: 'dec',
+    ...more,
+  });
+  it('show value, force and prepared value', () => {
+    expect(pillOf(state(42), 4)).toEqual({ text: '\u00a0\u00a042', classes: ['pill'], prepared: null });
+    expect(pillOf(state(true, { forced: true, prepared: 'FALSE' }), 5)).toEqual({
+      text: 'F\u00a0\u00a0TRUE',
+      classes: ['pill', 'true', 'forced'],
+      prepared: '<FALSE>',
+    });
+  });
+  it('mark what changed just now, unless the connection is lost', () => {
+    const fresh = state(1);
+    const changed = { ...fresh, live: { item, value: 1, changedAt: 9500 } };
+    expect(pillOf(changed, 0)?.classes).toContain('fresh');
+    expect(pillOf({ ...changed, lost: true }, 0)?.classes).toEqual(['pill', 'lost']);
+    expect(pillOf({ ...changed, now: 10_600, stale: true }, 0)?.classes).toEqual(['pill', 'stale']);
+  });
+  it('are not shown without a value', () => {
+    expect(pillOf(state(null), 0)).toBeNull();
+    expect(pillOf({ ...state(1), live: null }, 0)).toBeNull();
+    expect(
+      pillOf({ ...state(1), live: { item: { ...item, kind: 'fb', size: 0 }, value: null, changedAt: 0 } }, 0),
+    ).toBeNull();
+  });
+  it('keep the width of the widest value seen', () => {
+    const widths = new PillWidths();
+    const live = (value: number) => ({ item, value, changedAt: 0 });
+    expect(widths.widthOf('x', live(12345), 'dec')).toBe(5);
+    expect(widths.widthOf('x', live(1), 'dec')).toBe(5);
+    expect(widths.widthOf('y', live(1), 'dec')).toBe(1);
+  });
+});
+
+describe('lines that run', () => {
+  const marks = (running: string, now: string) =>
+    unchangedLines(running.replaceAll('|', '\n'), now.replaceAll('|', '\n'));
+  it.each([
+    ['a|b|c', 'a|b|c', [true, true, true]],
+    ['a|b|c', 'a|x|c', [true, false, true]],
+    ['a|b|c', 'a|n|b|c', [true, false, true, true]],
+    ['a|b|c|d', 'a|c|new|d', [true, true, false, true]],
+    ['a|b', '  a|b ', [true, true]],
+    ['', 'a', [false]],
+  ])('%s -> %s', (running, now, expected) => expect(marks(running, now)).toEqual(expected));
+});

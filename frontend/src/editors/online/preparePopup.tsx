@@ -1,0 +1,106 @@
+import type { editor } from 'monaco-editor/editor/editor.api';
+import { createRoot, type Root } from 'react-dom/client';
+import { CellInput } from '@/editors/grid/CellInput';
+import { t } from '@/i18n';
+import { channelOf } from '@/online/connections';
+import { formatLiteral } from '@/online/format';
+import type { SubscribedItem } from '@/online/item';
+import { checkLiteral } from '@/online/literal';
+import { prepare, preparedLiteral } from '@/online/prepared';
+import { isWritable, togglePrepared } from '@/online/toggle';
+import { notify } from '@/workbench/notices';
+import type { CodeEditor } from '../st/CodePane';
+import type { Monaco } from '../st/monacoLoader';
+import type { PillTarget } from './inlineMonitor';
+import styles from './preparePopup.module.css';
+
+let open: (() => void) | null = null;
+
+/** A click on a value: BOOL goes to its next prepared value, others open a field; Enter takes it. */
+export function openPreparePopup(
+  monaco: Monaco,
+  target: CodeEditor,
+  runtimeId: string,
+  event: editor.IEditorMouseEvent,
+): void {
+  const pill = pillUnder(monaco, event);
+  if (pill === null || !event.event.leftButton) return;
+  event.event.preventDefault();
+  const { expression } = pill;
+  const live = channelOf(runtimeId)?.board.get(expression);
+  if (live == null) return;
+  if (!isWritable(live.item.flags)) {
+    notify({ tone: 'info', title: t('online.constantFixed') });
+    return;
+  }
+  if (togglePrepared(runtimeId, expression)) return;
+  const position = event.target.position;
+  if (position === null) return;
+  const value =
+    preparedLiteral(runtimeId, expression) ?? (live.value === null ? '' : formatLiteral(live.value, live.item));
+  showField(monaco, target, position, live.item, value, (literal) => prepare(runtimeId, expression, literal));
+}
+
+function pillUnder(monaco: Monaco, event: editor.IEditorMouseEvent): PillTarget | null {
+  if (event.target.type !== monaco.editor.MouseTargetType.CONTENT_TEXT) return null;
+  const detail = event.target.detail as { injectedText?: { options: editor.InjectedTextOptions } | null };
+  const data = detail.injectedText?.options.attachedData as PillTarget | undefined;
+  return typeof data?.expression === 'string' ? data : null;
+}
+
+function showField(
+  monaco: Monaco,
+  target: CodeEditor,
+  position: { lineNumber: number; column: number },
+  item: SubscribedItem,
+  value: string,
+  done: (literal: string | null) => void,
+): void {
+  open?.();
+  const node = document.createElement('div');
+  node.className = styles.popup ?? '';
+  const { BELOW, ABOVE } = monaco.editor.ContentWidgetPositionPreference;
+  const widget: editor.IContentWidget = {
+    getId: () => 'tappet.prepare',
+    getDomNode: () => node,
+    getPosition: () => ({ position, preference: [BELOW, ABOVE] }),
+    allowEditorOverflow: true,
+  };
+  const root: Root = createRoot(node);
+  const close = () => {
+    open = null;
+    target.removeContentWidget(widget);
+    // The field may be in the middle of an event of its own.
+    setTimeout(() => root.unmount());
+    target.focus();
+  };
+  open = close;
+  const refusal = (text: string) => {
+    if (text.trim() === '') return null;
+    const result = checkLiteral(text, item);
+    return result.ok ? null : t(result.reason, result.values);
+  };
+  root.render(
+    <>
+      <div className={styles.title}>
+        {item.expression} <i>{item.type}</i>
+      </div>
+      <div className={styles.field}>
+        <CellInput
+          label={t('online.column.prepared')}
+          value={value}
+          suggestions={item.enum ? Object.keys(item.enum) : undefined}
+          check={refusal}
+          onCommit={(text) => {
+            const result = text.trim() === '' ? null : checkLiteral(text, item);
+            done(result?.ok === true ? result.literal : null);
+            close();
+          }}
+          onCancel={close}
+        />
+      </div>
+      <div className={styles.hint}>{t('online.prepareHint')}</div>
+    </>,
+  );
+  target.addContentWidget(widget);
+}

@@ -1,0 +1,151 @@
+/** Larger acts of a text editor: input assistant, auto declare, rename, revisions, add to watch. */
+import { keys, queryClient } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
+import { t } from '@/i18n';
+import { activeLanguageClient } from '@/lsp/session';
+import { renameSymbol, renameTarget } from '@/lsp/rename';
+import { addToList, useWatchLists } from '@/online/watch/lists';
+import { commandContext } from '@/workbench/context';
+import { openDialog } from '@/workbench/dialogs';
+import { showPanel } from '@/workbench/docking/dock';
+import { notify } from '@/workbench/notices';
+import { mayEdit } from '@/workbench/rights';
+import { reasonText } from '@/workbench/run';
+import { ancestorOfKind } from '@/workbench/tree/model';
+import { InputAssistant } from '../assistant/InputAssistant';
+import { parseDeclaration } from '../declaration/parse';
+import { insertRow } from '../declaration/structure';
+import { openDocument, type Part } from '../documents/documents';
+import type { OpenText } from '../documents/useTextDocument';
+import { RevisionsDialog } from '../documents/RevisionsDialog';
+import { monitorTarget, owningPou } from '../online/monitorScope';
+import { setEditorSettings, useEditorSettings } from '../settings';
+import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
+import type { CodeEditor } from './CodePane';
+import { typeByName } from './declareTarget';
+import { RenameDialog } from './RenameDialog';
+import { expressionOf, findVariables } from './variables';
+
+export interface TextPanel extends OpenText {
+  projectId: string;
+  object: ObjectSummary;
+  instance: string | null;
+}
+
+function objectsOf(projectId: string): readonly ObjectSummary[] {
+  return queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+}
+
+/** F2: what is chosen replaces the word at the cursor. */
+export async function inputAssistant({ projectId, object }: TextPanel, editor: CodeEditor): Promise<void> {
+  const model = editor.getModel();
+  const position = editor.getPosition();
+  if (model === null || position === null) return;
+  const word = model.getWordUntilPosition(position);
+  const chosen = await openDialog<string>((close) => (
+    <InputAssistant projectId={projectId} object={object} typed={word.word} close={close} />
+  ));
+  editor.focus();
+  if (chosen === undefined) return;
+  const range = {
+    startLineNumber: position.lineNumber,
+    endLineNumber: position.lineNumber,
+    startColumn: word.startColumn,
+    endColumn: position.column,
+  };
+  editor.pushUndoStop();
+  editor.executeEdits('inputAssistant', [{ range, text: chosen, forceMoveMarkers: true }]);
+  editor.pushUndoStop();
+}
+
+/** Shift+F2: declares the name at the cursor in this object or in a variable list. */
+export async function autoDeclare(panel: TextPanel, editor: CodeEditor, name?: string): Promise<void> {
+  const { monaco, projectId, object, document } = panel;
+  const position = editor.getPosition();
+  const word = name ?? (position === null ? '' : (editor.getModel()?.getWordAtPosition(position)?.word ?? ''));
+  const objects = objectsOf(projectId);
+  // An action declares in its POU.
+  const own = object.kind === 'action' ? (owningPou(objects, object) ?? object) : object;
+  const application = ancestorOfKind(objects, object.id, 'application')?.id;
+  const lists = objects.filter(
+    (o) => o.kind === 'gvl' && ancestorOfKind(objects, o.id, 'application')?.id === application,
+  );
+  const declaration = own.id === object.id ? document.models.declaration.getValue() : '';
+  const keyword = parseDeclaration(declaration).header?.keyword.text.toUpperCase() ?? (own.subkind ?? '').toUpperCase();
+  const declared = await openDialog<Declared>((close) => (
+    <AutoDeclareDialog
+      projectId={projectId}
+      object={object}
+      places={[own, ...lists]}
+      keyword={keyword}
+      start={{ scope: 'VAR', flags: [], name: word, type: typeByName(word, useEditorSettings.getState().lastType) }}
+      close={close}
+    />
+  ));
+  editor.focus();
+  if (declared === undefined) return;
+  setEditorSettings({ lastType: declared.variable.type });
+  const target = await openDocument(monaco, projectId, declared.objectId);
+  target.replaceText('declaration', insertRow(target.models.declaration.getValue(), null, declared.variable));
+  target.release();
+}
+
+/** Ctrl+F2: gives a symbol another name wherever it is used. */
+export async function rename({ monaco }: TextPanel, editor: CodeEditor): Promise<void> {
+  const client = activeLanguageClient();
+  const model = editor.getModel();
+  const position = editor.getPosition();
+  if (client === null || model === null || position === null) return;
+  const name = await renameTarget(client, model, position);
+  if (name === null) {
+    notify({ tone: 'info', title: t('st.nothingToRename') });
+    return;
+  }
+  const next = await openDialog<string>((close) => <RenameDialog name={name} close={close} />);
+  editor.focus();
+  if (next === undefined) return;
+  const { places, objects } = await renameSymbol(monaco, client, model, position, next);
+  notify({ tone: 'ok', title: t('st.renamed', { name: next, places, objects }) });
+}
+
+export async function revisions({ monaco, document }: TextPanel, parts: readonly Part[]): Promise<void> {
+  const allowed = mayEdit(commandContext());
+  await openDialog((close) => (
+    <RevisionsDialog
+      monaco={monaco}
+      document={document}
+      parts={parts}
+      mayRevert={allowed === true ? null : reasonText(allowed)}
+      close={close}
+    />
+  ));
+}
+
+/** The variable at the cursor, or those of the selection, go to the watch list shown last. */
+export function addToWatch({ projectId, object, instance, document }: TextPanel, editor: CodeEditor): void {
+  const model = editor.getModel();
+  const selection = editor.getSelection();
+  if (model === null || selection === null) return;
+  const declaration = document.models.declaration.getValue();
+  const { path, temporary } = monitorTarget(objectsOf(projectId), object, instance, declaration);
+  const names = new Set(parseDeclaration(declaration).rows.map((row) => row.name.text.toUpperCase()));
+  const scope = { instance: path, members: names, temporary };
+  const from = model.getOffsetAt(selection.getStartPosition());
+  const to = model.getOffsetAt(selection.getEndPosition());
+  const inDeclaration = model === document.models.declaration;
+  const found = inDeclaration
+    ? parseDeclaration(declaration)
+        .rows.filter((row) => row.name.end >= from && row.element.start <= to && path !== null)
+        .map((row) => `${path ?? ''}.${row.name.text}`)
+    : findVariables(model.getValue())
+        .filter((use) => use.end >= from && use.start <= to)
+        .map((use) => expressionOf(use.path, scope, () => null));
+  const expressions = found.filter((expression) => expression !== null && expression !== '');
+  const list = useWatchLists.getState().current;
+  if (expressions.length === 0) {
+    notify({ tone: 'info', title: t('watch.nothingHere') });
+    return;
+  }
+  addToList(list, expressions as string[]);
+  showPanel(`watch${String(list)}`, false);
+}

@@ -1,0 +1,70 @@
+import {
+  ArrowLeftRight,
+  ArrowLeftToLine,
+  ArrowRightToLine,
+  ChevronDown,
+  ChevronRight,
+  Pi,
+  Variable,
+} from 'lucide-react';
+import { useText } from '@/i18n';
+import type { OnlineSession } from '@/workbench/onlineSession';
+import styles from './OnlineTable.module.css';
+import { isExpandable, type OnlineRow } from './treeRows';
+import { useLiveValue } from './useLive';
+
+interface NameCellProps {
+  row: OnlineRow;
+  session: OnlineSession | null;
+  onToggle: () => void;
+}
+
+const INDENT_PX = 16;
+
+/** Name with its place in the tree, an arrow to open, and an icon that tells input, output and others apart (DECL-46). */
+export function NameCell({ row, session, onToggle }: NameCellProps) {
+  const t = useText();
+  const live = useLiveValue(session?.runtimeId ?? null, row.expression);
+  const error = row.kind === undefined || row.kind === 'error' ? live?.item.error : undefined;
+  const expandable = isExpandable(row);
+  const Arrow = row.open === true ? ChevronDown : ChevronRight;
+  return (
+    <span className={styles.name} style={{ paddingLeft: row.depth * INDENT_PX }}>
+      <button
+        type="button"
+        className={styles.arrow}
+        tabIndex={-1}
+        aria-label={t(row.open === true ? 'online.collapse' : 'online.expand')}
+        style={{ visibility: expandable ? 'visible' : 'hidden' }}
+        onPointerDown={(event) => event.stopPropagation()}
+        onDoubleClick={(event) => event.stopPropagation()}
+        onClick={onToggle}
+      >
+        <Arrow size={14} />
+      </button>
+      <SectionIcon section={row.section} flags={row.flags} />
+      <span className={error ? styles.invalid : undefined} title={error ?? undefined}>
+        {row.label}
+      </span>
+    </span>
+  );
+}
+
+function SectionIcon({ section, flags }: { section?: string; flags?: string }) {
+  const t = useText();
+  const look =
+    flags?.includes('CONSTANT') === true
+      ? { Icon: Pi, name: t('online.section.constant') }
+      : section === 'VAR_INPUT'
+        ? { Icon: ArrowRightToLine, name: t('online.section.input') }
+        : section === 'VAR_OUTPUT'
+          ? { Icon: ArrowLeftToLine, name: t('online.section.output') }
+          : section === 'VAR_IN_OUT'
+            ? { Icon: ArrowLeftRight, name: t('online.section.inout') }
+            : { Icon: Variable, name: t('online.section.variable') };
+  return (
+    <span className={styles.icon} title={look.name} data-section={section}>
+      <look.Icon size={14} strokeWidth={1.6} />
+    </span>
+  );
+}

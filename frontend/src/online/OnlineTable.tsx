@@ -1,0 +1,163 @@
+import { useMemo, useState, type DragEvent, type KeyboardEvent, type ReactNode } from 'react';
+import { useText } from '@/i18n';
+import { Grid, type GridColumn, type GridEditing } from '@/editors/grid/Grid';
+import { useGridSelection, type GridSelection } from '@/editors/grid/useGridSelection';
+import type { MenuEntry } from '@/workbench/ui/Menu';
+import { ContextMenu } from '@/workbench/ui/Menu';
+import type { OnlineSession } from '@/workbench/onlineSession';
+import { NameCell } from './NameCell';
+import styles from './OnlineTable.module.css';
+import { PreparedCell, PreparedEditor } from './PreparedCell';
+import { togglePrepared } from './toggle';
+import { flatten, isExpandable, watchedExpressions, type OnlineRoot, type OnlineRow } from './treeRows';
+import { useItems } from './useItems';
+import { useChildren } from './useChildren';
+import { useWatched } from './useLive';
+import { ValueCell } from './ValueCell';
+
+export interface OnlineTableProps {
+  label: string;
+  session: OnlineSession | null;
+  roots: readonly OnlineRoot[];
+  columns: readonly GridColumn[];
+  /** Edits the first column of a root (watch lists); without it expressions stand fast. */
+  expressionEditor?: (row: OnlineRow, initial: string | undefined, done: () => void) => ReactNode;
+  onKey?: (event: KeyboardEvent, rows: readonly OnlineRow[]) => boolean;
+  menu?: (rows: readonly OnlineRow[]) => readonly MenuEntry[];
+  empty?: ReactNode;
+}
+
+/** Variables with type, value and prepared value; structured ones open. The table of watch lists and declarations. */
+export function OnlineTable(props: OnlineTableProps) {
+  const { session, roots, columns } = props;
+  const t = useText();
+  const runtimeId = session?.runtimeId ?? null;
+  const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
+  const [editing, setEditing] = useState<GridEditing | null>(null);
+  const [range, setRange] = useState({ first: 0, last: 60 });
+  const expressions = useMemo(() => roots.filter((r) => r.kind === undefined).map((r) => r.expression), [roots]);
+  const items = useItems(runtimeId, expressions);
+  const typed = useMemo(() => roots.map((root) => ({ ...items.get(root.expression), ...root })), [roots, items]);
+  const children = useChildren(session, typed, open);
+  const rows = useMemo(() => flatten(typed, open, children), [typed, open, children]);
+  const selection = useGridSelection(rows.length);
+  const chosen = [...selection.selected].flatMap((index) => rows[index] ?? []);
+  useWatched(
+    runtimeId,
+    useMemo(() => watchedExpressions(rows, range.first - 20, range.last + 20), [rows, range]),
+  );
+
+  const toggleOpen = (row: OnlineRow, wanted = !open.has(row.key)) =>
+    setOpen((before) => {
+      const next = new Set(before);
+      if (wanted) next.add(row.key);
+      else next.delete(row.key);
+      return next;
+    });
+  const columnOf = (cell: { column: number }) => columns[cell.column]?.id;
+  const edit = (cell: GridEditing) => {
+    const row = rows[cell.row];
+    if (row === undefined) return;
+    if (columnOf(cell) === 'expression' && row.depth === 0 && props.expressionEditor) setEditing(cell);
+    else if (columnOf(cell) === 'expression' && isExpandable(row)) toggleOpen(row);
+    else if (runtimeId !== null && row.valueless !== true && !isExpandable(row)) {
+      const column = columns.findIndex((c) => c.id === 'prepared');
+      if (cell.initial === undefined && togglePrepared(runtimeId, row.expression)) return;
+      setEditing({ ...cell, column });
+    }
+  };
+  const onKey = (event: KeyboardEvent): boolean => {
+    if (props.onKey?.(event, chosen) === true) return true;
+    const cursor = selection.cursor;
+    const row = cursor === null ? undefined : rows[cursor.row];
+    if (cursor === null || row === undefined) return false;
+    if (columnOf(cursor) === 'expression' && isExpandable(row)) {
+      if (event.key === 'ArrowRight' && row.open === false)
+        return (event.preventDefault(), toggleOpen(row, true), true);
+      if (event.key === 'ArrowLeft' && row.open === true) return (event.preventDefault(), toggleOpen(row, false), true);
+    }
+    if (event.key === ' ') return (event.preventDefault(), edit(cursor), true);
+    return false;
+  };
+  const close = () => setEditing(null);
+  const lost = session !== null && session.lostSince !== null;
+
+  const cell = (index: number, column: GridColumn): ReactNode => {
+    const row = rows[index];
+    if (row === undefined) return null;
+    switch (column.id) {
+      case 'expression':
+        return <NameCell row={row} session={session} onToggle={() => toggleOpen(row)} />;
+      case 'type':
+        return <span className={styles.type}>{row.type}</span>;
+      case 'value':
+        return row.valueless === true ? (
+          <span className={styles.unknown}>???</span>
+        ) : (
+          <ValueCell runtimeId={runtimeId} row={row} lost={lost} />
+        );
+      case 'prepared':
+        return <PreparedCell runtimeId={runtimeId} row={row} />;
+      case 'address':
+        return <span>{row.address}</span>;
+      case 'comment':
+        return <span className={styles.muted}>{row.comment?.split('\n')[0]}</span>;
+      default:
+        return null;
+    }
+  };
+  const editor = (what: GridEditing): ReactNode => {
+    const row = rows[what.row];
+    if (row === undefined) return null;
+    if (columnOf(what) === 'expression') return props.expressionEditor?.(row, what.initial, close);
+    return <PreparedEditor runtimeId={runtimeId ?? ''} row={row} initial={what.initial} onDone={close} />;
+  };
+  return (
+    <ContextMenu entries={() => props.menu?.(chosen) ?? []}>
+      <div className={styles.table} data-lost={lost || undefined}>
+        <Grid
+          label={props.label}
+          columns={columns}
+          count={rows.length}
+          keyOf={(index) => rows[index]?.key ?? String(index)}
+          cell={cell}
+          hint={(index, column) => hint(t, rows[index], column.id)}
+          level={(index) => (rows[index]?.depth ?? 0) + 1}
+          expanded={(index) => rows[index]?.open}
+          selected={selection.selected}
+          cursor={selection.cursor}
+          onCursor={selection.move}
+          editing={editing}
+          editor={editor}
+          onEdit={edit}
+          onKey={onKey}
+          onRange={(first, last) =>
+            setRange((before) => (before.first === first && before.last === last ? before : { first, last }))
+          }
+          onDragRow={(index, event) => drag(event, rows, index, selection)}
+          empty={props.empty}
+        />
+      </div>
+    </ContextMenu>
+  );
+}
+
+/** The kind of what is dragged between watch lists, tables and editors. */
+export const EXPRESSION_MIME = 'application/x-tappet-expression';
+
+function drag(event: DragEvent, rows: readonly OnlineRow[], index: number, selection: GridSelection): void {
+  const many = selection.selected.has(index) ? [...selection.selected].sort((a, b) => a - b) : [index];
+  const expressions = many.flatMap((i) => rows[i]?.expression ?? []).filter((expression) => expression !== '');
+  event.dataTransfer.setData(EXPRESSION_MIME, JSON.stringify(expressions));
+  event.dataTransfer.setData('text/plain', expressions.join('\n'));
+  event.dataTransfer.effectAllowed = 'copy';
+}
+
+function hint(t: ReturnType<typeof useText>, row: OnlineRow | undefined, column: string): string | undefined {
+  if (row === undefined) return undefined;
+  if (column === 'expression') return row.expression;
+  if (column === 'type') return row.type;
+  if (column === 'comment') return row.comment;
+  if (column === 'value' && row.valueless === true) return t('online.noValue');
+  return undefined;
+}

@@ -1,0 +1,35 @@
+/** Write, force and release: what is prepared anywhere goes out together (WAT-07). */
+import { api } from '@/api/client';
+import { t } from '@/i18n';
+import { notify } from '@/workbench/notices';
+import { clearPrepared, preparedValues, type PreparedValue } from './prepared';
+
+function order(values: readonly PreparedValue[]) {
+  return { values: values.map(({ expression, literal }) => ({ expression, value: literal })) };
+}
+
+/** Writes all prepared values together at the beginning of a cycle. */
+export async function writePrepared(runtimeId: string): Promise<void> {
+  const values = preparedValues(runtimeId);
+  if (values.length === 0) return;
+  await api.post(`/runtimes/${runtimeId}/values/write`, order(values));
+  clearPrepared(runtimeId, values);
+}
+
+/** Forces all prepared values; they hold until they are released. */
+export async function forcePrepared(runtimeId: string): Promise<void> {
+  const values = preparedValues(runtimeId);
+  if (values.length === 0) return;
+  await api.post(`/runtimes/${runtimeId}/values/force`, order(values));
+  clearPrepared(runtimeId, values);
+}
+
+/** Releases forced variables, all when none are named; `restore` gives them back what they held before (WAT-09). */
+export async function releaseForces(
+  runtimeId: string,
+  expressions: readonly string[] | null,
+  restore = false,
+): Promise<void> {
+  await api.post(`/runtimes/${runtimeId}/values/unforce`, { expressions, restore });
+  if (expressions === null) notify({ tone: 'ok', title: t('online.unforcedAll') });
+}

@@ -1,0 +1,95 @@
+/** Commands on online values: write, force, release, number formats. */
+import { Binary, LockKeyhole, LockKeyholeOpen, PencilLine } from 'lucide-react';
+import { setEditorSettings, useEditorSettings } from '@/editors/settings';
+import { contextChanged, registerCommands, type Command, type Enablement } from '@/workbench/commands';
+import type { CommandContext } from '@/workbench/context';
+import { useOnline } from '@/workbench/onlineSession';
+import { allOf, atLeast } from '@/workbench/rights';
+import { forcePrepared, releaseForces, writePrepared } from './acts';
+import { NUMBER_FORMATS, type NumberFormat } from './format';
+import { clearPrepared, preparedValues, usePrepared } from './prepared';
+
+const mayOperate = (context: CommandContext): Enablement => {
+  if (context.online === null) return 'reason.notLoggedIn';
+  if (!atLeast(context.role, 'operator')) return 'reason.operator';
+  return context.online.lostSince === null ? true : 'reason.connectionLost';
+};
+
+const hasPrepared = (context: CommandContext): Enablement =>
+  context.online !== null && preparedValues(context.online.runtimeId).length > 0 ? true : 'reason.nothingPrepared';
+
+const hasForces = (context: CommandContext): Enablement =>
+  context.online !== null && (useOnline.getState().forces[context.online.runtimeId] ?? []).length > 0
+    ? true
+    : 'reason.nothingForced';
+
+const onRuntime = (act: (runtimeId: string) => Promise<void> | void) => (context: CommandContext) => {
+  if (context.online !== null) return act(context.online.runtimeId);
+};
+
+const values: Command[] = [
+  {
+    id: 'online.writeValues',
+    title: 'online.writeValues',
+    icon: PencilLine,
+    keys: ['Ctrl+F7'],
+    menu: { menu: 'online', group: '5_values', order: 1 },
+    toolbar: { group: '6_values', order: 1 },
+    enabled: (context) => allOf(mayOperate(context), hasPrepared(context)),
+    run: onRuntime(writePrepared),
+  },
+  {
+    id: 'online.forceValues',
+    title: 'online.forceValues',
+    icon: LockKeyhole,
+    keys: ['F7'],
+    menu: { menu: 'online', group: '5_values', order: 2 },
+    toolbar: { group: '6_values', order: 2 },
+    enabled: (context) => allOf(mayOperate(context), hasPrepared(context)),
+    run: onRuntime(forcePrepared),
+  },
+  {
+    id: 'online.unforceAll',
+    title: 'online.unforceAll',
+    icon: LockKeyholeOpen,
+    keys: ['Alt+F7'],
+    menu: { menu: 'online', group: '5_values', order: 3 },
+    toolbar: { group: '6_values', order: 3 },
+    enabled: (context) => allOf(mayOperate(context), hasForces(context)),
+    run: onRuntime((runtimeId) => releaseForces(runtimeId, null)),
+  },
+  {
+    id: 'online.clearPrepared',
+    title: 'online.clearPrepared',
+    menu: { menu: 'online', group: '5_values', order: 4 },
+    enabled: hasPrepared,
+    run: onRuntime((runtimeId) => clearPrepared(runtimeId)),
+  },
+];
+
+const FORMAT_TITLES = {
+  dec: 'online.format.dec',
+  hex: 'online.format.hex',
+  bin: 'online.format.bin',
+  sci: 'online.format.sci',
+} as const satisfies Record<NumberFormat, string>;
+
+const formats: Command[] = NUMBER_FORMATS.map((format, order) => ({
+  id: `online.format.${format}`,
+  title: FORMAT_TITLES[format],
+  icon: format === 'bin' ? Binary : undefined,
+  menu: { menu: 'online', group: '6_format', order, submenu: 'online.format' },
+  checked: () => useEditorSettings.getState().numberFormat === format,
+  run: () => setEditorSettings({ numberFormat: format }),
+}));
+
+export function registerValueCommands(): void {
+  registerCommands([...values, ...formats]);
+  usePrepared.subscribe(contextChanged);
+  useOnline.subscribe((now, before) => {
+    if (now.forces !== before.forces) contextChanged();
+  });
+  useEditorSettings.subscribe((now, before) => {
+    if (now.numberFormat !== before.numberFormat) contextChanged();
+  });
+}

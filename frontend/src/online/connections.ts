@@ -1,0 +1,48 @@
+/** One channel for each runtime that an application is logged in to; they come and go with the logins. */
+import { socketUrl } from '@/api/client';
+import { connectionLost, forcesReceived, runtimeStateReceived, useOnline } from '@/workbench/onlineSession';
+import { BROWSER_CLOCK, ValueBoard } from './board';
+import { OnlineChannel, type ChannelSocket } from './channel';
+
+const channels = new Map<string, OnlineChannel>();
+
+function openChannel(runtimeId: string): OnlineChannel {
+  return new OnlineChannel(
+    new ValueBoard(BROWSER_CLOCK),
+    () => new WebSocket(socketUrl('/online', { runtime: runtimeId })) as unknown as ChannelSocket,
+    {
+      state: (state) => runtimeStateReceived(runtimeId, state),
+      forces: (expressions) => forcesReceived(runtimeId, expressions),
+      lost: () => connectionLost(runtimeId),
+      restored: () => undefined,
+      answered: () => undefined,
+    },
+    {
+      after: (ms, callback) => {
+        const timer = setTimeout(callback, ms);
+        return () => clearTimeout(timer);
+      },
+    },
+  );
+}
+
+/** The channel of a runtime, null while no application is logged in to it. */
+export function channelOf(runtimeId: string | null): OnlineChannel | null {
+  return runtimeId === null ? null : (channels.get(runtimeId) ?? null);
+}
+
+function follow(): void {
+  const wanted = new Set(Object.values(useOnline.getState().sessions).map((session) => session.runtimeId));
+  for (const runtimeId of wanted) if (!channels.has(runtimeId)) channels.set(runtimeId, openChannel(runtimeId));
+  for (const [runtimeId, channel] of channels) {
+    if (wanted.has(runtimeId)) continue;
+    channels.delete(runtimeId);
+    channel.close();
+  }
+}
+
+/** Opens and closes channels with the logins, from now on. */
+export function followSessions(): void {
+  follow();
+  useOnline.subscribe(follow);
+}

@@ -1,0 +1,67 @@
+/** Menu entries that every online table offers for its rows. */
+import { Copy, Eye, LockKeyhole, PencilLine } from 'lucide-react';
+import type { t as Text } from '@/i18n';
+import type { OnlineSession } from '@/workbench/onlineSession';
+import { runCommand } from '@/workbench/run';
+import type { MenuEntry } from '@/workbench/ui/Menu';
+import { prepare, preparedLiteral } from './prepared';
+import type { OnlineRow } from './treeRows';
+import { addToList, useWatchLists, WATCH_LISTS } from './watch/lists';
+
+export function commonEntries(t: typeof Text, session: OnlineSession | null, rows: readonly OnlineRow[]): MenuEntry[] {
+  const expressions = rows.map((row) => row.expression).filter((expression) => expression !== '');
+  const none = expressions.length === 0 ? t('watch.selectLine') : null;
+  const runtimeId = session?.runtimeId ?? null;
+  const prepared = runtimeId !== null && expressions.some((e) => preparedLiteral(runtimeId, e) !== null);
+  const offline = runtimeId === null ? t('reason.notLoggedIn') : null;
+  return [
+    {
+      kind: 'item',
+      key: 'write',
+      text: t('online.writeValues'),
+      icon: PencilLine,
+      shortcut: 'Ctrl+F7',
+      disabledReason: offline,
+      run: () => void runCommand('online.writeValues'),
+    },
+    {
+      kind: 'item',
+      key: 'force',
+      text: t('online.forceValues'),
+      icon: LockKeyhole,
+      shortcut: 'F7',
+      disabledReason: offline,
+      run: () => void runCommand('online.forceValues'),
+    },
+    {
+      kind: 'item',
+      key: 'unprepare',
+      text: t('online.unprepare'),
+      disabledReason: prepared ? null : t('reason.nothingPrepared'),
+      run: () => runtimeId !== null && expressions.forEach((expression) => prepare(runtimeId, expression, null)),
+    },
+    { kind: 'line', key: 'watch-line' },
+    {
+      kind: 'sub',
+      key: 'watch',
+      text: t('watch.add'),
+      icon: Eye,
+      entries: WATCH_LISTS.map((list) => ({
+        kind: 'item',
+        key: `watch${String(list)}`,
+        text: t('watch.title', { number: list }),
+        checked: useWatchLists.getState().current === list,
+        disabledReason: none,
+        run: () => addToList(list, expressions),
+      })),
+    },
+    {
+      kind: 'item',
+      key: 'copy',
+      text: t('watch.copy'),
+      icon: Copy,
+      disabledReason: none,
+      run: () => void navigator.clipboard.writeText(expressions.join('\n')),
+    },
+  ];
+}

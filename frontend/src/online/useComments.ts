@@ -1,0 +1,36 @@
+import { useQueries } from '@tanstack/react-query';
+import { useMemo } from 'react';
+import { api } from '@/api/client';
+import { keys, useObjects } from '@/api/queries';
+import type { ProjectObject, TextData } from '@/api/types';
+import { joinComments } from '@/editors/declaration/comments';
+import { parseDeclaration } from '@/editors/declaration/parse';
+
+const OWNERS = new Set(['pou', 'gvl', 'persistent']);
+
+/** Comment of the declaration of a variable, for paths of two parts such as `PLC_PRG.iCount` or `GVL.x`. */
+export function useComments(projectId: string | null): (expression: string) => string | undefined {
+  const { data: objects } = useObjects(projectId);
+  const owners = useMemo(
+    () => (objects ?? []).filter((o) => OWNERS.has(o.kind) && (o.kind !== 'pou' || o.subkind === 'program')),
+    [objects],
+  );
+  const texts = useQueries({
+    queries: owners.map((o) => ({
+      queryKey: keys.object(projectId ?? '', o.id),
+      queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${projectId ?? ''}/objects/${o.id}`),
+      staleTime: Infinity,
+    })),
+    combine: (answers) => answers.flatMap((answer) => answer.data ?? []),
+  });
+  return useMemo(() => {
+    const comments = new Map<string, string>();
+    for (const text of texts) {
+      for (const row of parseDeclaration(text.data.declaration).rows) {
+        const comment = joinComments(row.comments.map((cell) => cell.text));
+        if (comment !== '') comments.set(`${text.name}.${row.name.text}`.toUpperCase(), comment);
+      }
+    }
+    return (expression: string) => comments.get(expression.toUpperCase());
+  }, [texts]);
+}

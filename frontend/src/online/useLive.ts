@@ -1,0 +1,80 @@
+import { useCallback, useEffect, useRef, useState, useSyncExternalStore } from 'react';
+import { useOnline, type OnlineSession } from '@/workbench/onlineSession';
+import type { LiveValue } from './board';
+import type { GroupHandle } from './channel';
+import { channelOf } from './connections';
+import { expressionKey } from './item';
+import { symbolTree, type SymbolTree } from './symbols';
+
+/** The latest value of one expression; draws again only when it changes. Somebody must watch it. */
+export function useLiveValue(runtimeId: string | null, expression: string): LiveValue | null {
+  const board = channelOf(runtimeId)?.board ?? null;
+  const subscribe = useCallback(
+    (listener: () => void) => board?.subscribe(expression, listener) ?? (() => undefined),
+    [board, expression],
+  );
+  return useSyncExternalStore(subscribe, () => board?.get(expression) ?? null);
+}
+
+/** Watches expressions while the component is there; what is watched may change with every drawing. */
+export function useWatched(runtimeId: string | null, expressions: readonly string[], intervalMs = 100): void {
+  const handle = useRef<GroupHandle | null>(null);
+  const wanted = useRef(expressions);
+  useEffect(() => {
+    wanted.current = expressions;
+    handle.current?.update(expressions);
+  });
+  useEffect(() => {
+    const channel = channelOf(runtimeId);
+    if (channel === null) return;
+    handle.current = channel.watch(wanted.current, intervalMs);
+    return () => {
+      handle.current?.release();
+      handle.current = null;
+    };
+  }, [runtimeId, intervalMs]);
+}
+
+const forceSets = new WeakMap<readonly string[], ReadonlySet<string>>();
+const NO_FORCES: readonly string[] = [];
+
+/** Keys of all forced variables of a runtime. */
+export function forcedKeys(paths: readonly string[]): ReadonlySet<string> {
+  let keys = forceSets.get(paths);
+  if (keys === undefined) {
+    keys = new Set(paths.map(expressionKey));
+    forceSets.set(paths, keys);
+  }
+  return keys;
+}
+
+export function useForced(runtimeId: string | null, expression: string): boolean {
+  const key = expressionKey(expression);
+  return useOnline((state) => runtimeId !== null && forcedKeys(state.forces[runtimeId] ?? NO_FORCES).has(key));
+}
+
+/** The variables of the application that is loaded in the session's runtime. */
+export function useSymbols(session: OnlineSession | null): SymbolTree | null {
+  const runtimeId = session?.runtimeId ?? null;
+  const codeId = session?.runtime?.code_id ?? null;
+  return runtimeId === null ? null : symbolTree(runtimeId, codeId);
+}
+
+/** Upper-case names below a path; null until they are known. */
+export function useMemberNames(tree: SymbolTree | null, path: string | null): ReadonlySet<string> | null {
+  const [names, setNames] = useState<{ tree: SymbolTree; path: string; names: ReadonlySet<string> } | null>(null);
+  useEffect(() => {
+    if (tree === null || path === null) return;
+    let current = true;
+    tree.children(path).then(
+      (children) => {
+        if (current) setNames({ tree, path, names: new Set(children.map((child) => child.name.toUpperCase())) });
+      },
+      () => undefined,
+    );
+    return () => {
+      current = false;
+    };
+  }, [tree, path]);
+  return names !== null && names.tree === tree && names.path === path ? names.names : null;
+}

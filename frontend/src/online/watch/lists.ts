@@ -1,0 +1,138 @@
+/** Watch lists 1 to 4: expressions per list, kept for user and project, online and offline (WAT-01, WAT-10, WAT-11). */
+import { create } from 'zustand';
+import { loadSetting, saveSetting } from '@/app/preferences';
+import type { ObjectSummary } from '@/api/types';
+import { useProject } from '@/workbench/project';
+
+export const WATCH_LISTS = [1, 2, 3, 4] as const;
+export type WatchList = (typeof WATCH_LISTS)[number];
+
+export interface WatchEntry {
+  /** Stays the same while the expression is edited. */
+  readonly id: string;
+  readonly expression: string;
+}
+
+export type Lists = Readonly<Record<WatchList, readonly WatchEntry[]>>;
+
+const EMPTY: Lists = { 1: [], 2: [], 3: [], 4: [] };
+const SAVE_AFTER_MS = 800;
+
+interface WatchState {
+  projectId: string | null;
+  lists: Lists;
+  /** List that "Add to watch" fills: the one shown last. */
+  current: WatchList;
+}
+
+export const useWatchLists = create<WatchState>(() => ({ projectId: null, lists: EMPTY, current: 1 }));
+
+let serial = 0;
+const newId = () => `w${String((serial += 1))}-${String(Date.now())}`;
+
+/** Stored form: only the expressions, since the ids mean something in this page alone. */
+type Stored = Partial<Record<WatchList, readonly string[]>>;
+
+export function fromStored(stored: Stored | null): Lists {
+  const list = (number: WatchList) =>
+    (stored?.[number] ?? []).filter((e) => typeof e === 'string').map((expression) => ({ id: newId(), expression }));
+  return { 1: list(1), 2: list(2), 3: list(3), 4: list(4) };
+}
+
+export function toStored(lists: Lists): Stored {
+  return Object.fromEntries(
+    WATCH_LISTS.map((number) => [number, lists[number].map((entry) => entry.expression)]),
+  );
+}
+
+const keyOf = (projectId: string) => `watch.${projectId}`;
+let timer: ReturnType<typeof setTimeout> | undefined;
+
+/** Loads the lists of each project that is opened. */
+export function followProject(): void {
+  const load = async (projectId: string | null) => {
+    if (projectId === useWatchLists.getState().projectId) return;
+    useWatchLists.setState({ projectId, lists: EMPTY });
+    if (projectId === null) return;
+    const stored = await loadSetting<Stored>(keyOf(projectId)).catch(() => null);
+    const now = useWatchLists.getState();
+    // What was added while loading is not lost.
+    if (now.projectId === projectId) useWatchLists.setState({ lists: joined(fromStored(stored), now.lists) });
+  };
+  void load(useProject.getState().projectId);
+  useProject.subscribe((state) => void load(state.projectId));
+}
+
+function joined(stored: Lists, added: Lists): Lists {
+  return Object.fromEntries(WATCH_LISTS.map((n) => [n, [...stored[n], ...added[n]]])) as unknown as Lists;
+}
+
+function change(list: WatchList, update: (entries: readonly WatchEntry[]) => readonly WatchEntry[]): void {
+  const { lists, projectId } = useWatchLists.getState();
+  const next = { ...lists, [list]: update(lists[list]) };
+  useWatchLists.setState({ lists: next });
+  if (projectId === null) return;
+  clearTimeout(timer);
+  timer = setTimeout(() => void saveSetting(keyOf(projectId), toStored(next)).catch(() => undefined), SAVE_AFTER_MS);
+}
+
+/** Adds expressions before `before` or at the end; one that is in the list already is not added twice. */
+export function addToList(list: WatchList, expressions: readonly string[], before: string | null = null): void {
+  change(list, (entries) => {
+    const known = new Set(entries.map((entry) => entry.expression.toUpperCase()));
+    const fresh = expressions
+      .map((expression) => expression.trim())
+      .filter(
+        (expression) =>
+          expression !== '' && !known.has(expression.toUpperCase()) && known.add(expression.toUpperCase()),
+      )
+      .map((expression) => ({ id: newId(), expression }));
+    const at = entries.findIndex((entry) => entry.id === before);
+    return at < 0 ? [...entries, ...fresh] : [...entries.slice(0, at), ...fresh, ...entries.slice(at)];
+  });
+}
+
+/** Changes an expression; an empty one removes the line. */
+export function setExpression(list: WatchList, id: string, expression: string): void {
+  change(list, (entries) =>
+    expression.trim() === ''
+      ? entries.filter((entry) => entry.id !== id)
+      : entries.map((entry) => (entry.id === id ? { ...entry, expression: expression.trim() } : entry)),
+  );
+}
+
+export function removeFromList(list: WatchList, ids: readonly string[]): void {
+  change(list, (entries) => entries.filter((entry) => !ids.includes(entry.id)));
+}
+
+export function moveInList(list: WatchList, id: string, direction: -1 | 1): void {
+  change(list, (entries) => {
+    const at = entries.findIndex((entry) => entry.id === id);
+    const to = at + direction;
+    if (at < 0 || to < 0 || to >= entries.length) return entries;
+    const next = [...entries];
+    [next[at], next[to]] = [next[to] as WatchEntry, next[at] as WatchEntry];
+    return next;
+  });
+}
+
+export function setCurrentList(current: WatchList): void {
+  useWatchLists.setState({ current });
+}
+
+/**
+ * The expression as the runtime knows it: `Device.Application.PLC_PRG.x` loses the device and application it is
+ * asked of (WAT-03); a pasted `THIS^.x` or trailing semicolon is cleaned.
+ */
+export function plainExpression(expression: string, objects: readonly ObjectSummary[]): string {
+  const text = expression
+    .trim()
+    .replace(/;$/, '')
+    .replace(/\s*\.\s*/g, '.');
+  const [first = '', second = '', ...rest] = text.split('.');
+  const named = (kind: string, name: string) =>
+    objects.some((o) => o.kind === kind && o.name.toUpperCase() === name.toUpperCase());
+  if (rest.length > 0 && named('device', first) && named('application', second)) return rest.join('.');
+  if (second !== '' && named('application', first)) return [second, ...rest].join('.');
+  return text;
+}

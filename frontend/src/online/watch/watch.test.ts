@@ -1,0 +1,128 @@
+import { describe, expect, it } from 'vitest';
+import type { ObjectSummary } from '@/api/types';
+import { SymbolTree, type SymbolChild } from '../symbols';
+import { flatten, watchedExpressions, type OnlineRoot } from '../treeRows';
+import { completionsFor, splitExpression } from './completion';
+import {
+  addToList,
+  moveInList,
+  plainExpression,
+  removeFromList,
+  setExpression,
+  toStored,
+  useWatchLists,
+} from './lists';
+
+const child = (path: string, type: string, kind: string, leaf: boolean): SymbolChild => ({
+  name: path.endsWith(']') ? path.slice(path.lastIndexOf('[')) : path.slice(path.lastIndexOf('.') + 1),
+  path,
+  type,
+  kind,
+  leaf,
+});
+
+/** PLC_PRG with two fillers in an array and one beside, each with a timer; a GVL. */
+function plant() {
+  const asked: string[] = [];
+  const source = (path: string): Promise<readonly SymbolChild[]> => {
+    asked.push(path);
+    const answer: Record<string, SymbolChild[]> = {
+      '': [child('GVL', 'GVL', 'gvl', false), child('PLC_PRG', 'PLC_PRG', 'program', false)],
+      GVL: [child('GVL.xGo', 'BOOL', 'bool', true)],
+      PLC_PRG: [
+        child('PLC_PRG.aFill', 'ARRAY [0..1] OF FB_Fill', 'array', false),
+        child('PLC_PRG.fbFill', 'FB_Fill', 'fb', false),
+        child('PLC_PRG.n', 'INT', 'int', true),
+      ],
+      'PLC_PRG.aFill': [
+        child('PLC_PRG.aFill[0]', 'FB_Fill', 'fb', false),
+        child('PLC_PRG.aFill[1]', 'FB_Fill', 'fb', false),
+      ],
+      'PLC_PRG.aFill[0]': [child('PLC_PRG.aFill[0].t', 'TON', 'fb', false)],
+      'PLC_PRG.aFill[0].t': [child('PLC_PRG.aFill[0].t.Q', 'BOOL', 'bool', true)],
+    };
+    const found = answer[path];
+    return found === undefined ? Promise.reject(new Error(path)) : Promise.resolve(found);
+  };
+  return { tree: new SymbolTree(source), asked };
+}
+
+describe('symbol tree', () => {
+  it('asks for each type once and finds all instances', async () => {
+    const { tree, asked } = plant();
+    expect(await tree.instancesOf('fb_fill')).toEqual(['PLC_PRG.aFill[0]', 'PLC_PRG.aFill[1]', 'PLC_PRG.fbFill']);
+    expect(await tree.instancesOf('TON')).toEqual(['PLC_PRG.aFill[0].t', 'PLC_PRG.aFill[1].t', 'PLC_PRG.fbFill.t']);
+    expect(asked.sort()).toEqual(['', 'GVL', 'PLC_PRG', 'PLC_PRG.aFill', 'PLC_PRG.aFill[0]', 'PLC_PRG.aFill[0].t']);
+    expect((await tree.children('PLC_PRG.fbFill.t')).map((c) => c.path)).toEqual(['PLC_PRG.fbFill.t.Q']);
+    expect(await tree.children('PLC_PRG.n')).toEqual([]);
+  });
+});
+
+describe('expression completion', () => {
+  it('offers what continues the text', async () => {
+    const { tree } = plant();
+    const names = async (text: string) => (await completionsFor(tree, text)).map((c) => c.expression);
+    expect(await names('')).toEqual(['GVL', 'PLC_PRG']);
+    expect(await names('plc_prg.')).toEqual(['PLC_PRG.aFill', 'PLC_PRG.fbFill', 'PLC_PRG.n']);
+    expect(await names('PLC_PRG.f')).toEqual(['PLC_PRG.fbFill']);
+    expect(await names('PLC_PRG.aFill[1')).toEqual(['PLC_PRG.aFill[1]']);
+    expect(await names('PLC_PRG.n')).toEqual([]);
+  });
+  it('knows where the name begins', () => {
+    expect(splitExpression('a.b[1].c')).toEqual({ path: 'a.b[1]', start: 'c' });
+    expect(splitExpression('a.b[1')).toEqual({ path: 'a.b', start: '[1' });
+    expect(splitExpression('a')).toEqual({ path: '', start: 'a' });
+  });
+});
+
+describe('rows of an online table', () => {
+  const roots: OnlineRoot[] = [
+    { key: 'r1', expression: 'PLC_PRG.fbFill', label: 'PLC_PRG.fbFill', kind: 'fb', leaf: false },
+    { key: 'r2', expression: 'PLC_PRG.n', label: 'PLC_PRG.n', kind: 'int', leaf: true },
+  ];
+  const children = new Map([
+    [
+      'PLC_PRG.FBFILL',
+      [child('PLC_PRG.fbFill.t', 'TON', 'fb', false), child('PLC_PRG.fbFill.x', 'BOOL', 'bool', true)],
+    ],
+  ]);
+  it('show components of what is open', () => {
+    expect(flatten(roots, new Set(), children).map((r) => r.key)).toEqual(['r1', 'r2']);
+    const rows = flatten(roots, new Set(['r1']), children);
+    expect(rows.map((r) => [r.depth, r.label, r.expression, r.open])).toEqual([
+      [0, 'PLC_PRG.fbFill', 'PLC_PRG.fbFill', true],
+      [1, 't', 'PLC_PRG.fbFill.t', false],
+      [1, 'x', 'PLC_PRG.fbFill.x', undefined],
+      [0, 'PLC_PRG.n', 'PLC_PRG.n', undefined],
+    ]);
+    expect(watchedExpressions(rows, 0, 10)).toEqual(['PLC_PRG.fbFill.x', 'PLC_PRG.n']);
+    expect(watchedExpressions(rows, 3, 3)).toEqual(['PLC_PRG.n']);
+  });
+});
+
+describe('watch lists', () => {
+  const list = () => useWatchLists.getState().lists[2].map((entry) => entry.expression);
+  const idOf = (expression: string) =>
+    useWatchLists.getState().lists[2].find((e) => e.expression === expression)?.id ?? '';
+  it('take, change, move and drop expressions', () => {
+    addToList(2, ['PLC_PRG.a', ' PLC_PRG.b ', 'plc_prg.A', '']);
+    expect(list()).toEqual(['PLC_PRG.a', 'PLC_PRG.b']);
+    addToList(2, ['PLC_PRG.c'], idOf('PLC_PRG.b'));
+    expect(list()).toEqual(['PLC_PRG.a', 'PLC_PRG.c', 'PLC_PRG.b']);
+    setExpression(2, idOf('PLC_PRG.c'), 'PLC_PRG.d');
+    moveInList(2, idOf('PLC_PRG.d'), -1);
+    moveInList(2, idOf('PLC_PRG.d'), -1);
+    expect(list()).toEqual(['PLC_PRG.d', 'PLC_PRG.a', 'PLC_PRG.b']);
+    setExpression(2, idOf('PLC_PRG.a'), '  ');
+    removeFromList(2, [idOf('PLC_PRG.b')]);
+    expect(list()).toEqual(['PLC_PRG.d']);
+    expect(toStored(useWatchLists.getState().lists)[2]).toEqual(['PLC_PRG.d']);
+  });
+  it('accept full paths with device and application (WAT-03)', () => {
+    const object = (kind: string, name: string) => ({ kind, name }) as ObjectSummary;
+    const objects = [object('device', 'Dev1'), object('application', 'App1')];
+    expect(plainExpression('Dev1.App1.PLC_PRG.ivar', objects)).toBe('PLC_PRG.ivar');
+    expect(plainExpression('app1.PLC_PRG.ivar;', objects)).toBe('PLC_PRG.ivar');
+    expect(plainExpression('PLC_PRG.ivar', objects)).toBe('PLC_PRG.ivar');
+  });
+});
