@@ -94,5 +94,7 @@ def test_metrics(admin: TestClient, runtime_id: str) -> None:
     answer = admin.get("/api/v1/metrics")
     assert answer.headers["content-type"].startswith("text/plain")
     assert 'tappet_runtime_connected{runtime="test stand"} 1' in answer.text
+    assert 'tappet_task_cycles_total{runtime="test stand",task="MainTask"} 7' in answer.text
+    assert 'tappet_http_requests_total{method="POST",status="201"}' in answer.text
     for line in answer.text.splitlines():
         assert line.startswith("# ") or len(line.rsplit(" ", 1)) == 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from server_clients import PASSWORD, browser, script
@@ -125,6 +126,25 @@ def test_settings_are_any_json_of_limited_size(admin: TestClient) -> None:
         assert admin.get(url).json() == value
     assert admin.put(url, json="x" * 300_000).status_code == 413
     assert admin.put("/api/v1/me/settings/..%2Fx", json=1).status_code in (404, 422)
+
+
+@pytest.mark.parametrize(
+    "text", ["NaN", "[Infinity]", '{"a": -Infinity}', '"\\ud800"', "[" * 100_000, "{", ""]
+)
+def test_what_is_no_json_is_refused(admin: TestClient, text: str) -> None:
+    answer = admin.put("/api/v1/me/settings/a", content=text, headers={"Content-Type": "application/json"})
+    assert answer.status_code in (400, 422) or (text == "" and answer.status_code == 200), answer.text
+    assert admin.get("/api/v1/me/settings/a").json() is None
+
+
+@pytest.mark.parametrize("name", ["a\x00b", "\ud800", "a\nb", "x" * 101])
+def test_names_are_lines_of_text(admin: TestClient, name: str) -> None:
+    body = json.dumps({"name": name, "role": "viewer"})
+    answer = admin.post("/api/v1/auth/tokens", content=body, headers={"Content-Type": "application/json"})
+    assert answer.status_code == 422, answer.text
+    login = json.dumps({"username": name, "password": "\ud800"})
+    answer = admin.post("/api/v1/auth/login", content=login, headers={"Content-Type": "application/json"})
+    assert answer.status_code in (401, 422), answer.text
 
 
 def test_language_and_theme_show_in_me(admin: TestClient) -> None:

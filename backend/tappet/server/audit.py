@@ -44,15 +44,20 @@ def write(db: Connection, username: str, address: str, *acts: Act) -> None:
                 "username": username[:64],
                 "address": address[:64],
                 "action": act.action,
-                "subject": act.subject[:MAX_TEXT],
+                "subject": _text(act.subject),
                 "project_id": act.project_id,
                 "runtime_id": act.runtime_id,
-                "old_value": act.old_value[:MAX_TEXT] if act.old_value is not None else None,
-                "new_value": act.new_value[:MAX_TEXT] if act.new_value is not None else None,
+                "old_value": _text(act.old_value) if act.old_value is not None else None,
+                "new_value": _text(act.new_value) if act.new_value is not None else None,
             }
             for act in acts
         ],
     )
+
+
+def _text(value: str) -> str:
+    """Cut to length, and without NUL, which PostgreSQL does not keep."""
+    return value[:MAX_TEXT].replace("\x00", "\ufffd")
 
 
 def read(db: Connection, limit: int, before: int | None, action: str | None) -> list[dict[str, object]]:

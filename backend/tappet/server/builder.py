@@ -91,8 +91,7 @@ class Builder:
         Raises problems: 409 when it was cancelled, 500 when the compiler crashed.
         """
         key = (application.project_id, application.application_id)
-        order = self._order(application, previous)
-        fingerprint = _fingerprint(order, previous[0] if previous else None)
+        order, fingerprint = await asyncio.to_thread(self._order, application, previous)
         known = self._built.get(key)
         if known is not None and known.fingerprint == fingerprint:
             self._built.move_to_end(key)
@@ -139,8 +138,9 @@ class Builder:
         if not task.cancelled() and task.exception() is not None:
             log.error("build of %s failed", key, exc_info=task.exception())
 
-    def _order(self, application: Application, previous: tuple[str, bytes] | None) -> BuildOrder:
-        return BuildOrder(
+    def _order(self, application: Application, previous: tuple[str, bytes] | None) -> tuple[BuildOrder, str]:
+        """The order, and a fingerprint of everything the outcome depends on."""
+        order = BuildOrder(
             key=f"{application.project_id}/{application.application_id}",
             application=application.name,
             sources=tuple(_source_fields(source) for source in application.sources),
@@ -149,6 +149,7 @@ class Builder:
             previous=previous[1] if previous else None,
             cache=str(self._cache),
         )
+        return order, _fingerprint(order, previous[0] if previous else None)
 
     async def _run(
         self, key: tuple[str, str], application: Application, order: BuildOrder, fingerprint: str

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
+
+from tappet.runtime.tasks import TaskStatistics
 
 if TYPE_CHECKING:
     from tappet.server.online.channel import OnlineChannel
     from tappet.server.runtimes import RuntimeRegistry
 
 CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
+
+
+TASK_NUMBERS: tuple[tuple[str, str, str, Callable[[TaskStatistics], float]], ...] = (
+    ("cycles_total", "counter", "Cycles that ran the programs.", lambda t: t.iec_cycles),
+    ("overruns_total", "counter", "Cycles still running when the next was due.", lambda t: t.overruns),
+    ("execution_seconds_max", "gauge", "Longest execution of the programs.", lambda t: t.max_ns / 1e9),
+    ("execution_seconds_average", "gauge", "Mean execution.", lambda t: t.average_ns / 1e9),
+    ("lateness_seconds_max", "gauge", "Latest start of a cycle.", lambda t: t.jitter_max_ns / 1e9),
+)
 
 
 class Metrics:
@@ -32,8 +43,8 @@ class Metrics:
         self.frames_sent += channel.outbox.sent
         self.frames_replaced += channel.outbox.replaced
 
-    def render(self, runtimes: RuntimeRegistry) -> str:
-        """All of it as text."""
+    def render(self, runtimes: RuntimeRegistry, tasks: dict[str, list[TaskStatistics]]) -> str:
+        """All of it as text; `tasks` are the statistics of each runtime that answered, by its name."""
         lines: list[str] = []
         sent = self.frames_sent + sum(c.outbox.sent for c in self.online_channels)
         replaced = self.frames_replaced + sum(c.outbox.replaced for c in self.online_channels)
@@ -76,6 +87,13 @@ class Metrics:
             "1 while the application runs.",
             (({"runtime": link.name}, int(link.state().state == "run" and link.connected)) for link in links),
         )
+        for name, kind, text, number in TASK_NUMBERS:
+            samples = [
+                ({"runtime": runtime, "task": task.name}, number(task))
+                for runtime, found in tasks.items()
+                for task in found
+            ]
+            _family(lines, f"tappet_task_{name}", kind, text, samples)
         return "\n".join(lines) + "\n"
 
 

@@ -24,8 +24,13 @@ def get(db: Connection, user_id: str, key: str) -> Any:
 
 
 def put(db: Connection, user_id: str, key: str, value: Any) -> None:
-    """Stores a value; raises a 413 problem when it is too large."""
-    size = len(json.dumps(value))
+    """Stores a value; raises problems when it is too large or no JSON."""
+    try:
+        size = len(json.dumps(value, allow_nan=False).encode())
+    except ValueError:
+        raise Problem(
+            422, "invalid-request", "A setting holds only what JSON has: no NaN, no Infinity."
+        ) from None
     if size > MAX_BYTES:
         raise Problem(
             413, "setting-too-large", f"The setting has {size} bytes; at most {MAX_BYTES} are kept."

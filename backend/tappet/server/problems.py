@@ -128,6 +128,12 @@ async def _on_project_error(connection: HTTPConnection, error: Exception) -> Any
     return await _answer(connection, Problem(status, error.code.replace("_", "-"), str(error), **fields))
 
 
+async def _on_no_text(connection: HTTPConnection, error: Exception) -> Any:
+    """JSON can carry halves of characters (surrogates), which no text file and no database can."""
+    detail = "The request contains half of a character (a lone surrogate), which no text can hold."
+    return await _answer(connection, Problem(422, "invalid-request", detail))
+
+
 async def _on_crash(request: Request, error: Exception) -> JSONResponse:
     reference = secrets.token_hex(4)
     log.error("request %s %s failed (%s)", request.method, request.url.path, reference, exc_info=error)
@@ -145,5 +151,6 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(ProjectError, _on_project_error)
     app.add_exception_handler(HTTPException, _on_http_exception)
     app.add_exception_handler(RequestValidationError, _on_invalid)
+    app.add_exception_handler(UnicodeEncodeError, _on_no_text)
     app.add_exception_handler(WebSocketRequestValidationError, _on_invalid)
     app.add_exception_handler(Exception, _on_crash)

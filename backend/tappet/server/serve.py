@@ -89,6 +89,8 @@ async def _serve(options: ServeOptions, listener: socket.socket) -> int:
             access_log=False,
             server_header=False,
             ws_max_size=LARGEST_SOCKET_MESSAGE,
+            ws_per_message_deflate=False,  # frames of live values: not worth the time
+            proxy_headers=settings.https,  # only then is there a proxy whose word counts
             timeout_graceful_shutdown=GRACE_S,
         )
     )

@@ -17,6 +17,8 @@ from tappet.server.schemas.values import NewValue, Value
 
 MAX_BYTES = 4 * 1024 * 1024
 """Memory read in one request."""
+MOST_COMPARED = 1000
+MOST_EXPLAINED = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +33,7 @@ class Written:
 async def read(link: RuntimeLink, expressions: Sequence[str]) -> list[Value]:
     """The values of one moment; an expression that has none carries its error."""
     symbols = link.loaded_symbols()
-    found = [try_resolve(symbols, expression) for expression in expressions]
+    found = resolve_all(symbols, expressions)
     refs = [ref for ref in found if isinstance(ref, VarRef)]
     data = iter(await _read_refs(link, refs))
     result = []
@@ -103,18 +105,35 @@ def suggest(symbols: SymbolMap, expression: str) -> list[str]:
     steps = [step.strip() for step in expression.split(".")]
     for length in range(len(steps) - 1, -1, -1):
         prefix = ".".join(steps[:length])
-        wrong = steps[length].partition("[")[0]
+        wrong = steps[length].partition("[")[0].upper()
         try:
+            if prefix and prefix.upper() not in symbols.roots and symbols.resolve(prefix).type.leaf:
+                return []
             names = {child.name.upper(): child.path for child in symbols.children(prefix)}
         except SymbolError:
             continue
         if not prefix:
             names |= {name: name for name in symbols.globals}
-        if wrong.upper() in names:
+        if wrong in names:
             return []
-        near = difflib.get_close_matches(wrong.upper(), names, n=3, cutoff=0.6)
+        # Comparing is slow: only names of about the same length are worth it, and not too many of them.
+        alike = [name for name in names if abs(len(name) - len(wrong)) <= 3][:MOST_COMPARED]
+        near = difflib.get_close_matches(wrong, alike, n=3, cutoff=0.6)
         return [".".join([names[name], *steps[length + 1 :]]) for name in near]
     return []
+
+
+def resolve_all(symbols: SymbolMap, expressions: Sequence[str]) -> list[VarRef | str]:
+    """Like `try_resolve` for each; only the first unknown ones get suggestions, which take their time."""
+    found: list[VarRef | str] = []
+    unknown = 0
+    for expression in expressions:
+        try:
+            found.append(symbols.resolve(expression))
+        except SymbolError as error:
+            unknown += 1
+            found.append(explain(symbols, expression, error) if unknown <= MOST_EXPLAINED else f"{error}.")
+    return found
 
 
 def try_resolve(symbols: SymbolMap, expression: str) -> VarRef | str:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from tappet.codegen.symbol_map import SymbolMap, VarRef
 from tappet.runtime.recorder import LARGEST_FRAME
 from tappet.server.schemas.online import Item
-from tappet.server.values import try_resolve
+from tappet.server.values import resolve_all
 
 HEADER = struct.Struct("<IIQq")
 """Subscription, flags, cycle, unix time in ns."""
@@ -37,10 +37,8 @@ def lay_out(symbols: SymbolMap | None, expressions: Sequence[str]) -> FrameLayou
     items: list[Item] = []
     places: list[tuple[int, int]] = []
     at = 0
-    for expression in expressions:
-        ref = (
-            "There is no application in the runtime." if symbols is None else try_resolve(symbols, expression)
-        )
+    found = [NO_APPLICATION] * len(expressions) if symbols is None else resolve_all(symbols, expressions)
+    for expression, ref in zip(expressions, found, strict=True):
         if isinstance(ref, str):
             items.append(Item(expression=expression, offset=0, size=0, type="", kind="error", error=ref))
             continue

@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import Field, StringConstraints
 
 from tappet.server.auth.roles import Role
-from tappet.server.schemas.base import Reply, Request
+from tappet.server.schemas.base import Line, Reply, Request
 
 Username = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[\w.@+-]+$")]
 """Letters of any script, digits and `_ . @ + -`; two names that differ only in case are the same."""
@@ -19,7 +19,7 @@ Secret = Annotated[str, StringConstraints(max_length=200)]
 class Credentials(Request):
     """User name and password."""
 
-    username: Annotated[str, StringConstraints(max_length=64)]
+    username: Annotated[Line, StringConstraints(max_length=64)]
     password: Password
 
 
@@ -99,7 +99,7 @@ class Token(Reply):
 class NewToken(Request):
     """A token to be made; it never may do more than its owner."""
 
-    name: Annotated[str, StringConstraints(min_length=1, max_length=100)]
+    name: Annotated[Line, StringConstraints(min_length=1, max_length=100)]
     role: Role
     expires_in_days: Annotated[int, Field(ge=1, le=3650)] | None = None
 

@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from tappet.server.schemas.base import Reply, Request
+from tappet.server.schemas.base import Line, Reply, Request
 from tappet.server.schemas.build import Part
 
-RuntimeName = Annotated[str, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
+RuntimeName = Annotated[Line, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
 RuntimeUrl = Annotated[str, StringConstraints(pattern=r"^wss?://[^\s/?#@]+(/[^\s?#]*)?$", max_length=500)]
 Activity = Literal["empty", "stop", "run", "exception"]
 
@@ -20,7 +20,7 @@ class NewRuntime(Request):
 
     name: RuntimeName
     url: RuntimeUrl = Field(description="`ws://host:port` or `wss://...` of a running `tappet runtime`.")
-    token: Annotated[str, StringConstraints(max_length=500)] = Field(
+    token: Annotated[Line, StringConstraints(max_length=500)] = Field(
         description="The access token that runtime printed."
     )
 
