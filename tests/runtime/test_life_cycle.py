@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from plc_programs import build
 
-from tappet.runtime.plc import Event, PlcError, SoftPlc
+from tappet.runtime.access import PlcError
+from tappet.runtime.plc import Event, SoftPlc
 
 TEXT = """
 PROGRAM PLC_PRG

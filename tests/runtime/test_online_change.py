@@ -6,9 +6,9 @@ import pytest
 from plc_programs import MS, build
 
 from tappet.codegen.package import TaskSpec
+from tappet.runtime.access import PlcError
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError, check_change
-from tappet.runtime.plc import PlcError
 
 ONE = """
 PROGRAM PLC_PRG

@@ -4,8 +4,8 @@ import pytest
 from plc_programs import MS, build
 
 from tappet.codegen.package import TaskSpec
+from tappet.runtime.access import PlcError
 from tappet.runtime.local import LocalRuntime
-from tappet.runtime.plc import PlcError
 
 TEXT = """
 PROGRAM PLC_PRG

@@ -6,44 +6,35 @@ States: empty (no application), stop, run, exception. All methods may be called 
 from __future__ import annotations
 
 import contextlib
-import threading
 import time
 import uuid
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from typing import Literal, get_args
 
 from tappet.codegen.package import CodePackage, PackageError
-from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.runtime.access import ApplicationAccess, PlcError
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.boot import BootError, load_boot, remove_boot, store_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
 from tappet.runtime.executive.loader import Executive
-from tappet.runtime.faults import CallFrame, ExceptionReport, Locator, RawFault, describe, fault_name
-from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.faults import ExceptionReport, RawFault, describe
 from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
-from tappet.runtime.places import path_at
-from tappet.runtime.recorder import Recorder, RecorderSpec
+from tappet.runtime.reports import build_report, summary
 from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
 from tappet.runtime.task_group import TaskError
-from tappet.runtime.tasks import TaskStatistics
 from tappet.runtime.threads import NORMAL, Scheduling
 
 State = Literal["empty", "stop", "run", "exception"]
 ResetKind = Literal["warm", "cold", "origin"]
 _STATES: dict[int, State] = {STOPPED: "stop", RUNNING: "run", FAULTED: "exception"}
 MOST_TASKS = 64
-_MOST_VALUES = 200
-"""Variables listed in an exception report."""
-
-
-class PlcError(RuntimeError):
-    """The PLC cannot do that in its present state; the message says what would be right."""
+"""Tasks of an application."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +61,7 @@ class Event:
     state: State
 
 
-class SoftPlc:
+class SoftPlc(ApplicationAccess):
     """Life cycle, values, forces, recorders and remanence of one PLC."""
 
     def __init__(
@@ -82,6 +73,7 @@ class SoftPlc:
         stuck_limit_s: float = STUCK_LIMIT_S,
         logbook: Logbook | None = None,
     ) -> None:
+        super().__init__()
         self.executive = Executive.shared()
         self.folder = folder
         self.virtual = virtual
@@ -89,9 +81,7 @@ class SoftPlc:
         self.stuck_limit_s = stuck_limit_s
         self.log = logbook or Logbook()
         self.instance_id = uuid.uuid4().hex
-        self.application: LoadedApplication | None = None
         self.on_event: Callable[[Event], None] | None = None
-        self._lock = threading.RLock()
         self._report: ExceptionReport | None = None
         self._seen_state: State = "empty"
         if folder is not None:
@@ -144,7 +134,7 @@ class SoftPlc:
                 self.application.tasks.collect()
             state = self.state
             if state == "exception" and self._report is None:
-                self._report = self._build_report()
+                self._report = build_report(self._need(), self.log)
                 self.log.add("exception", "application", summary(self._report))
             if state != self._seen_state:
                 entered = state == "exception"
@@ -155,11 +145,6 @@ class SoftPlc:
         self._seen_state = self.state
         if self.on_event is not None:
             self.on_event(Event(kind, self.state))
-
-    def _need(self) -> LoadedApplication:
-        if self.application is None:
-            raise PlcError("no application is loaded; download one first")
-        return self.application
 
     def start(self) -> None:
         """Run the programs from the next cycle on. PlcError in the state exception: reset first."""
@@ -366,135 +351,13 @@ class SoftPlc:
             self._tell("application")
             return True
 
-    # -- values ------------------------------------------------------------------------------------------
-
-    def symbols(self) -> SymbolMap:
-        """Symbol map of the loaded application."""
-        return self._need().package.symbols
-
-    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes at (offset, size) places of the image."""
-        with self._lock:
-            return self._need().read(places)
-
-    def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
-        """Store values together at a cycle begin; the result tells, when called, whether it has happened."""
-        with self._lock:
-            application = self._need()
-            try:
-                tickets = application.write(values)
-            except TaskError as error:
-                raise PlcError(str(error)) from error
-
-        def done() -> bool:
-            with self._lock:
-                return self.application is not application or application.written(tickets)
-
-        return done
-
-    def force(self, values: Sequence[PlacedValue]) -> None:
-        """Hold variables at values until released."""
-        with self._lock:
-            self._need().force(values)
-            self._tell("forces")
-
-    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
-        """Release forces, all with None; returns how many."""
-        with self._lock:
-            released = self._need().unforce(keys, restore=restore)
-            if released:
-                self._tell("forces")
-            return len(released)
-
-    def forces(self) -> list[tuple[Force, str | None]]:
-        """Forced variables and their paths."""
-        with self._lock:
-            application = self._need()
-            symbols = application.package.symbols
-            return [(f, path_at(symbols, f.value.place)) for f in application.forces]
-
-    def record(
-        self,
-        items: Sequence[tuple[int, int]],
-        task: str | None,
-        divider: int,
-        min_interval_ns: int,
-        frames: int = 0,
-    ) -> Recorder:
-        """Start a recorder at a task, the bus cycle task for None."""
-        with self._lock:
-            application = self._need()
-            number = application.task_number(task)
-            return application.record(RecorderSpec(tuple(items), number, divider, min_interval_ns, frames))
-
-    def end_record(self, recorder: Recorder) -> None:
-        """Stop a recorder; nothing happens when its application is gone."""
-        with self._lock:
-            application = self.application
-            if application is not None and any(recorder in r for r in application.recorders.values()):
-                application.end_record(recorder)
-
-    # -- monitoring --------------------------------------------------------------------------------------
-
-    def tasks(self) -> list[TaskStatistics]:
-        """Task monitoring."""
-        with self._lock:
-            return self._need().statistics()
-
-    def reset_statistics(self, task: str | None) -> None:
-        """Statistics of a task back to 0, of all tasks with None."""
-        with self._lock:
-            application = self._need()
-            if task is None:
-                for number in range(len(application.contexts.tasks)):
-                    application.reset_statistics(number)
-            else:
-                application.reset_statistics(application.task_number(task))
+    # -- exception ---------------------------------------------------------------------------------------
 
     def exception(self) -> ExceptionReport | None:
         """Why the application is in the state exception; None when it is not."""
         with self._lock:
             self.poll()
             return self._report
-
-    def _build_report(self) -> ExceptionReport:
-        application = self._need()
-        number = application.contexts.faulted_task()
-        is_task = number is not None and number >= 0
-        task = application.contexts.tasks[number] if is_task else application.contexts.service  # type: ignore[index]
-        name = application.package.tasks[number].name if is_task else "initialisation"  # type: ignore[index]
-        raw = application.contexts.fault(task)
-        message, values = describe(raw)
-        try:
-            stack = Locator(application.code).call_stack(raw)
-        except Exception as error:  # whatever is wrong with the debug information, the exception is reported
-            self.log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
-            stack = []
-        here = stack[0] if stack else CallFrame("", "", 0)
-        values |= self._values_of(application, [frame.pou for frame in stack])
-        return ExceptionReport(
-            raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
-            time.time_ns(), tuple(stack), values,
-        )  # fmt: skip
-
-    def _values_of(self, application: LoadedApplication, pous: Iterable[str]) -> dict[str, str]:
-        """Simple variables of the programs in a call stack, as IEC literals."""
-        symbols = application.package.symbols
-        values: dict[str, str] = {}
-        for pou in dict.fromkeys(p.upper() for p in pous):
-            root = symbols.roots.get(pou)
-            if root is None:
-                continue
-            for child in symbols.children(root.name):
-                if not child.leaf or len(values) >= _MOST_VALUES:
-                    continue
-                try:
-                    ref = symbols.resolve(child.path)
-                    data = application.image.read(ref.offset, ref.size)
-                    values[ref.path] = symbols.format_literal(ref, symbols.decode(ref, data))
-                except (SymbolError, ValueError):
-                    continue
-        return values
 
     # -- end ---------------------------------------------------------------------------------------------
 
@@ -525,10 +388,3 @@ class SoftPlc:
             application.tasks.stop()
             self._save_retain()
             self._unload(application, leave=False)
-
-
-def summary(report: ExceptionReport) -> str:
-    """One line for the log."""
-    place = f" in {report.pou}" if report.pou else ""
-    line = f", line {report.line}" if report.line else ""
-    return f"task {report.task}: {report.message}{place}{line}"

@@ -18,9 +18,10 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 from tappet.runtime import protocol
+from tappet.runtime.access import PlcError
 from tappet.runtime.forces import PlacedValue
 from tappet.runtime.places import Place
-from tappet.runtime.plc import Event, PlcError, SoftPlc
+from tappet.runtime.plc import Event, SoftPlc
 from tappet.runtime.protocol import Fields, ProtocolError
 from tappet.runtime.recorder import Recorder
 from tappet.runtime.task_group import TaskError

@@ -1,0 +1,119 @@
+"""What clients do with a loaded application besides its life cycle: values, forces, recorders, statistics."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable, Sequence
+
+from tappet.codegen.symbol_map import SymbolMap
+from tappet.runtime.application import LoadedApplication
+from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.places import path_at
+from tappet.runtime.recorder import Recorder, RecorderSpec
+from tappet.runtime.task_group import TaskError
+from tappet.runtime.tasks import TaskStatistics
+
+
+class PlcError(RuntimeError):
+    """The PLC cannot do that in its present state; the message says what would be right."""
+
+
+class ApplicationAccess:
+    """Serialised access to the application, if there is one. All methods may be called from any thread."""
+
+    def __init__(self) -> None:
+        self.application: LoadedApplication | None = None
+        self._lock = threading.RLock()
+
+    def _need(self) -> LoadedApplication:
+        if self.application is None:
+            raise PlcError("no application is loaded; download one first")
+        return self.application
+
+    def _tell(self, kind: str) -> None:
+        """Something listeners want to know; the life cycle overrides this."""
+
+    # -- values ------------------------------------------------------------------------------------------
+
+    def symbols(self) -> SymbolMap:
+        """Symbol map of the loaded application."""
+        return self._need().package.symbols
+
+    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes at (offset, size) places of the image."""
+        with self._lock:
+            return self._need().read(places)
+
+    def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
+        """Store values together at a cycle begin; the result tells, when called, whether it has happened."""
+        with self._lock:
+            application = self._need()
+            try:
+                tickets = application.write(values)
+            except TaskError as error:
+                raise PlcError(str(error)) from error
+
+        def done() -> bool:
+            with self._lock:
+                return self.application is not application or application.written(tickets)
+
+        return done
+
+    def force(self, values: Sequence[PlacedValue]) -> None:
+        """Hold variables at values until released."""
+        with self._lock:
+            self._need().force(values)
+            self._tell("forces")
+
+    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
+        """Release forces, all with None; returns how many."""
+        with self._lock:
+            released = self._need().unforce(keys, restore=restore)
+            if released:
+                self._tell("forces")
+            return len(released)
+
+    def forces(self) -> list[tuple[Force, str | None]]:
+        """Forced variables and their paths."""
+        with self._lock:
+            application = self._need()
+            symbols = application.package.symbols
+            return [(f, path_at(symbols, f.value.place)) for f in application.forces]
+
+    def record(
+        self,
+        items: Sequence[tuple[int, int]],
+        task: str | None,
+        divider: int,
+        min_interval_ns: int,
+        frames: int = 0,
+    ) -> Recorder:
+        """Start a recorder at a task, the bus cycle task for None."""
+        with self._lock:
+            application = self._need()
+            number = application.task_number(task)
+            return application.record(RecorderSpec(tuple(items), number, divider, min_interval_ns, frames))
+
+    def end_record(self, recorder: Recorder) -> None:
+        """Stop a recorder; nothing happens when its application is gone."""
+        with self._lock:
+            application = self.application
+            if application is not None and any(recorder in r for r in application.recorders.values()):
+                application.end_record(recorder)
+
+    # -- monitoring --------------------------------------------------------------------------------------
+
+    def tasks(self) -> list[TaskStatistics]:
+        """Task monitoring."""
+        with self._lock:
+            return self._need().statistics()
+
+    def reset_statistics(self, task: str | None) -> None:
+        """Statistics of a task back to 0, of all tasks with None."""
+        with self._lock:
+            application = self._need()
+            if task is None:
+                for number in range(len(application.contexts.tasks)):
+                    application.reset_statistics(number)
+            else:
+                application.reset_statistics(application.task_number(task))

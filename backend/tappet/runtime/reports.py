@@ -1,0 +1,62 @@
+"""Puts an exception report together: what happened, where, the call stack and the variables around it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+
+from tappet.codegen.symbol_map import SymbolError
+from tappet.runtime.application import LoadedApplication
+from tappet.runtime.faults import CallFrame, ExceptionReport, Locator, describe, fault_name
+from tappet.runtime.logbook import Logbook
+
+_MOST_VALUES = 200
+"""Variables listed in a report."""
+
+
+def build_report(application: LoadedApplication, log: Logbook) -> ExceptionReport:
+    """Report on the fault that ended the application."""
+    number = application.contexts.faulted_task()
+    is_task = number is not None and number >= 0
+    task = application.contexts.tasks[number] if is_task else application.contexts.service  # type: ignore[index]
+    name = application.package.tasks[number].name if is_task else "initialisation"  # type: ignore[index]
+    raw = application.contexts.fault(task)
+    message, values = describe(raw)
+    try:
+        stack = Locator(application.code).call_stack(raw)
+    except Exception as error:  # whatever is wrong with the debug information, the exception is reported
+        log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
+        stack = []
+    here = stack[0] if stack else CallFrame("", "", 0)
+    values |= _values_of(application, [frame.pou for frame in stack])
+    return ExceptionReport(
+        raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
+        time.time_ns(), tuple(stack), values,
+    )  # fmt: skip
+
+
+def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str, str]:
+    """Simple variables of the programs in a call stack, as IEC literals."""
+    symbols = application.package.symbols
+    values: dict[str, str] = {}
+    for pou in dict.fromkeys(p.upper() for p in pous):
+        root = symbols.roots.get(pou)
+        if root is None:
+            continue
+        for child in symbols.children(root.name):
+            if not child.leaf or len(values) >= _MOST_VALUES:
+                continue
+            try:
+                ref = symbols.resolve(child.path)
+                data = application.image.read(ref.offset, ref.size)
+                values[ref.path] = symbols.format_literal(ref, symbols.decode(ref, data))
+            except (SymbolError, ValueError):
+                continue
+    return values
+
+
+def summary(report: ExceptionReport) -> str:
+    """One line for the log."""
+    place = f" in {report.pou}" if report.pou else ""
+    line = f", line {report.line}" if report.line else ""
+    return f"task {report.task}: {report.message}{place}{line}"
