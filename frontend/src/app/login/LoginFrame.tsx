@@ -8,7 +8,6 @@ import styles from './Login.module.css';
 
 /** The page around a sign-in form: the mark, language and theme. */
 export function LoginFrame({ title, text, children }: { title: string; text: ReactNode; children: ReactNode }) {
-  const t = useText();
   return (
     <div className={styles.page}>
       <div className={styles.top}>
@@ -23,7 +22,6 @@ export function LoginFrame({ title, text, children }: { title: string; text: Rea
         <p className={styles.text}>{text}</p>
         {children}
       </main>
-      <footer className={styles.foot}>{t('login.foot')}</footer>
     </div>
   );
 }

@@ -14,12 +14,12 @@ export function AddLibraryDialog({ libraries, close }: { libraries: readonly Lib
   const t = useText();
   const [query, setQuery] = useState('');
   const [selected, setSelected] = useState<string | null>(libraries[0]?.name ?? null);
-  const hits = search(query, libraries, (library) => `${library.name} ${library.title}`).map((hit) => hit.entry);
+  const hits = search(query, libraries, (library) => `${library.name} ${library.description}`).map((hit) => hit.entry);
   const chosen = hits.find((library) => library.name === selected) ?? hits[0];
   const columns: Column<LibrarySummary>[] = [
     { id: 'name', title: t('library.name'), width: 150, sort: (library) => library.name, cell: (library) => <span>{library.name}</span> },
     { id: 'version', title: t('library.version'), width: 80, cell: (library) => <span>{library.version}</span> },
-    { id: 'description', title: t('libraryDoc.comment'), width: 200, grow: true, hint: (library) => library.description, cell: (library) => <span>{library.description || library.title}</span> },
+    { id: 'description', title: t('libraryDoc.comment'), width: 200, grow: true, hint: (library) => library.description, cell: (library) => <span>{library.description}</span> },
   ];
   return (
     <Dialog

@@ -1,11 +1,11 @@
 import { useRef, useState, type KeyboardEvent } from 'react';
 import { ApiError } from '@/api/client';
-import type { ObjectKind, ProjectObject } from '@/api/types';
+import type { ObjectKind, PlacementRule, ProjectObject } from '@/api/types';
 import { useText } from '@/i18n';
 import { objectIcon } from '@/icons/objects';
 import { explain } from '../notices';
 import { createObject } from '../tree/acts';
-import { ownerOf, fixedNames, nameFault, placeableKinds, proposedName, type PlacementRule } from '../tree/placement';
+import { ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '../tree/placement';
 import type { Forest, TreeView } from '../tree/model';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';

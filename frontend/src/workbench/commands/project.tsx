@@ -1,6 +1,6 @@
 import { CircleCheckBig, FilePlus2, FolderOpen, History, Info, ListTree } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
-import type { ObjectKind, ObjectSummary, ProjectObject } from '@/api/types';
+import type { ObjectKind, ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
 import { AddObjectDialog } from '../addObject/AddObjectDialog';
 import { registerCommands, type Command } from '../commands';
 import { openDialog } from '../dialogs';
@@ -10,7 +10,7 @@ import { setActiveApplication } from '../project';
 import { ProjectInfoDialog } from '../projectInfo/ProjectInfoDialog';
 import { mayEdit } from '../rights';
 import { forestOf, lineage, type TreeView } from '../tree/model';
-import { placeableKinds, type PlacementRule } from '../tree/placement';
+import { placeableKinds } from '../tree/placement';
 import { revealInTree } from '../tree/state';
 
 /** Argument of `project.addObject`; without one the selected object is the parent. */

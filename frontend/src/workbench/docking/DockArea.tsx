@@ -1,8 +1,7 @@
 import { DockviewReact, type DockviewApi, type DockviewReadyEvent, type DockviewTheme, type SerializedDockview } from 'dockview-react';
 import 'dockview-react/dist/styles/dockview.css';
-import { useCallback, useEffect, useMemo, useRef } from 'react';
-import { saveSetting } from '@/app/preferences';
-import { usePreferences } from '@/app/preferences';
+import { useEffect, useMemo, useState } from 'react';
+import { saveSetting, usePreferences } from '@/app/preferences';
 import { notifyError } from '../notices';
 import { useSelection } from '../selection';
 import { resetLayout, setDockApi } from './dock';
@@ -31,28 +30,23 @@ export function DockArea({ projectId, layout }: DockAreaProps) {
     () => ({ name: 'tappet', className: 'dockview-theme-tappet', colorScheme: shown, dndTabIndicator: 'line', dndPanelOverlay: 'group', tabGroupIndicator: 'none' }),
     [shown],
   );
-  const cleanUp = useRef<() => void>(undefined);
-  useEffect(() => () => cleanUp.current?.(), []);
+  const [api, setApi] = useState<DockviewApi | null>(null);
 
-  const onReady = useCallback(
-    ({ api }: DockviewReadyEvent) => {
-      setDockApi(api);
-      start(api, layout);
-      const disposers = [
-        followEditors(api),
-        keepDockSizes(api),
-        saveLayout(api, projectId),
-        followFocus(),
-      ];
-      cleanUp.current = () => {
-        disposers.forEach((dispose) => dispose());
-        setDockApi(null);
-      };
-    },
-    // The layout counts at the start only; `Workbench` mounts a new area for another project.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-    [projectId],
-  );
+  const onReady = ({ api: ready }: DockviewReadyEvent) => {
+    setDockApi(ready);
+    start(ready, layout);
+    setApi(ready);
+  };
+
+  useEffect(() => {
+    if (!api) return;
+    setDockApi(api);
+    const disposers = [followEditors(api), keepDockSizes(api), saveLayout(api, projectId), followFocus()];
+    return () => {
+      disposers.forEach((dispose) => dispose());
+      setDockApi(null);
+    };
+  }, [api, projectId]);
 
   return (
     <DockviewReact

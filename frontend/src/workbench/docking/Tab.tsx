@@ -53,7 +53,7 @@ export function ToolTab(props: IDockviewPanelHeaderProps) {
   const Icon = registration.icon;
   const title = t(registration.title, registration.titleValues);
   return (
-    <TabFrame entries={() => panelEntries(props.containerApi, props.api.id)} onClose={() => props.api.close()} title={title}>
+    <TabFrame entries={() => panelEntries(props.containerApi, props.api.id)} onClose={() => props.api.close()} title={title} tool>
       <Icon size={14} strokeWidth={1.75} aria-hidden />
       <span className={styles.title}>{title}</span>
       {registration.useBadge && <Badge registration={registration} />}
@@ -73,19 +73,21 @@ function Badge({ registration }: { registration: PanelRegistration }) {
 interface TabFrameProps {
   title: string;
   dirty?: boolean;
+  /** Tool tabs show their cross only while they are in front. */
+  tool?: boolean;
   onClose: () => void;
   entries: () => readonly MenuEntry[];
   children: ReactNode;
 }
 
-function TabFrame({ title, dirty, onClose, entries, children }: TabFrameProps) {
+function TabFrame({ title, dirty, tool, onClose, entries, children }: TabFrameProps) {
   const t = useText();
   const middleClick = (event: MouseEvent) => {
     if (event.button === 1) onClose();
   };
   return (
     <ContextMenu entries={entries}>
-      <div className={styles.tab} title={title} onAuxClick={middleClick}>
+      <div className={styles.tab} data-tool={tool ? '' : undefined} title={title} onAuxClick={middleClick}>
         {children}
         <button
           className={styles.close}

@@ -115,8 +115,6 @@ export function focusPanel(panel: IDockviewPanel): void {
 function dockSpot(dock: DockviewApi, position: DockPosition): AddPanelOptions['position'] {
   const fellow = dock.panels.find((panel) => findPanel(panel.id)?.position === position && panel.group.api.location.type === 'grid');
   if (fellow) return { referenceGroup: fellow.group, direction: 'within' };
-  const editors = editorGroup(dock);
-  if (position === 'bottom' && editors) return { referenceGroup: editors, direction: 'below' };
   return { direction: position === 'bottom' ? 'below' : position };
 }
 

@@ -32,7 +32,7 @@ interface Size {
 
 type Node = SerializedDockview['grid']['root'];
 
-/** Trees at the left, editors in the middle, messages and watch lists below them, the rest at the right. */
+/** Trees at the left, editors in the middle, the rest at the right; messages and watch lists below, over the whole width. */
 export function defaultLayout(
   panels: readonly PanelRegistration[],
   titleOf: (panel: PanelRegistration) => string,
@@ -40,15 +40,21 @@ export function defaultLayout(
   editors: readonly LayoutEditor[] = [],
 ): SerializedDockview {
   const initial = panels.filter((panel) => panel.initial);
-  const at = (position: DockPosition) => initial.filter((panel) => panel.position === position);
-  const bottomHeight = Math.min(BOTTOM_HEIGHT, Math.round(size.height * 0.35));
-  const sides: Node[] = [];
-  if (at('left').length) sides.push(leaf('left', at('left').map((panel) => panel.id), LEFT_WIDTH));
-  const middle: Node[] = [leaf(EDITORS_GROUP, editors.map((editor) => editor.id), size.height - bottomHeight)];
-  if (at('bottom').length) middle.push(leaf('bottom', at('bottom').map((panel) => panel.id), bottomHeight));
-  const rightWidth = at('right').length ? RIGHT_WIDTH : 0;
-  sides.push({ type: 'branch', size: size.width - LEFT_WIDTH - rightWidth, data: middle });
-  if (rightWidth) sides.push(leaf('right', at('right').map((panel) => panel.id), rightWidth));
+  const idsAt = (position: DockPosition) => initial.filter((panel) => panel.position === position).map((panel) => panel.id);
+  const leftWidth = idsAt('left').length ? LEFT_WIDTH : 0;
+  const rightWidth = idsAt('right').length ? RIGHT_WIDTH : 0;
+  const bottomHeight = idsAt('bottom').length ? Math.min(BOTTOM_HEIGHT, Math.round(size.height * 0.35)) : 0;
+  const upper: Node[] = [
+    leaf(
+      EDITORS_GROUP,
+      editors.map((editor) => editor.id),
+      size.width - leftWidth - rightWidth,
+    ),
+  ];
+  if (leftWidth) upper.unshift(leaf('left', idsAt('left'), leftWidth));
+  if (rightWidth) upper.push(leaf('right', idsAt('right'), rightWidth));
+  const rows: Node[] = [{ type: 'branch', size: size.height - bottomHeight, data: upper }];
+  if (bottomHeight) rows.push(leaf('bottom', idsAt('bottom'), bottomHeight));
   const tools = initial.map((panel) => [
     panel.id,
     { id: panel.id, contentComponent: 'tool', tabComponent: 'tool', title: titleOf(panel) },
@@ -59,10 +65,10 @@ export function defaultLayout(
   ]);
   return {
     grid: {
-      root: { type: 'branch', size: size.height, data: sides },
+      root: { type: 'branch', size: size.width, data: rows },
       width: size.width,
       height: size.height,
-      orientation: 'HORIZONTAL' as SerializedDockview['grid']['orientation'],
+      orientation: 'VERTICAL' as SerializedDockview['grid']['orientation'],
     },
     panels: Object.fromEntries([...tools, ...open]) as SerializedDockview['panels'],
     activeGroup: EDITORS_GROUP,
@@ -98,9 +104,16 @@ export function restoreLayout(
     if (alive) panels[id] = params ? { ...panel, params: { ...params, reveal: null } } : panel;
     else gone.add(id);
   }
-  const root = withoutViews(dock.grid.root, gone, true);
-  if (!root) return null;
-  return { ...dock, grid: { ...dock.grid, root }, panels: panels as SerializedDockview['panels'], ...withoutFloating(dock, gone) };
+  const root = withoutViews(dock.grid.root, gone) ?? leaf(EDITORS_GROUP, [], dock.grid.width);
+  // The root of a grid is a branch, whatever is left of it.
+  const whole: Node = root.type === 'branch' ? root : { type: 'branch', size: dock.grid.width, data: [root] };
+  const { popoutGroups: _windows, ...rest } = dock;
+  return {
+    ...rest,
+    grid: { ...dock.grid, root: whole },
+    panels: panels as SerializedDockview['panels'],
+    floatingGroups: [...floating(dock.floatingGroups, gone), ...floating(dock.popoutGroups, gone)],
+  };
 }
 
 interface GroupData {
@@ -115,7 +128,7 @@ function pruned(group: GroupData, gone: ReadonlySet<string>): GroupData {
   return { ...group, views, activeView };
 }
 
-function withoutViews(node: Node, gone: ReadonlySet<string>, root = false): Node | null {
+function withoutViews(node: Node, gone: ReadonlySet<string>): Node | null {
   if (node.type === 'leaf') {
     const before = node.data as unknown as GroupData;
     const after = pruned(before, gone);
@@ -124,17 +137,26 @@ function withoutViews(node: Node, gone: ReadonlySet<string>, root = false): Node
     return { ...node, data: after };
   }
   const children = (node.data as Node[]).map((child) => withoutViews(child, gone)).filter((child) => child !== null);
-  if (children.length === 0 && !root) return null;
-  return { ...node, data: children };
+  return children.length === 0 ? null : { ...node, data: children };
 }
 
-function withoutFloating(dock: SerializedDockview, gone: ReadonlySet<string>): Partial<SerializedDockview> {
-  const keep = <Entry extends { data: unknown }>(entries: Entry[] | undefined) =>
-    entries
-      ?.map((entry) => ({ ...entry, data: pruned(entry.data as GroupData, gone) }))
-      .filter((entry) => entry.data.views.length > 0);
-  const changed: Record<string, unknown> = {};
-  if (dock.floatingGroups) changed.floatingGroups = keep(dock.floatingGroups as { data: unknown }[]);
-  if (dock.popoutGroups) changed.popoutGroups = keep(dock.popoutGroups as { data: unknown }[]);
-  return changed;
+type Floating = NonNullable<SerializedDockview['floatingGroups']>[number];
+type Window = NonNullable<SerializedDockview['popoutGroups']>[number];
+
+const FLOAT = { left: 120, top: 80, width: 640, height: 420 };
+
+/**
+ * Floating groups that still hold something. Groups in windows of their own come back floating: a browser opens no
+ * window that the user did not ask for.
+ */
+function floating(groups: readonly (Floating | Window)[] | undefined, gone: ReadonlySet<string>): Floating[] {
+  return (groups ?? []).flatMap((group): Floating[] => {
+    const position = 'gridReferenceGroup' in group || !group.position ? FLOAT : (group.position as Floating['position']);
+    if (group.data) {
+      const data = pruned(group.data as GroupData, gone);
+      return data.views.length ? [{ data, position }] : [];
+    }
+    const root = group.grid && withoutViews(group.grid.root, gone);
+    return group.grid && root ? [{ grid: { ...group.grid, root }, position }] : [];
+  });
 }

@@ -72,7 +72,7 @@ function TaskItem({ runtimeId }: { runtimeId: string }) {
   return (
     <Tooltip
       text={t('status.taskTitle', { name: task.name })}
-      detail={t('status.taskDetail', { mean: microsText(task.mean_us), max: microsText(task.max_us), jitter: microsText(task.max_jitter_us) })}
+      detail={t('status.taskDetail', { mean: microsText(task.average_us), max: microsText(task.max_us), jitter: microsText(task.max_jitter_us) })}
       side="top"
     >
       <button className={styles.item} onClick={() => showPanel('tasks')}>

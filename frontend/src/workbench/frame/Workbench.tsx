@@ -36,7 +36,6 @@ export function Workbench({ projectId }: { projectId: string }) {
   const failed = project.error ?? objects.error;
   const name = project.data?.name;
   useEffect(() => {
-    if (name !== undefined) useProject.setState({ projectName: name });
     document.title = name === undefined ? 'Tappet' : `${name} – Tappet`;
   }, [name]);
   useEffect(() => listenToKeys(), []);
@@ -56,13 +55,15 @@ export function Workbench({ projectId }: { projectId: string }) {
     );
   }
   if (!project.data || !objects.data) return <Loading />;
-  return <OpenWorkbench projectId={projectId} objects={objects.data} />;
+  return <OpenWorkbench project={project.data} objects={objects.data} />;
 }
 
 /** The project has arrived: take over its layout, tree and active application, and listen to what others do. */
-function OpenWorkbench({ projectId, objects }: { projectId: string; objects: readonly ObjectSummary[] }) {
+function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects: readonly ObjectSummary[] }) {
+  const projectId = project.id;
   const [layout, setLayout] = useState<{ dock: SerializedDockview | null } | null>(null);
   const activeEditor = useSelection((state) => state.editors.find((editor) => editor.panelId === state.activeEditor)?.objectId ?? null);
+  useEffect(() => useProject.setState({ projectName: project.name }), [project.name]);
   useActiveApplication(projectId, objects);
 
   useEffect(() => {

@@ -49,13 +49,13 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
     const groups = loaded ? groupsOf(loaded, search) : [];
     if (searching && loaded && groups.length === 0) continue;
     const base = flat ? 0 : 1;
-    if (!flat) nodes.push({ id: library.name, level: 1, name: library.name, detail: library.version, kind: 'library', expandable: library.item_count > 0, library: library.name });
+    if (!flat) nodes.push({ id: library.name, level: 1, name: library.name, detail: library.version, kind: 'library', expandable: true, library: library.name });
     if (!(searching || flat || open.has(library.name))) continue;
     for (const { group, items } of groups) {
       const groupId = `${library.name}/${group}`;
       nodes.push({ id: groupId, level: base + 1, name: t(`libraryGroup.${group}`), detail: String(items.length), kind: 'group', expandable: true, library: library.name });
       if (!searching && !open.has(groupId)) continue;
-      for (const item of items) nodes.push({ id: `${groupId}/${item.name}`, level: base + 2, name: item.name, detail: item.comment, kind: 'item', expandable: false, library: library.name, item });
+      for (const item of items) nodes.push({ id: `${groupId}/${item.name}`, level: base + 2, name: item.name, detail: item.summary, kind: 'item', expandable: false, library: library.name, item });
     }
   }
   const isOpen = (node: Node) => node.expandable && (searching || open.has(node.id));

@@ -5,7 +5,8 @@ import { blockPins, groupsOf, objectKindOf } from './model';
 const item = (name: string, kind: string, more: Partial<LibraryItem> = {}): LibraryItem => ({
   name,
   kind,
-  comment: '',
+  summary: '',
+  methods: [],
   inputs: [],
   outputs: [],
   in_out: [],
@@ -14,8 +15,8 @@ const item = (name: string, kind: string, more: Partial<LibraryItem> = {}): Libr
   returns: null,
   ...more,
 });
-const pin = (name: string) => ({ name, type: 'BOOL', default: null, comment: '' });
-const library = (items: LibraryItem[]): Library => ({ name: 'L', version: '1', namespace: 'L', company: '', title: '', description: '', item_count: items.length, items });
+const pin = (name: string) => ({ name, type: 'BOOL', default: '', comment: '' });
+const library = (items: LibraryItem[]): Library => ({ name: 'L', version: '1', namespace: 'L', company: '' , description: '', items });
 
 describe('library contents', () => {
   it('stand in folders by kind, by name within', () => {
@@ -27,7 +28,7 @@ describe('library contents', () => {
   });
 
   it('are found by name and comment', () => {
-    const groups = groupsOf(library([item('TON', 'function_block', { comment: 'on delay' }), item('TOF', 'function_block')]), 'DELAY');
+    const groups = groupsOf(library([item('TON', 'function_block', { summary: 'on delay' }), item('TOF', 'function_block')]), 'DELAY');
     expect(groups.flatMap((group) => group.items.map((one) => one.name))).toEqual(['TON']);
   });
 

@@ -1,6 +1,6 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { useEffect, useId, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
-import type { ObjectSummary } from '@/api/types';
+import type { ObjectSummary, PlacementRule } from '@/api/types';
 import { t, useText } from '@/i18n';
 import { useHandlers } from '../useHandlers';
 import { guard } from '../notices';
@@ -13,7 +13,7 @@ import { ContextMenu } from '../ui/Menu';
 import { renameObject } from './acts';
 import { pasteInto, treeHandlers } from './handlers';
 import { findTyped, moveFocus, opensFor, rangeOf, rowsOf, type Forest, type Motion, type Row, type TreeView } from './model';
-import { nameFault, type PlacementRule } from './placement';
+import { nameFault } from './placement';
 import { indentOf, TreeRow } from './Row';
 import { setExpanded, useTree } from './state';
 import { treeEntries } from './treeMenu';

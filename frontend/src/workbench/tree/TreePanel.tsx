@@ -13,7 +13,7 @@ import { Button, IconButton } from '../ui/Button';
 import { Empty, Failed, Loading } from '../ui/Empty';
 import { forestOf, rootsOf, rowsOf, type TreeView } from './model';
 import { ObjectTree } from './ObjectTree';
-import type { PlacementRule } from './placement';
+import type { PlacementRule } from '@/api/types';
 import styles from './Tree.module.css';
 
 /** The placement rules; they do not change while the server runs. */

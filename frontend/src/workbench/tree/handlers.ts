@@ -1,6 +1,6 @@
 /** What copy, paste, delete and so on mean while a tree has the focus. */
 import { keys, queryClient } from '@/api/queries';
-import type { ObjectSummary } from '@/api/types';
+import type { ObjectSummary, PlacementRule } from '@/api/types';
 import { t } from '@/i18n';
 import type { Enablement, Handlers } from '../commands';
 import { commandContext } from '../context';
@@ -8,7 +8,7 @@ import { confirm } from '../dialogs';
 import { selectObjects, useSelection } from '../selection';
 import { copyObject, deleteObjects, moveObject } from './acts';
 import { childrenOf, forestOf, subtree, topMost, type Forest, type TreeView } from './model';
-import { mayDrop, type PlacementRule } from './placement';
+import { mayDrop } from './placement';
 import { revealInTree, useTree } from './state';
 
 function present(projectId: string): Forest {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import type { ObjectKind, ObjectSummary } from '@/api/types';
+import type { ObjectKind, ObjectSummary, PlacementRule } from '@/api/types';
 import { forestOf } from './model';
-import { dropPlace, fixedNames, mayDrop, nameFault, placeableKinds, proposedName, type PlacementRule } from './placement';
+import { dropPlace, fixedNames, mayDrop, nameFault, placeableKinds, proposedName } from './placement';
 
 const rule = (kind: ObjectKind, parents: string[], more: Partial<PlacementRule> = {}): PlacementRule => ({
   kind,

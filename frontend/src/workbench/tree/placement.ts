@@ -2,25 +2,9 @@
  * Which kind of object may be where, and how it may be named: the rules of `/placement`, applied as the server does,
  * so that menus offer and drags accept only what will work. The server has the last word. Pure functions.
  */
-import type { ObjectKind, ObjectSummary } from '@/api/types';
+import type { ObjectSummary, PlacementRule } from '@/api/types';
 import type { TextKey } from '@/i18n';
 import { childrenOf, freeName, isWithin, type Forest, type TreeView } from './model';
-
-export interface PlacementRule {
-  kind: ObjectKind;
-  /** Kinds of parent; `devices_view` and `pous_view` are the roots. */
-  parents: readonly string[];
-  /** Where the parent is a POU: which ones; empty means any. */
-  parent_subkinds: readonly string[];
-  in_folders: boolean;
-  /** At most one below one parent, its folders included. */
-  once: boolean;
-  naming: 'identifier' | 'free' | 'fixed';
-  /** The possible names where naming is fixed. */
-  names: readonly string[];
-  proposal: string;
-  subkinds: readonly string[];
-}
 
 /** The nearest object at or above the parent that is no folder; undefined for the root of a view. */
 export function ownerOf(forest: Forest, parentId: string | null): ObjectSummary | undefined {

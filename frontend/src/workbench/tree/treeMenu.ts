@@ -1,3 +1,4 @@
+import type { PlacementRule } from '@/api/types';
 import { t } from '@/i18n';
 import { objectIcon } from '@/icons/objects';
 import { findCommand, useRegistry } from '../commands';
@@ -9,7 +10,7 @@ import { mayEdit } from '../rights';
 import type { MenuEntry } from '../ui/Menu';
 import { pasteEnablement } from './handlers';
 import type { Forest, TreeView } from './model';
-import { placeableKinds, type PlacementRule } from './placement';
+import { placeableKinds } from './placement';
 
 interface TreeMenuOptions {
   view: TreeView;

@@ -1,9 +1,10 @@
+import type { PlacementRule } from '@/api/types';
 import { useState, type DragEvent } from 'react';
 import { commandContext } from '../context';
 import { guard } from '../notices';
 import { copyObject, moveObject } from './acts';
 import { topMost, type Forest, type Row, type TreeView } from './model';
-import { dropPlace, mayDrop, type PlacementRule } from './placement';
+import { dropPlace, mayDrop } from './placement';
 
 const FORMAT = 'application/x-tappet-objects';
 

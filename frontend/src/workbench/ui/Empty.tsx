@@ -17,11 +17,13 @@ interface EmptyProps {
 
 export function Empty({ icon: Icon, title, text, children }: EmptyProps) {
   return (
-    <div className={styles.empty}>
-      {Icon && <Icon size={28} strokeWidth={1.25} aria-hidden />}
-      <div className={styles.title}>{title}</div>
-      {text && <div className={styles.text}>{text}</div>}
-      {children && <div className={styles.actions}>{children}</div>}
+    <div className={styles.frame}>
+      <div className={styles.empty}>
+        {Icon && <Icon size={28} strokeWidth={1.25} aria-hidden />}
+        <div className={styles.title}>{title}</div>
+        {text && <div className={styles.text}>{text}</div>}
+        {children && <div className={styles.actions}>{children}</div>}
+      </div>
     </div>
   );
 }

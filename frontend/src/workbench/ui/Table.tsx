@@ -74,7 +74,7 @@ export function Table<Item>(props: TableProps<Item>) {
         tabIndex={0}
         onKeyDown={onKeyDown}
       >
-        <div className={styles.head} role="row">
+        <div className={styles.head} role="row" hidden={rows.length === 0 && empty !== undefined}>
           {columns.map((column) => (
             <div
               key={column.id}
