@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tappet.core import calls, ir, places
+from tappet.core import assign, calls, ir, places
 from tappet.core.body import BUILTIN_PLACES, BUILTIN_VALUES, Body
 from tappet.core.scalars import convert, require_scalar
 from tappet.core.values import rescale, unit_ns
@@ -115,7 +115,11 @@ def conversion_place(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Place:
     prepared = _text_of(b, e, source)
     if not target.wide:
         return calls.as_place(b, prepared)
-    text = places.address_of(calls.as_place(b, prepared))
+    long = t.String(255)
+    local = ir.Place(b.space(long.size, long.align))
+    with b.block_of() as fill:
+        assign.copy_place(b, local, long, calls.as_place(b, prepared), t.String(80))
+    text = ir.Sequence(ir.PTR, fill, ir.Address(ir.PTR, local))
     return calls.as_place(b, _call(b, "TEXT_AS_WIDE", [text], e))
 
 

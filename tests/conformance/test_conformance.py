@@ -1,0 +1,92 @@
+"""Runs every `.st` file below this folder: a program, and in comments what must come out.
+
+// CYCLES: 3                    cycles of the task (default 1), 10 ms of virtual time apart
+// EXPECT: Main.x = 7           value after the last cycle, as IEC literal
+// FAULT: array index 11        the application ends in this exception
+// ERROR: E0301                 the program is refused with this code
+// WARNING: W1001               it is accepted with this message
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from tappet.codegen.build import BuildSession, build_application
+from tappet.codegen.jit import ApplicationFault, LoadedApplication
+from tappet.lang.source import Source
+
+FOLDER = Path(__file__).parent
+FILES = sorted(FOLDER.rglob("*.st"))
+CYCLE_NS = 10_000_000
+_DIRECTIVE = re.compile(r"^\s*//\s*(CYCLES|EXPECT|FAULT|ERROR|WARNING):\s*(.+?)\s*$", re.MULTILINE)
+SESSION = BuildSession()
+
+
+@dataclass
+class Expectation:
+    cycles: int = 1
+    values: list[tuple[str, str]] = field(default_factory=list)
+    fault: str | None = None
+    errors: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+
+def read(text: str) -> Expectation:
+    found = Expectation()
+    for kind, value in _DIRECTIVE.findall(text):
+        if kind == "CYCLES":
+            found.cycles = int(value)
+        elif kind == "EXPECT":
+            path, _, literal = value.partition("=")
+            found.values.append((path.strip(), literal.strip()))
+        elif kind == "FAULT":
+            found.fault = value
+        elif kind == "ERROR":
+            found.errors.append(value)
+        else:
+            found.warnings.append(value)
+    return found
+
+
+@pytest.mark.parametrize("path", FILES, ids=[str(f.relative_to(FOLDER).with_suffix("")) for f in FILES])
+def test_file(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    expectation = read(text)
+    assert expectation.values or expectation.fault or expectation.errors, "the file expects nothing"
+    result = build_application([Source(path.name, text)], session=SESSION)
+    errors = [str(d) for d in result.diagnostics if d.severity == "error"]
+    if expectation.errors:
+        codes = [d.code for d in result.diagnostics if d.severity == "error"]
+        assert codes == expectation.errors, errors
+        return
+    assert errors == []
+    codes = [d.code for d in result.diagnostics]
+    assert set(expectation.warnings) <= set(codes)
+    assert result.package is not None
+    application = LoadedApplication(result.package)
+    try:
+        run(application, expectation)
+    finally:
+        application.close()
+
+
+def run(application: LoadedApplication, expectation: Expectation) -> None:
+    fault = None
+    try:
+        application.start()
+        for _ in range(expectation.cycles):
+            application.cycle()
+            application.clock_ns += CYCLE_NS
+    except ApplicationFault as raised:
+        fault = str(raised)
+    if expectation.fault is None:
+        assert fault is None
+    else:
+        assert fault is not None
+        assert expectation.fault in fault
+    actual = [(path, application.literal(path)) for path, _ in expectation.values]
+    assert actual == expectation.values
