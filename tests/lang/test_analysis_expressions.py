@@ -197,6 +197,7 @@ def test_time_arithmetic(expression: str, type_: t.Type) -> None:
         ("tm := tm + 5;", ["E0304"]),
         ("tm := tm * tm;", ["E0304"]),
         ("b := str = 5;", ["E0304"]),
+        ("b := 1 < 'x';", ["E0304"]),
         ("b := tm > 5;", ["E0304"]),
         ("b := st = st;", ["E0304"]),
         ("re := re MOD 2;", ["E0304"]),

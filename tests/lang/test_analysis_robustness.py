@@ -63,6 +63,13 @@ def _analyse(*texts: str) -> Analysis:
     return analyse([parse(Source(f"t{n}", text)).unit for n, text in enumerate(texts)])
 
 
+@pytest.mark.parametrize(
+    "text", ["VAR_GLOBAL x : FB(", "PROGRAM P VAR x : FB(", "PROGRAM P VAR f : INT; END_VAR x := f().y;"]
+)
+def test_texts_that_once_raised(text: str) -> None:
+    assert _analyse(text) is not None
+
+
 def test_the_sample_itself_is_nearly_clean() -> None:
     assert {d.code for d in _analyse(SAMPLE).diagnostics if d.severity == "error"} <= {
         "E0301", "E0417", "E0506", "E0201", "E0606", "E0505", "E0003",
@@ -304,7 +311,8 @@ def test_the_deepest_nesting_the_parser_accepts(before: str, after: str) -> None
         text = (
             "FUNCTION F : INT\nVAR_INPUT v : INT; END_VAR\nF := v;\nEND_FUNCTION\n"
             "PROGRAM P\nVAR a : ARRAY[0..9] OF INT; b : BOOL; x, y : INT; END_VAR "
-            f"VAR z : INT := {nested}; END_VAR\nVAR CONSTANT c : INT := {nested}; END_VAR\ny := {nested};\nEND_PROGRAM"
+            f"VAR z : INT := {nested}; END_VAR\nVAR CONSTANT c : INT := {nested}; END_VAR\n"
+            f"y := {nested};\nEND_PROGRAM"
         )
         result = parse(Source("t", text))
         if not any(d.code == "E0107" for d in result.diagnostics) or depth < 10:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tappet.lang import ast
-from tappet.lang.lexer import ID
+from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import ENDS, MAX_NESTING
 from tappet.lang.parser_statements import StatementParser
 
@@ -70,7 +70,7 @@ class TypeParser(StatementParser):
             return ast.NamedType(span=self.span_from(start), name=name)
         # `INT(1..10)` is a subrange, `FB(1, x := 2)` passes arguments to FB_Init
         opening = self.i
-        if kinds[opening + 1] == ")" or kinds[opening + 2] == ":=":
+        if kinds[opening + 1] == ")" or (kinds[opening + 1] is not END and kinds[opening + 2] == ":="):
             args = self.arguments()
             return ast.NamedType(span=self.span_from(start), name=name, args=args)
         self.i = opening + 1

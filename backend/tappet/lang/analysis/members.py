@@ -15,6 +15,7 @@ from tappet.lang.analysis.expressions import (
     resolve_object,
     resolve_variable,
     text_of,
+    value,
 )
 from tappet.lang.symbols import (
     EnumValueSymbol,
@@ -31,7 +32,10 @@ from tappet.lang.types import Elementary
 
 def _member(b: Body, e: ast.Member) -> None:
     base = e.base
-    evaluate(b, base)
+    if base.__class__ is ast.Call:
+        value(b, base)
+    else:
+        evaluate(b, base)
     e.bit = e.symbol = e.type = e.constant = None
     e.is_constant = e.untyped = False
     type_ = base.type

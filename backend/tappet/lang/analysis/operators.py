@@ -360,6 +360,8 @@ def _fold(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
     try:
         if op in COMPARISONS:
             computed = e.operand_type
+            if computed is None:
+                return  # not comparable, which has been reported
             if isinstance(computed, Elementary) and not (left.untyped and right.untyped):
                 lv, rv = folding.wrap(lv, computed), folding.wrap(rv, computed)
             e.constant = folding.compare(op, lv, rv)
