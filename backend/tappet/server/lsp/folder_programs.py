@@ -1,0 +1,174 @@
+"""The `.st` files of a folder as programs, for editors that work on files.
+
+A project folder of Tappet (docs/project-folder.md) is understood too: children of a block lie in a folder of
+its name, accessors in a folder of their property, and each application is a program of its own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from urllib.parse import quote, unquote, urlsplit
+
+from tappet import libraries
+from tappet.lang.services.documents import Program, Segment, Text, library_text, whole_file
+from tappet.lang.source import Scope, Source, split_lines
+
+MAX_FILES = 20_000
+"""A folder with more is not a project but, say, a home folder."""
+_IGNORED = frozenset({".git", ".hg", ".svn", "node_modules", ".venv", "__pycache__"})
+_PROPERTY_END = re.compile(r"^\s*END_PROPERTY\b", re.IGNORECASE)
+
+
+def file_uri(path: Path) -> str:
+    """The one spelling of a file's uri."""
+    text = path.as_posix()
+    return "file://" + quote(text if text.startswith("/") else f"/{text}", safe="/:~()+,;=@!$&'*")
+
+
+def canonical_uri(uri: str) -> str:
+    """`file:` uris in one spelling whatever the client escapes; others as they are."""
+    if not uri.lower().startswith("file:"):
+        return uri
+    path = unquote(urlsplit(uri).path)
+    if re.match(r"/[A-Za-z]:", path):
+        path = "/" + path[1].lower() + path[2:]
+    return "file://" + quote(path, safe="/:~()+,;=@!$&'*")
+
+
+class FolderPrograms:
+    """Composes the programs of a folder. Reads the files anew each time; unchanged ones are cheap."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root.resolve()
+        self._read: dict[Path, tuple[tuple[int, int], str]] = {}
+
+    def __call__(self, unsaved: Mapping[str, str]) -> list[Program]:
+        """One program per application; files in no application count as one."""
+        files = dict(self._files(unsaved))
+        groups: dict[str, list[Path]] = {}
+        shared: list[Path] = []
+        for path in files:
+            key = self._application(path)
+            if key is None:
+                shared.append(path)
+            else:
+                groups.setdefault(key, []).append(path)
+        if not groups:
+            groups = {self.root.name or "Folder": shared}
+            shared = []
+        standard = [
+            library_text(source) for name in libraries.names() for source in libraries.load(name).sources
+        ]
+        programs = []
+        for name, paths in groups.items():
+            texts = [*self._texts(files, paths, Scope.APPLICATION), *self._texts(files, shared, Scope.POUS)]
+            programs.append(Program(name, [*texts, *standard], tasks=self._tasks(paths)))
+        return programs
+
+    def _files(self, unsaved: Mapping[str, str]) -> Iterator[tuple[Path, str]]:
+        found: list[Path] = []
+        waiting = [self.root]
+        while waiting:
+            folder = waiting.pop()
+            try:
+                entries = sorted(folder.iterdir())
+            except OSError:
+                continue
+            for entry in entries:
+                if entry.is_symlink():
+                    continue
+                if entry.is_dir():
+                    if entry.name not in _IGNORED:
+                        waiting.append(entry)
+                elif entry.suffix.lower() == ".st":
+                    found.append(entry)
+            if len(found) > MAX_FILES:
+                raise ValueError(
+                    f"{self.root} holds more than {MAX_FILES} .st files; open the project's own folder"
+                )
+        for path in sorted(found):
+            text = unsaved.get(file_uri(path))
+            if text is None:
+                text = self._text_of(path)
+            if text is not None:
+                yield path, text
+        known = {file_uri(path) for path in found}
+        for uri, text in unsaved.items():  # not saved yet, or outside of the folder
+            if uri.startswith("file:") and uri not in known and uri.lower().endswith(".st"):
+                yield Path(unquote(urlsplit(uri).path)), text
+
+    def _text_of(self, path: Path) -> str | None:
+        try:
+            status = path.stat()
+            key = (status.st_mtime_ns, status.st_size)
+            known = self._read.get(path)
+            if known is not None and known[0] == key:
+                return known[1]
+            raw = path.read_bytes()
+        except OSError:
+            return None
+        try:
+            text = raw.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = raw.decode("latin-1")
+        self._read[path] = (key, text)
+        return text
+
+    def _application(self, path: Path) -> str | None:
+        """The application a file of a project folder belongs to: the folder below `PLC Logic`."""
+        try:
+            parts = path.relative_to(self.root).parts
+        except ValueError:
+            return None
+        if "PLC Logic" not in parts[:-2]:
+            return None
+        at = parts.index("PLC Logic")
+        return "/".join(parts[: at + 2])
+
+    def _tasks(self, paths: list[Path]) -> list[str]:
+        folders = {path.parent / "Task Configuration" for path in paths}
+        return sorted(
+            file.name.removesuffix(".task.json") for folder in folders for file in folder.glob("*.task.json")
+        )
+
+    def _texts(self, files: Mapping[Path, str], paths: list[Path], scope: Scope) -> Iterator[Text]:
+        accessors = {path for path in paths if _is_accessor(path, files)}
+        for path in paths:
+            if path in accessors:
+                continue
+            folder = path.with_suffix("")
+            below = [child for child in (folder / "Get.st", folder / "Set.st") if child in accessors]
+            owner = path.parent.name if path.parent.with_suffix(".st") in files else None
+            name = f"{owner}.{path.stem}" if owner else path.stem
+            if below:
+                yield _property(path, files, below, scope, owner)
+            else:
+                source = Source(
+                    str(path), files[path], scope=scope, owner=owner, name=name.rpartition(".")[2]
+                )
+                yield whole_file(file_uri(path), source)
+
+
+def _is_accessor(path: Path, files: Mapping[Path, str]) -> bool:
+    return path.stem.upper() in ("GET", "SET") and path.parent.with_suffix(".st") in files
+
+
+def _property(
+    path: Path, files: Mapping[Path, str], accessors: list[Path], scope: Scope, owner: str | None
+) -> Text:
+    """A property with the files of its accessors in the place before END_PROPERTY."""
+    lines = split_lines(files[path])
+    end = next((number for number, line in enumerate(lines) if _PROPERTY_END.match(line)), len(lines))
+    composed = lines[:end]
+    segments = [Segment(0, file_uri(path), 0, end)] if end else []
+    for accessor in accessors:
+        part = split_lines(files[accessor])
+        segments.append(Segment(len(composed), file_uri(accessor), 0, len(part)))
+        composed += part
+    if end < len(lines):
+        segments.append(Segment(len(composed), file_uri(path), end, len(lines) - end))
+        composed += lines[end:]
+    source = Source(str(path), "\n".join(composed), scope=scope, owner=owner, name=path.stem)
+    return Text(source, tuple(segments))

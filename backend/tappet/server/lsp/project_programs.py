@@ -1,0 +1,120 @@
+"""The applications of a stored project as programs, with the texts that are open in an editor in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+from tappet import libraries
+from tappet.lang.services.documents import Program, Segment, Text, library_text
+from tappet.lang.source import Scope, Source
+from tappet.project import sources as project_sources
+from tappet.project.model import Project, ProjectObject
+from tappet.project.sources import SourceText
+
+PARTS = ("declaration", "implementation")
+
+
+def part_uri(project_id: str, object_id: str, part: str) -> str:
+    """The document of one part of an object."""
+    return f"tappet:/{project_id}/{object_id}/{part}"
+
+
+def parse_part_uri(uri: str, project_id: str) -> tuple[str, str] | None:
+    """Object and part of a document of the project; None for any other uri."""
+    prefix = f"tappet:/{project_id}/"
+    if not uri.startswith(prefix):
+        return None
+    object_id, slash, part = uri[len(prefix) :].partition("/")
+    return (object_id, part) if slash and part in PARTS else None
+
+
+class ProjectPrograms:
+    """Composes the programs of one project; `load` reads it anew after `changed` was called."""
+
+    def __init__(self, project_id: str, load: Callable[[], Project]) -> None:
+        self.project_id = project_id
+        self._load = load
+        self._project: Project | None = None
+
+    def changed(self) -> None:
+        """The stored project is another one now."""
+        self._project = None
+
+    def __call__(self, unsaved: Mapping[str, str]) -> list[Program]:
+        """All applications with the libraries they use."""
+        if self._project is None:
+            self._project = self._load()
+        project = self._with_unsaved(self._project, unsaved)
+        programs = [self._application(project, application) for application in project.applications()]
+        return programs or [self._without_application(project)]
+
+    def _with_unsaved(self, project: Project, unsaved: Mapping[str, str]) -> Project:
+        objects = dict(project.objects)
+        for uri, text in unsaved.items():
+            found = parse_part_uri(uri, self.project_id)
+            item = objects.get(found[0]) if found is not None else None
+            if found is None or item is None or not hasattr(item.data, found[1]):
+                continue  # deleted by somebody else, or no text of this project
+            if getattr(item.data, found[1]) != text:
+                data = item.data.model_copy(update={found[1]: text})
+                objects[item.id] = item.model_copy(update={"data": data})
+        return replace(project, objects=objects)
+
+    def _application(self, project: Project, application: ProjectObject) -> Program:
+        texts = self._texts(project, project_sources.application_sources(project, application.id))
+        for reference in project_sources.libraries(project, application.id):
+            try:
+                library = libraries.load(reference.name, reference.version, reference.namespace or None)
+            except libraries.UnknownLibraryError:
+                continue  # the build and the library manager say so
+            texts += [library_text(source) for source in library.sources]
+        tasks = [task.name for task in project_sources.tasks(project, application.id)]
+        return Program(f"{application.name} {application.id}", texts, tasks)
+
+    def _without_application(self, project: Project) -> Program:
+        return Program(project.name, self._texts(project, _objects_with_text(project)))
+
+    def _texts(self, project: Project, found: Iterator[SourceText] | list[SourceText]) -> list[Text]:
+        texts: list[Text] = []
+        seen: set[str] = set()
+        for text in found:
+            uri = text.uri
+            while uri.upper() in seen:  # hidden by one of the application: diagnostics need a name of its own
+                uri += " (POUs)"
+            seen.add(uri.upper())
+            texts.append(self._text(project, text, uri))
+        return texts
+
+    def _text(self, project: Project, text: SourceText, uri: str) -> Text:
+        source = Source(
+            uri=uri,
+            text=text.text,
+            scope=Scope(text.scope),
+            owner=text.owner,
+            name=text.name,
+            body_line=text.body_line,
+        )
+        segments = tuple(
+            Segment(
+                segment.line,
+                part_uri(self.project_id, segment.object_id, segment.part),
+                segment.part_line,
+                _line_count(project.get(segment.object_id), segment.part) - segment.part_line,
+            )
+            for segment in text.segments
+        )
+        return Text(source, segments)
+
+
+def _line_count(item: ProjectObject, part: str) -> int:
+    return str(getattr(item.data, part)).count("\n") + 1
+
+
+def _objects_with_text(project: Project) -> Iterator[SourceText]:
+    """Every object of a project that has no application."""
+    for item in project.walk():
+        if item.kind != "accessor":
+            text = project_sources.source_of(project, item.id)
+            if text is not None:
+                yield text

@@ -1,0 +1,477 @@
+"""One connection of an editor: its open documents, what it asks, and the messages it is told.
+
+The session knows neither how messages travel nor where texts are stored: both are handed in.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final, Literal, Protocol
+
+from cattrs.errors import BaseValidationError
+from lsprotocol import converters
+from lsprotocol import types as lsp
+
+from tappet import __version__
+from tappet.lang.services import documents as docs
+from tappet.lang.services.completion import complete
+from tappet.lang.services.documents import Position, Programs
+from tappet.lang.services.folding import folds
+from tappet.lang.services.formatting import formatting
+from tappet.lang.services.hover import hover
+from tappet.lang.services.navigation import (
+    definition,
+    highlights,
+    implementations,
+    references,
+    type_definition,
+)
+from tappet.lang.services.outline import outline
+from tappet.lang.services.rename import rename, renameable
+from tappet.lang.services.reports import reports
+from tappet.lang.services.results import Outline, Report, ServiceError
+from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES, semantic_tokens
+from tappet.lang.services.signature_help import signature
+from tappet.lang.services.workspace import Snapshot, Workspace
+from tappet.lang.source import split_lines
+from tappet.server.lsp import convert, rpc
+from tappet.server.lsp.positions import Line, apply_change, lines_of, to_position, to_range
+
+DEBOUNCE_S: Final = 0.3
+"""Pause in the typing after which messages are worked out anew."""
+MAX_DOCUMENT: Final = 4_000_000
+"""Characters of one document."""
+READ_DOCUMENT: Final = "tappet/document"
+"""Our own request: the text of a document that is not open, such as one of a library."""
+
+_CONVERTER = converters.get_converter()
+_State = Literal["new", "initialized", "shut down"]
+
+
+class _Positioned(Protocol):
+    """Params that name a position in a document."""
+
+    text_document: lsp.TextDocumentIdentifier
+    position: lsp.Position
+
+
+@dataclass(slots=True)
+class _Document:
+    text: str
+    version: int
+
+
+class LanguageSession:
+    """Serves one client. Made in the event loop that serves it; `close` ends it."""
+
+    def __init__(
+        self,
+        programs: Programs,
+        send: rpc.Send,
+        *,
+        debounce_s: float = DEBOUNCE_S,
+        advise: bool = False,
+        canonical: Callable[[str], str] = str,
+    ) -> None:
+        """`advise`: advice is part of the message texts. `canonical`: one spelling for each document uri."""
+        self.workspace = Workspace(programs)
+        self.endpoint = rpc.Endpoint(send, self._find)
+        self.exit = asyncio.Event()
+        """Set when the client has said that it ends."""
+        self._loop = asyncio.get_running_loop()
+        self._debounce_s = debounce_s
+        self._advise = advise
+        self._canonical = canonical
+        self._state: _State = "new"
+        self._open: dict[str, _Document] = {}
+        self._names: dict[str, str] = {}
+        """Uri as the client spells it, by canonical uri."""
+        self._split: tuple[int, dict[str, Line]] = (-1, {})
+        """Lines of documents, as of one generation of the workspace."""
+        self._published: dict[str, list[Report]] = {}
+        self._timer: asyncio.TimerHandle | None = None
+        self._publishing: asyncio.Task[None] | None = None
+        self._again = False
+
+    async def receive(self, message: str) -> None:
+        """Take one message of the client."""
+        await self.endpoint.receive(message)
+
+    def stored_texts_changed(self) -> None:
+        """Somebody else has changed what is stored. Call in the event loop."""
+        self.endpoint.post(self.workspace.refresh, "stored texts changed")
+        self._schedule()
+
+    async def close(self) -> None:
+        """End the session."""
+        if self._timer is not None:
+            self._timer.cancel()
+        if self._publishing is not None:
+            self._publishing.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._publishing
+        await self.endpoint.close()
+
+    # -- dispatch
+
+    def _find(self, method: str, request: bool) -> rpc.Work | None:
+        handler = (_REQUESTS if request else _NOTIFICATIONS).get(method)
+        if handler is None:
+            return None
+
+        def work(params: Any) -> Any:
+            if self._state != "initialized" and method not in ("initialize", "exit", "shutdown"):
+                raise rpc.RpcError(rpc.NOT_INITIALIZED, f"'{method}' before 'initialize' or after 'shutdown'")
+            try:
+                result = handler(self, _structured(method, params))
+            except ServiceError as error:
+                raise rpc.RpcError(rpc.REQUEST_FAILED, str(error)) from error
+            return _CONVERTER.unstructure(result)
+
+        return work
+
+    # -- life
+
+    def initialize(self, params: lsp.InitializeParams) -> lsp.InitializeResult:
+        """Tell what is served."""
+        self._state = "initialized"
+        full = lsp.SemanticTokensLegend(list(TOKEN_TYPES), list(TOKEN_MODIFIERS))
+        return lsp.InitializeResult(
+            lsp.ServerCapabilities(
+                position_encoding=lsp.PositionEncodingKind.Utf16,
+                text_document_sync=lsp.TextDocumentSyncOptions(
+                    open_close=True, change=lsp.TextDocumentSyncKind.Incremental, save=lsp.SaveOptions(False)
+                ),
+                completion_provider=lsp.CompletionOptions(trigger_characters=[".", "(", ",", "'"]),
+                hover_provider=True,
+                signature_help_provider=lsp.SignatureHelpOptions(["(", ","], [")"]),
+                definition_provider=True,
+                type_definition_provider=True,
+                implementation_provider=True,
+                references_provider=True,
+                document_highlight_provider=True,
+                document_symbol_provider=True,
+                workspace_symbol_provider=True,
+                document_formatting_provider=True,
+                folding_range_provider=True,
+                rename_provider=lsp.RenameOptions(prepare_provider=True),
+                semantic_tokens_provider=lsp.SemanticTokensOptions(full, full=True),
+            ),
+            lsp.ServerInfo("tappet", __version__),
+        )
+
+    def initialized(self, params: lsp.InitializedParams) -> None:
+        """The client is ready: begin with the messages."""
+        self._schedule_from_worker()
+
+    def shutdown(self, params: None) -> None:
+        """Nothing but `exit` follows."""
+        self._state = "shut down"
+
+    def on_exit(self, params: None) -> None:
+        """The client has ended."""
+        self._loop.call_soon_threadsafe(self.exit.set)
+
+    # -- documents
+
+    def did_open(self, params: lsp.DidOpenTextDocumentParams) -> None:
+        """A text of the editor stands for a document from now on."""
+        item = params.text_document
+        self._set(item.uri, item.text, item.version)
+
+    def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
+        """Edits of an open document."""
+        uri = self._canonical(params.text_document.uri)
+        known = self._open.get(uri)
+        if known is None:
+            raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{params.text_document.uri}' is not open")
+        text = known.text
+        for change in params.content_changes:
+            text = apply_change(text, change)
+        self._set(params.text_document.uri, text, params.text_document.version)
+
+    def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
+        """The stored text counts again."""
+        uri = self._canonical(params.text_document.uri)
+        self._open.pop(uri, None)
+        self.workspace.close(uri)
+        self._schedule_from_worker()
+
+    def did_save(self, params: lsp.DidSaveTextDocumentParams) -> None:
+        """What is stored has changed."""
+        self.workspace.refresh()
+        self._schedule_from_worker()
+
+    def watched_files_changed(self, params: lsp.DidChangeWatchedFilesParams) -> None:
+        """Files have changed on disk."""
+        self.workspace.refresh()
+        self._schedule_from_worker()
+
+    def _set(self, spelled: str, text: str, version: int) -> None:
+        if len(text) > MAX_DOCUMENT:
+            raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{spelled}' has more than {MAX_DOCUMENT} characters")
+        uri = self._canonical(spelled)
+        self._names[uri] = spelled
+        self._open[uri] = _Document(text, version)
+        self.workspace.open(uri, text)
+        self._schedule_from_worker()
+
+    # -- places
+
+    def _lines(self, document: str) -> Line:
+        """The lines of a document, open or not."""
+        if self._split[0] != self.workspace.generation:
+            self._split = (self.workspace.generation, {})
+        split = self._split[1]
+        if document not in split:
+            known = self._open.get(document)
+            split[document] = lines_of(known.text if known is not None else self._text(document) or "")
+        return split[document]
+
+    def _text(self, document: str) -> str | None:
+        """The text of a document that is part of some program."""
+        for program in self.workspace.programs():
+            for text in program.texts:
+                shown = text.lines_of(document)
+                if shown is not None:
+                    lines = split_lines(text.source.text)
+                    return "\n".join(lines[shown[0] : shown[1]])
+        return None
+
+    def _at(self, params: _Positioned) -> tuple[str, Position]:
+        uri = self._canonical(params.text_document.uri)
+        return uri, to_position(self._lines(uri), params.position)
+
+    def _snapshot(self, uri: str) -> Snapshot:
+        return self.workspace.snapshot(uri)
+
+    def _spelled(self, uri: str) -> str:
+        return self._names.get(uri, uri)
+
+    def _location(self, place: docs.Place) -> lsp.Location:
+        found = convert.location(place, self._lines)
+        found.uri = self._spelled(found.uri)
+        return found
+
+    # -- questions
+
+    def completion(self, params: lsp.CompletionParams) -> lsp.CompletionList:
+        """What can be written here."""
+        uri, position = self._at(params)
+        found = complete(self.workspace, uri, position)
+        return convert.completion_list(found, self._lines(uri)(position.line), position)
+
+    def hover(self, params: lsp.HoverParams) -> lsp.Hover | None:
+        """What this is."""
+        uri, position = self._at(params)
+        found = hover(self._snapshot(uri), uri, position)
+        return convert.hover(found, self._lines(uri)) if found is not None else None
+
+    def signature_help(self, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+        """The parameters of the call."""
+        uri, position = self._at(params)
+        found = signature(self.workspace, uri, position)
+        return convert.signature_help(found) if found is not None else None
+
+    def definition(self, params: lsp.DefinitionParams) -> lsp.Location | None:
+        """Where this is declared."""
+        uri, position = self._at(params)
+        found = definition(self._snapshot(uri), uri, position)
+        return self._location(found) if found is not None else None
+
+    def type_definition(self, params: lsp.TypeDefinitionParams) -> lsp.Location | None:
+        """Where the type of this is declared."""
+        uri, position = self._at(params)
+        found = type_definition(self._snapshot(uri), uri, position)
+        return self._location(found) if found is not None else None
+
+    def implementation(self, params: lsp.ImplementationParams) -> list[lsp.Location]:
+        """What implements or replaces this."""
+        uri, position = self._at(params)
+        return [self._location(place) for place in implementations(self._snapshot(uri), uri, position)]
+
+    def references(self, params: lsp.ReferenceParams) -> list[lsp.Location]:
+        """Where this is used, in every program that shows the document."""
+        uri, position = self._at(params)
+        places: dict[docs.Place, None] = {}
+        for snapshot in self.workspace.snapshots():
+            if snapshot.shows(uri):
+                for item in references(snapshot, uri, position, params.context.include_declaration):
+                    places.setdefault(item.place)
+        return [self._location(place) for place in places]
+
+    def document_highlight(self, params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
+        """Where this is used in the document."""
+        uri, position = self._at(params)
+        return convert.highlights(highlights(self._snapshot(uri), uri, position), self._lines(uri))
+
+    def document_symbol(self, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+        """The outline."""
+        uri = self._canonical(params.text_document.uri)
+        return convert.document_symbols(outline(self._snapshot(uri), uri), self._lines(uri))
+
+    def workspace_symbol(self, params: lsp.WorkspaceSymbolParams) -> list[lsp.SymbolInformation]:
+        """Objects, types and methods whose name holds the words that are searched for."""
+        wanted = params.query.lower()
+        found: dict[tuple[str, str], lsp.SymbolInformation] = {}
+
+        def collect(document: str, entries: list[Outline], container: str | None) -> None:
+            for entry in entries:
+                symbols = convert.document_symbols([entry], self._lines(document))
+                if wanted in entry.name.lower() and entry.kind not in ("section", "variable", "field"):
+                    place = lsp.Location(self._spelled(document), symbols[0].selection_range)
+                    found.setdefault(
+                        (document, f"{container}.{entry.name}"),
+                        lsp.SymbolInformation(place, entry.name, symbols[0].kind, container_name=container),
+                    )
+                if entry.kind != "section":
+                    collect(document, entry.children, entry.name)
+
+        for snapshot in self.workspace.snapshots():
+            for document in snapshot.documents():
+                if not document.startswith(docs.LIBRARY_SCHEME):
+                    collect(document, outline(snapshot, document), None)
+        return list(found.values())[:500]
+
+    def formatting(self, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+        """The edits that format a document."""
+        uri = self._canonical(params.text_document.uri)
+        text = self._open[uri].text if uri in self._open else self._text(uri)
+        if text is None:
+            raise ServiceError(f"'{params.text_document.uri}' is not open")
+        options = params.options
+        indent = " " * min(options.tab_size, 16) if options.insert_spaces else "\t"
+        lines = lines_of(text)
+        edits = formatting(uri, text, indent)
+        return [lsp.TextEdit(to_range(lines, edit.place.span), edit.text) for edit in edits]
+
+    def folding_range(self, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+        """What can be folded."""
+        uri = self._canonical(params.text_document.uri)
+        return convert.folding_ranges(folds(self._snapshot(uri), uri))
+
+    def prepare_rename(self, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
+        """The name that would be renamed; refused with the reason when it cannot be."""
+        uri, position = self._at(params)
+        span = renameable(self._snapshot(uri), uri, position)
+        line = self._lines(uri)
+        return lsp.PrepareRenamePlaceholder(
+            to_range(line, span), line(span.line)[span.column : span.end_column]
+        )
+
+    def rename(self, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+        """The edits that rename something in every program that shows the document."""
+        uri, position = self._at(params)
+        edits = {}
+        for snapshot in self.workspace.snapshots():
+            if snapshot.shows(uri):
+                edits.update({edit.place: edit for edit in rename(snapshot, uri, position, params.new_name)})
+        changes = convert.text_edits(edits.values(), self._lines)
+        return lsp.WorkspaceEdit({self._spelled(document): found for document, found in changes.items()})
+
+    def semantic_tokens(self, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+        """What each word is."""
+        uri = self._canonical(params.text_document.uri)
+        return convert.semantic_tokens(semantic_tokens(self._snapshot(uri), uri), self._lines(uri))
+
+    def read_document(self, params: Any) -> dict[str, str]:
+        """The text of a document, for one that is in no editor."""
+        uri = params.get("uri") if isinstance(params, dict) else None
+        text = self._text(self._canonical(uri)) if isinstance(uri, str) else None
+        if text is None:
+            raise ServiceError(f"There is no document '{uri}'")
+        return {"uri": str(uri), "languageId": convert.LANGUAGE_ID, "text": text}
+
+    # -- messages
+
+    def _schedule_from_worker(self) -> None:
+        self._loop.call_soon_threadsafe(self._schedule)
+
+    def _schedule(self) -> None:
+        """Work the messages out when the typing pauses."""
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = self._loop.call_later(self._debounce_s, self._publish_soon)
+
+    def _publish_soon(self) -> None:
+        self._timer = None
+        if self._publishing is not None and not self._publishing.done():
+            self._again = True
+            return
+        self._publishing = self._loop.create_task(self._publish())
+
+    async def _publish(self) -> None:
+        while True:
+            self._again = False
+            for params in await self.endpoint.run(self._changed_messages):
+                await self.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params)
+            if not self._again:
+                return
+
+    def _changed_messages(self) -> list[Any]:
+        """What to publish: the documents whose messages differ from those published last."""
+        if self._state != "initialized":
+            return []
+        found: dict[str, list[Report]] = {}
+        for snapshot in self.workspace.snapshots():
+            for document, entries in reports(snapshot).items():
+                known = found.setdefault(document, [])
+                known += [entry for entry in entries if entry not in known]
+        out = []
+        for document in {*found, *self._published}:
+            now = found.get(document, [])
+            if now != self._published.get(document, []):
+                version = self._open[document].version if document in self._open else None
+                diagnostics = convert.diagnostics(now, document, self._lines, self._advise)
+                params = lsp.PublishDiagnosticsParams(self._spelled(document), diagnostics, version)
+                out.append(_CONVERTER.unstructure(params))
+        self._published = found
+        return out
+
+
+def _structured(method: str, params: Any) -> Any:
+    """The params of a method as their class. Raises RpcError naming what is wrong."""
+    types = lsp.METHOD_TO_TYPES.get(method)
+    kind: Any = types[2] if types is not None else None
+    if kind is None:
+        return params
+    try:
+        return _CONVERTER.structure(params if params is not None else {}, kind)
+    except (BaseValidationError, TypeError, ValueError, KeyError, AttributeError) as error:
+        raise rpc.RpcError(
+            rpc.INVALID_PARAMS, f"The parameters of '{method}' are not as they should be"
+        ) from error
+
+
+_REQUESTS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
+    lsp.INITIALIZE: LanguageSession.initialize,
+    lsp.SHUTDOWN: LanguageSession.shutdown,
+    lsp.TEXT_DOCUMENT_COMPLETION: LanguageSession.completion,
+    lsp.TEXT_DOCUMENT_HOVER: LanguageSession.hover,
+    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: LanguageSession.signature_help,
+    lsp.TEXT_DOCUMENT_DEFINITION: LanguageSession.definition,
+    lsp.TEXT_DOCUMENT_TYPE_DEFINITION: LanguageSession.type_definition,
+    lsp.TEXT_DOCUMENT_IMPLEMENTATION: LanguageSession.implementation,
+    lsp.TEXT_DOCUMENT_REFERENCES: LanguageSession.references,
+    lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: LanguageSession.document_highlight,
+    lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: LanguageSession.document_symbol,
+    lsp.WORKSPACE_SYMBOL: LanguageSession.workspace_symbol,
+    lsp.TEXT_DOCUMENT_FORMATTING: LanguageSession.formatting,
+    lsp.TEXT_DOCUMENT_FOLDING_RANGE: LanguageSession.folding_range,
+    lsp.TEXT_DOCUMENT_PREPARE_RENAME: LanguageSession.prepare_rename,
+    lsp.TEXT_DOCUMENT_RENAME: LanguageSession.rename,
+    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: LanguageSession.semantic_tokens,
+    READ_DOCUMENT: LanguageSession.read_document,
+}
+_NOTIFICATIONS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
+    lsp.INITIALIZED: LanguageSession.initialized,
+    lsp.EXIT: LanguageSession.on_exit,
+    lsp.TEXT_DOCUMENT_DID_OPEN: LanguageSession.did_open,
+    lsp.TEXT_DOCUMENT_DID_CHANGE: LanguageSession.did_change,
+    lsp.TEXT_DOCUMENT_DID_CLOSE: LanguageSession.did_close,
+    lsp.TEXT_DOCUMENT_DID_SAVE: LanguageSession.did_save,
+    lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: LanguageSession.watched_files_changed,
+}

@@ -1,0 +1,463 @@
+"""Each feature of the language server once, as an editor uses it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from lsp_client import Client, FakeProject, uri
+
+from tappet.lang.services.documents import Program
+from tappet.lang.services.semantic_tokens import TOKEN_TYPES
+from tappet.server.lsp import rpc
+
+DECLARATION = "PROGRAM PLC_PRG\nVAR\n    motor : FB_Motor; // the drive\n    iCount : INT;\nEND_VAR"
+PROJECT = {
+    "PLC_PRG": (DECLARATION, "iCount := iCount + 1;\n"),
+    "FB_Motor": (
+        "FUNCTION_BLOCK FB_Motor\nVAR_INPUT\n    xOn : BOOL; (* run *)\nEND_VAR\n"
+        "VAR_OUTPUT\n    xRuns : BOOL;\nEND_VAR",
+        "xRuns := xOn;",
+    ),
+    "E_Mode": ("TYPE E_Mode : (Off, Auto); END_TYPE", ""),
+}
+BODY = uri("PLC_PRG", "implementation")
+HEAD = uri("PLC_PRG", "declaration")
+
+
+def start(**objects: tuple[str, str]) -> Client:
+    return Client(FakeProject(**{**PROJECT, **objects}))
+
+
+def here(line: int, start_: int, end: int) -> dict[str, Any]:
+    return {"start": {"line": line, "character": start_}, "end": {"line": line, "character": end}}
+
+
+async def test_initialize_tells_what_is_served() -> None:
+    async with start() as client:
+        result = await client.start()
+        capabilities = result["capabilities"]
+        assert capabilities["positionEncoding"] == "utf-16"
+        assert capabilities["textDocumentSync"]["change"] == 2
+        assert capabilities["renameProvider"] == {"prepareProvider": True}
+        assert capabilities["semanticTokensProvider"]["legend"]["tokenTypes"] == list(TOKEN_TYPES)
+        assert result["serverInfo"]["name"] == "tappet"
+
+
+async def test_diagnostics_follow_the_typing() -> None:
+    async with start() as client:
+        await client.start()
+        await client.open(BODY, "iCount := 1;\nmotor.xOff := TRUE;\nIF iCount THEN")
+        found = {d["code"]: d for d in await client.published(BODY)}
+        assert found["E0204"]["range"] == here(1, 6, 10)
+        assert found["E0204"]["severity"] == 1
+        assert found["E0204"]["source"] == "tappet"
+        assert found["E0103"]["range"]["start"]["line"] == 2
+        assert found["E0103"]["data"]["advice"] == "Close the IF with END_IF."
+        change = {"range": here(1, 6, 10), "text": "xOn"}
+        rest = {
+            "range": {"start": {"line": 1, "character": 18}, "end": {"line": 9, "character": 0}},
+            "text": "\n",
+        }
+        identifier = {"uri": BODY, "version": 2}
+        await client.tell(
+            "textDocument/didChange", {"textDocument": identifier, "contentChanges": [change, rest]}
+        )
+        assert await client.published(BODY) == []
+        await client.tell("textDocument/didClose", {"textDocument": {"uri": BODY}})
+        assert (
+            await client.ask(
+                "textDocument/hover", {"textDocument": {"uri": BODY}, "position": here(0, 0, 0)["start"]}
+            )
+        ) is not None
+
+
+async def test_diagnostics_name_related_places_and_tags() -> None:
+    async with start() as client:
+        await client.start()
+        await client.open(
+            HEAD, "PROGRAM PLC_PRG\nVAR\n  iCount : INT;\n  ICOUNT : INT;\n  iUnused : INT;\nEND_VAR"
+        )
+        found = {d["code"]: d for d in await client.published(HEAD)}
+        (related,) = found["E0205"]["relatedInformation"]
+        assert related["location"] == {"uri": HEAD, "range": here(2, 2, 8)}
+        assert found["W1103"]["tags"] == [1]
+
+
+async def test_stored_texts_of_others_count() -> None:
+    project = FakeProject(**PROJECT)
+    async with Client(project) as client:
+        await client.start()
+        await client.open(BODY, "g_x := 1;")
+        assert [d["code"] for d in await client.published(BODY)] == ["E0201"]
+        project.objects["GVL"] = ("VAR_GLOBAL g_x : INT; END_VAR", "")
+        client.session.stored_texts_changed()
+        assert await client.published(BODY) == []
+
+
+async def test_completion() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "motor.x|")
+        found = (await client.ask("textDocument/completion", params))["items"]
+        assert [item["label"] for item in found] == ["xOn", "xRuns"]
+        first = found[0]
+        assert first["textEdit"] == {"range": here(0, 6, 7), "newText": "xOn"}
+        assert first["documentation"]["value"] == "run"
+        assert first["detail"] == "BOOL"
+        await client.open(BODY, "")
+        params = await client.open(BODY, "motor(|")
+        found = (await client.ask("textDocument/completion", params))["items"]
+        assert [(i["label"], i["textEdit"]["newText"], i["filterText"]) for i in found[:2]] == [
+            ("xOn :=", "xOn := ", "xOn"),
+            ("xRuns =>", "xRuns => ", "xRuns"),
+        ]
+        assert [i["sortText"] for i in found] == sorted(i["sortText"] for i in found)
+        snippet = next(i for i in (await complete_at(client, "|"))["items"] if i["label"] == "IF ... END_IF")
+        assert snippet["insertTextFormat"] == 2
+
+
+async def complete_at(client: Client, text: str) -> dict[str, Any]:
+    params = await client.open(BODY, text)
+    found: dict[str, Any] = await client.ask("textDocument/completion", params)
+    return found
+
+
+async def test_completion_that_replaces_the_dot() -> None:
+    async with start(PLC_PRG=("PROGRAM PLC_PRG\nVAR p : POINTER TO E_Mode; END_VAR", "")) as client:
+        await client.start()
+        (item,) = (await complete_at(client, "p.|"))["items"]
+        assert item["textEdit"] == {"range": here(0, 1, 2), "newText": "^"}
+        assert item["filterText"] == ".^"
+
+
+async def test_hover() -> None:
+    async with start() as client:
+        await client.start()
+        found = await client.ask("textDocument/hover", await client.open(BODY, "mot|or(xOn := TRUE);"))
+        assert found["contents"]["kind"] == "markdown"
+        assert (
+            found["contents"]["value"] == "```iec-st\nVAR motor : FB_Motor;\n```\n\nthe drive\n\nin PLC\\_PRG"
+        )
+        assert found["range"] == here(0, 0, 5)
+        assert await client.ask("textDocument/hover", await client.open(BODY, "// no|thing")) is None
+
+
+async def test_signature_help() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "motor(xOn := |")
+        found = await client.ask("textDocument/signatureHelp", params)
+        (information,) = found["signatures"]
+        assert information["label"] == "FB_Motor(xOn : BOOL, xRuns => : BOOL)"
+        assert information["parameters"][0]["label"] == [9, 19]
+        assert information["parameters"][0]["documentation"]["value"] == "run"
+        assert found["activeParameter"] == 0
+
+
+async def test_definition_over_documents() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "motor.xO|n := TRUE;")
+        found = await client.ask("textDocument/definition", params)
+        assert found == {"uri": uri("FB_Motor", "declaration"), "range": here(2, 4, 7)}
+        params = await client.open(BODY, "|motor.xOn := TRUE;")
+        assert (await client.ask("textDocument/definition", params))["uri"] == HEAD
+        found = await client.ask("textDocument/typeDefinition", params)
+        assert found == {"uri": uri("FB_Motor", "declaration"), "range": here(0, 15, 23)}
+
+
+async def test_definition_in_a_library_can_be_read() -> None:
+    async with start(PLC_PRG=("PROGRAM PLC_PRG\nVAR t : TON; END_VAR", "")) as client:
+        await client.start()
+        found = await client.ask("textDocument/definition", await client.open(BODY, "t.P|T := T#1s;"))
+        assert found["uri"] == "tappet-library:/Standard/TON"
+        document = await client.ask("tappet/document", {"uri": found["uri"]})
+        line = document["text"].split("\n")[found["range"]["start"]["line"]]
+        assert line[found["range"]["start"]["character"] :].startswith("PT : TIME")
+        assert "There is no document" in (await client.refused("tappet/document", {"uri": "x"}))["message"]
+
+
+async def test_references_and_highlights() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "iC|ount := iCount + 1;")
+        found = await client.ask(
+            "textDocument/references", {**params, "context": {"includeDeclaration": True}}
+        )
+        assert [(f["uri"], f["range"]) for f in found] == [
+            (HEAD, here(3, 4, 10)),
+            (BODY, here(0, 0, 6)),
+            (BODY, here(0, 10, 16)),
+        ]
+        found = await client.ask(
+            "textDocument/references", {**params, "context": {"includeDeclaration": False}}
+        )
+        assert len(found) == 2
+        found = await client.ask("textDocument/documentHighlight", params)
+        assert [(f["range"], f["kind"]) for f in found] == [(here(0, 0, 6), 3), (here(0, 10, 16), 2)]
+
+
+async def test_implementation() -> None:
+    interface = ("INTERFACE I_Run END_INTERFACE", "")
+    block = ("FUNCTION_BLOCK FB_Run IMPLEMENTS I_Run", "")
+    async with start(I_Run=interface, FB_Run=block) as client:
+        await client.start()
+        params = await client.open(uri("I_Run", "declaration"), "INTERFACE I_R|un END_INTERFACE")
+        found = await client.ask("textDocument/implementation", params)
+        assert [f["uri"] for f in found] == [uri("FB_Run", "declaration")]
+
+
+async def test_rename() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "iC|ount := iCount + 1;")
+        found = await client.ask("textDocument/prepareRename", params)
+        assert found == {"range": here(0, 0, 6), "placeholder": "iCount"}
+        edit = await client.ask("textDocument/rename", {**params, "newName": "iPieces"})
+        assert edit["changes"] == {
+            HEAD: [{"range": here(3, 4, 10), "newText": "iPieces"}],
+            BODY: [
+                {"range": here(0, 0, 6), "newText": "iPieces"},
+                {"range": here(0, 10, 16), "newText": "iPieces"},
+            ],
+        }
+        error = await client.refused("textDocument/rename", {**params, "newName": "motor"})
+        assert error == {"code": rpc.REQUEST_FAILED, "message": "'motor' exists already"}
+        params = await client.open(BODY, "I|F TRUE THEN END_IF")
+        assert "Nothing" in (await client.refused("textDocument/prepareRename", params))["message"]
+
+
+async def test_symbols_of_a_document_and_of_all() -> None:
+    async with start() as client:
+        await client.start()
+        (found,) = await client.ask("textDocument/documentSymbol", {"textDocument": {"uri": HEAD}})
+        assert (found["name"], found["kind"], found["range"]["end"]["line"]) == ("PLC_PRG", 2, 4)
+        (section,) = found["children"]
+        assert [(c["name"], c["detail"]) for c in section["children"]] == [
+            ("motor", "FB_Motor"),
+            ("iCount", "INT"),
+        ]
+        all_ = await client.ask("workspace/symbol", {"query": "mo"})
+        assert {(s["name"], s["location"]["uri"]) for s in all_} == {
+            ("FB_Motor", uri("FB_Motor", "declaration")),
+            ("FB_Motor", uri("FB_Motor", "implementation")),
+            ("E_Mode", uri("E_Mode", "declaration")),
+        }
+
+
+async def test_formatting() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "if iCount=1 then\niCount:=2;\nend_if")
+        options = {"tabSize": 2, "insertSpaces": True}
+        found = await client.ask("textDocument/formatting", {**params, "options": options})
+        assert [(f["range"]["start"]["line"], f["newText"]) for f in found] == [
+            (0, "IF iCount = 1 THEN"),
+            (1, "  iCount := 2;"),
+            (2, "END_IF"),
+        ]
+
+
+async def test_folding() -> None:
+    async with start() as client:
+        await client.start()
+        found = await client.ask("textDocument/foldingRange", {"textDocument": {"uri": HEAD}})
+        assert {(f["startLine"], f["endLine"]) for f in found} == {(0, 4), (1, 4)}
+
+
+async def test_semantic_tokens_are_packed_in_utf_16() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "iCount := 1; // \U0001f600 x\n  motor();")
+        found = await client.ask("textDocument/semanticTokens/full", params)
+        data = found["data"]
+        tokens = [tuple(data[i : i + 5]) for i in range(0, len(data), 5)]
+        kinds = [TOKEN_TYPES[token[3]] for token in tokens]
+        assert kinds == ["variable", "operator", "number", "comment", "variable"]
+        assert [token[:3] for token in tokens] == [(0, 0, 6), (0, 7, 2), (0, 3, 1), (0, 3, 7), (1, 2, 5)]
+
+
+async def test_positions_behind_characters_of_two_units() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "(* \U0001f600\U0001f600 *) iC|ount := 1;")
+        found = await client.ask("textDocument/hover", params)
+        assert found["range"] == here(0, 11, 17)
+        change = {"range": here(0, 11, 17), "text": "motor.xOn"}
+        await client.tell(
+            "textDocument/didChange",
+            {"textDocument": {"uri": BODY, "version": 2}, "contentChanges": [change]},
+        )
+        found = await client.ask(
+            "textDocument/documentHighlight", {**params, "position": here(0, 12, 0)["start"]}
+        )
+        assert [f["range"] for f in found] == [here(0, 11, 16)]
+
+
+async def test_each_request_sees_the_edits_before_it() -> None:
+    async with start() as client:
+        await client.start()
+        await client.open(BODY, "")
+        text = ""
+        waiting = []
+        for number, char in enumerate("motor.xOn := iCount > 5;"):
+            change = {"range": here(0, len(text), len(text)), "text": char}
+            identifier = {"uri": BODY, "version": number + 2}
+            await client.tell(
+                "textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]}
+            )
+            text += char
+            position = {"line": 0, "character": len(text)}
+            params = {"textDocument": {"uri": BODY}, "position": position}
+            waiting.append((await client.begin("textDocument/completion", params))[1])
+        answers = await asyncio.wait_for(asyncio.gather(*waiting), 30)
+        after_dot = [item["label"] for item in answers[text.index(".")]["result"]["items"]]
+        assert after_dot == ["xOn", "xRuns"]
+
+
+async def test_a_waiting_request_can_be_cancelled() -> None:
+    async with start() as client:
+        await client.start()
+        await client.open(BODY, "")
+        params = {"textDocument": {"uri": BODY}, "position": {"line": 0, "character": 0}}
+        begun = [await client.begin("textDocument/completion", params) for _ in range(5)]
+        await client.tell("$/cancelRequest", {"id": begun[-1][0]})
+        answers = [await asyncio.wait_for(future, 20) for _, future in begun]
+        assert answers[-1]["error"]["code"] == rpc.REQUEST_CANCELLED
+        assert all("result" in answer for answer in answers[:-1])
+
+
+@pytest.mark.parametrize(
+    ("message", "code"),
+    [
+        ("{", rpc.PARSE_ERROR),
+        ("[" * 100_000, rpc.PARSE_ERROR),
+        ("[]", rpc.INVALID_REQUEST),
+        ('{"id": 1}', rpc.INVALID_REQUEST),
+        ('{"jsonrpc": "2.0", "id": {}, "method": "x"}', rpc.INVALID_REQUEST),
+        ('{"jsonrpc": "2.0", "id": [1], "method": "x"}', rpc.INVALID_REQUEST),
+        ('{"jsonrpc": "2.0", "id": true, "method": "x"}', rpc.INVALID_REQUEST),
+        ('{"jsonrpc": "2.0", "method": 5}', rpc.INVALID_REQUEST),
+    ],
+)
+async def test_what_is_no_message_is_told(message: str, code: int) -> None:
+    async with start() as client:
+        await client.raw(message)
+        assert [error["code"] for error in client.errors] == [code]
+
+
+@pytest.mark.parametrize(
+    ("method", "params", "code"),
+    [
+        ("textDocument/nothing", {}, rpc.METHOD_NOT_FOUND),
+        ("textDocument/hover", {}, rpc.INVALID_PARAMS),
+        ("textDocument/hover", [1], rpc.INVALID_PARAMS),
+        ("textDocument/hover", {"textDocument": {"uri": 5}, "position": "x"}, rpc.INVALID_PARAMS),
+        (
+            "textDocument/hover",
+            {"textDocument": {"uri": "tappet:/p1/gone/declaration"}, "position": {"line": 0, "character": 0}},
+            rpc.REQUEST_FAILED,
+        ),
+        (
+            "textDocument/formatting",
+            {"textDocument": {"uri": "x"}, "options": {"tabSize": 2, "insertSpaces": True}},
+            rpc.REQUEST_FAILED,
+        ),
+    ],
+)
+async def test_bad_requests_are_answered_with_their_error(method: str, params: Any, code: int) -> None:
+    async with start() as client:
+        await client.start()
+        error = await client.refused(method, params)
+        assert error["code"] == code
+        assert error["message"]
+
+
+async def test_order_of_life() -> None:
+    async with start() as client:
+        params = {"textDocument": {"uri": BODY}, "position": {"line": 0, "character": 0}}
+        assert (await client.refused("textDocument/hover", params))["code"] == rpc.NOT_INITIALIZED
+        await client.start()
+        assert await client.ask("shutdown", None) is None
+        assert (await client.refused("textDocument/hover", params))["code"] == rpc.NOT_INITIALIZED
+        await client.tell("exit", None)
+        await asyncio.wait_for(client.session.exit.wait(), 5)
+
+
+async def test_a_fault_of_ours_is_an_answer_too(caplog: pytest.LogCaptureFixture) -> None:
+    def broken(unsaved: Mapping[str, str]) -> list[Program]:
+        raise RuntimeError("database is away")
+
+    async with Client(broken) as client:
+        await client.start()
+        params = {"textDocument": {"uri": BODY}, "position": {"line": 0, "character": 0}}
+        error = await client.refused("textDocument/hover", params)
+        assert error["code"] == rpc.INTERNAL_ERROR
+        assert "database" not in error["message"]
+        assert "database is away" in caplog.text
+
+
+async def test_positions_outside_of_the_text() -> None:
+    async with start() as client:
+        await client.start()
+        await client.open(BODY, "iCount := 1;")
+        for line, character in ((0, 9999), (999, 0), (4_000_000, 4_000_000)):
+            params = {"textDocument": {"uri": BODY}, "position": {"line": line, "character": character}}
+            await client.ask("textDocument/completion", params)
+            await client.ask("textDocument/hover", params)
+        far = {"start": {"line": 50, "character": 9}, "end": {"line": 2, "character": 0}}
+        await client.tell(
+            "textDocument/didChange",
+            {
+                "textDocument": {"uri": BODY, "version": 2},
+                "contentChanges": [{"range": far, "text": "\nx();"}],
+            },
+        )
+        symbols = await client.ask("textDocument/foldingRange", {"textDocument": {"uri": BODY}})
+        assert isinstance(symbols, list)
+
+
+METHODS = [
+    *("initialize", "shutdown", "$/cancelRequest", "tappet/document", "workspace/symbol"),
+    *(f"textDocument/{name}" for name in ("hover", "completion", "rename", "didChange", "didOpen")),
+]
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.text(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=3)
+        | st.dictionaries(
+            st.sampled_from(
+                ["textDocument", "uri", "position", "line", "character", "text", "id", "contentChanges"]
+            ),
+            inner,
+            max_size=4,
+        )
+    ),
+    max_leaves=8,
+)
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.lists(st.tuples(st.sampled_from(METHODS), JSON, st.booleans()), max_size=6))
+def test_any_messages_leave_the_session_alive(messages: list[tuple[str, Any, bool]]) -> None:
+    async def run() -> None:
+        async with start() as client:
+            await client.start()
+            client.next_id = 1000
+            for number, (method, params, request) in enumerate(messages):
+                message: dict[str, Any] = {"jsonrpc": "2.0", "method": method, "params": params}
+                if request:
+                    message["id"] = number
+                    client.answers[number] = asyncio.get_running_loop().create_future()
+                await client.raw(json.dumps(message))
+            await client.session.endpoint.settle()
+            answer = await client.answer("workspace/symbol", {"query": "PLC"})
+            assert "result" in answer or answer["error"]["code"] == rpc.NOT_INITIALIZED
+
+    asyncio.run(run())
