@@ -37,6 +37,10 @@ def test_page_is_asked_for_again_and_assets_are_kept(app: FastAPI) -> None:
     asset = client.get("/assets/index-a1b2.js")
     assert "immutable" in asset.headers["cache-control"]
     assert asset.headers["content-type"].startswith("text/javascript")
+    assert (asset.headers["content-encoding"], asset.text) == ("gzip", "export {}")
+    plain = client.get("/assets/index-a1b2.js", headers={"Accept-Encoding": "identity"})
+    assert "content-encoding" not in plain.headers
+    assert plain.text == "export {}"
 
 
 @pytest.mark.parametrize(

@@ -256,6 +256,19 @@ def test_too_many_subscriptions_are_refused(admin: TestClient, runtime_id: str) 
         assert answers == ["subscribed"] * 100 + ["error"]
 
 
+def test_a_socket_ends_with_its_session(
+    admin: TestClient, runtime_id: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tappet.server.online.channel.CHECK_EVERY_S", 0.05)
+    with online(admin, runtime_id) as socket:
+        subscribe(socket, "PLC_PRG.nCount")
+        assert admin.post("/api/v1/auth/logout").status_code == 204
+        message = socket.receive()
+        while message["type"] != "websocket.close":
+            message = socket.receive()
+        assert message["code"] == 4401
+
+
 def test_foreign_pages_and_strangers_get_no_socket(app: FastAPI, admin: TestClient, runtime_id: str) -> None:
     foreign = bare(app, headers={"Origin": "http://evil.example"})
     foreign.cookies.set("tappet_session", admin.cookies["tappet_session"])

@@ -107,6 +107,10 @@ class Builder:
         task.add_done_callback(lambda done: self._finished(key, done))
         return await self._wait(task)
 
+    async def warm(self) -> None:
+        """Starts the compiler processes before the first build asks for them."""
+        await asyncio.gather(*(worker.warm() for worker in self._workers))
+
     def cancel(self, project_id: str, application_id: str) -> bool:
         """Ends the running build of an application; False when there is none."""
         running = self._running.get((project_id, application_id))
@@ -188,6 +192,11 @@ class _Worker:
             except BaseException:
                 await self._kill()
                 raise
+
+    async def warm(self) -> None:
+        """Starts the process."""
+        async with self._turn:
+            await self._start()
 
     async def _start(self) -> asyncio.subprocess.Process:
         if self._process is None or self._process.returncode is not None:

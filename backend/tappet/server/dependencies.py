@@ -6,6 +6,7 @@ Every route names its minimum role by taking `Viewer`, `Operator`, `Engineer` or
 
 from __future__ import annotations
 
+from collections.abc import Awaitable, Callable
 from typing import Annotated
 
 from fastapi import Depends
@@ -21,6 +22,9 @@ from tappet.server.database import Database
 from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
+
+StillAllowed = Callable[[], Awaitable[bool]]
+"""Asked now and then by open sockets; False: close."""
 
 
 async def services_of(connection: HTTPConnection) -> Services:
@@ -47,8 +51,25 @@ async def optional_identity(connection: HTTPConnection) -> Identity | None:
         return None
     address = identities.client_address(connection)
     return await run_in_threadpool(
-        identities.resolve, services.database, credential, address, services.settings
+        identities.resolve, services.database, credential, address, services.settings, touch=True
     )
+
+
+async def session_check(connection: HTTPConnection) -> StillAllowed:
+    """For sockets, which outlive the check at their opening: whether the session or token still stands."""
+    services: Services = connection.app.state.services
+    credential = identities.credential_of(connection)
+    address = identities.client_address(connection)
+
+    async def still_allowed() -> bool:
+        if credential is None:
+            return False
+        found = await run_in_threadpool(
+            identities.resolve, services.database, credential, address, services.settings
+        )
+        return found is not None
+
+    return still_allowed
 
 
 class RequireRole:
@@ -100,6 +121,7 @@ RuntimesDep = Annotated[RuntimeRegistry, Depends(runtimes_of)]
 CommissioningDep = Annotated[Commissioning, Depends(commissioning_of)]
 LinkDep = Annotated[RuntimeLink, Depends(link_of)]
 MaybeIdentity = Annotated[Identity | None, Depends(optional_identity)]
+SessionCheck = Annotated[StillAllowed, Depends(session_check)]
 Viewer = Annotated[Identity, Depends(require_viewer)]
 Operator = Annotated[Identity, Depends(require_operator)]
 Engineer = Annotated[Identity, Depends(require_engineer)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response, WebSocket
 from starlette.responses import RedirectResponse
 
-from tappet.server.dependencies import ServicesDep, Viewer
+from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
 from tappet.server.views import VIEW_POLICY
 
 router = APIRouter(prefix="/views", include_in_schema=False)
@@ -30,6 +30,8 @@ async def view_page(
 
 @router.websocket("/{view_id}")
 @router.websocket("/{view_id}/")
-async def view_socket(view_id: str, who: Viewer, socket: WebSocket, services: ServicesDep) -> None:
+async def view_socket(
+    view_id: str, who: Viewer, socket: WebSocket, services: ServicesDep, still_allowed: SessionCheck
+) -> None:
     """The scene of a view and what its user does in it."""
-    await services.views.connect(view_id, socket)
+    await services.views.connect(view_id, socket, still_allowed)

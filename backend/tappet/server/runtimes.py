@@ -243,7 +243,7 @@ class RuntimeLink:
     def _set_problem(self, text: str) -> None:
         if text != self.problem:
             self.problem = text
-            log.info("runtime %s (%s): %s", self.name, self.url, text)
+            log.info("runtime %s: %s", self.name, text)
             if self._client is None:
                 self._tell(Change.STATE)
 

@@ -50,7 +50,7 @@ class ServeOptions:
 def serve(options: ServeOptions) -> int:
     """Serves until SIGINT or SIGTERM; 0 after a proper end, 1 when the server could not start."""
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
-    for noisy in ("httpx", "httpcore", "websockets", "alembic"):
+    for noisy in ("httpx", "httpcore", "websockets", "alembic", "uvicorn"):
         logging.getLogger(noisy).setLevel(logging.WARNING)
     try:
         if options.example is not None:
@@ -110,6 +110,7 @@ async def _serve(options: ServeOptions, listener: socket.socket) -> int:
     console.greet(local_link=options.local_link)
     if options.local_link:
         console.offer_links()
+    await services.commissioning.builder.warm()
     example = asyncio.create_task(_example(services, options.example)) if options.example else None
     try:
         await running

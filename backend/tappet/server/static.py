@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import gzip
 from pathlib import Path
 
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
@@ -36,6 +39,8 @@ class FrontEnd(StaticFiles):
     def __init__(self, folder: Path | None) -> None:
         super().__init__(directory=folder, check_dir=False)
         self._folder = folder
+        self._packed: dict[str, bytes] = {}
+        """Files with hashed names never change, so there is one entry a file of one build."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file, the page, or a 404 problem."""
@@ -50,5 +55,23 @@ class FrontEnd(StaticFiles):
                 raise
             path = "."
             response = await super().get_response("index.html", scope)
-        response.headers["Cache-Control"] = FOREVER if path.startswith(HASHED) else "no-cache"
+        hashed = path.startswith(HASHED)
+        if hashed and isinstance(response, FileResponse) and response.status_code == 200:
+            response = await self._compressed(response, Headers(scope=scope))
+        response.headers["Cache-Control"] = FOREVER if hashed else "no-cache"
         return response
+
+    async def _compressed(self, response: FileResponse, asked: Headers) -> Response:
+        """Texts as gzip, packed once: the code editor alone is several megabytes."""
+        if "gzip" not in asked.get("accept-encoding", "") or not _is_text(response.media_type or ""):
+            return response
+        packed = self._packed.get(str(response.path))
+        if packed is None:
+            packed = await run_in_threadpool(lambda: gzip.compress(Path(response.path).read_bytes(), 6))
+            self._packed[str(response.path)] = packed
+        headers = {"Content-Encoding": "gzip", "Vary": "Accept-Encoding", "ETag": response.headers["etag"]}
+        return Response(packed, headers=headers, media_type=response.media_type)
+
+
+def _is_text(media_type: str) -> bool:
+    return media_type.startswith("text/") or media_type in ("application/json", "image/svg+xml")

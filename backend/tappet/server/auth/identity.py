@@ -54,21 +54,29 @@ def credential_of(connection: HTTPConnection) -> Credential | None:
 
 
 def resolve(
-    database: Database, credential: Credential, address: str, settings: ServerSettings
+    database: Database,
+    credential: Credential,
+    address: str,
+    settings: ServerSettings,
+    *,
+    touch: bool = False,
 ) -> Identity | None:
-    """Who the credential stands for now; None when it no longer does. Blocks for the database."""
+    """Who the credential stands for now; None when it no longer does. Blocks for the database.
+
+    With `touch` this counts as a use. An open socket alone does not, or a session would never be idle.
+    """
     now = datetime.now(UTC)
     if credential.bearer:
         token = database.read(lambda db: tokens.find(db, credential.secret, now))
         if token is None:
             return None
-        if token.touch_due:
+        if touch and token.touch_due:
             database.write(lambda db: tokens.touch(db, token.id, now))
         return Identity(token.user_id, token.username, token.role, address, token_id=token.id)
     session = database.read(lambda db: sessions.find(db, credential.secret, settings, now))
     if session is None:
         return None
-    if session.touch_due:
+    if touch and session.touch_due:
         database.write(lambda db: sessions.touch(db, session.id, now))
     return Identity(session.user_id, session.username, session.role, address, session_id=session.id)
 
