@@ -10,14 +10,26 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
+from playwright.sync_api import Error as PlaywrightError
 
 ROOT = Path(__file__).resolve().parents[2]
 START_LIMIT_S = 90.0
+expect.set_options(timeout=30_000)
+AS_DELIVERED = """async () => {
+    const headers = {'X-Tappet-Client': '1', 'Content-Type': 'application/json'};
+    const send = (path, body) =>
+        fetch('/api/v1' + path, {method: 'POST', headers, body: JSON.stringify(body)});
+    for (const project of await (await fetch('/api/v1/projects')).json())
+        if (project.revision > 1) await send(`/projects/${project.id}/revert`, {revision: 1});
+    await send('/runtimes/local/values/unforce', {expressions: null});
+}"""
+"""Undoes what an earlier test did to the example and to the machine."""
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -103,14 +115,17 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
 def context(browser: Browser) -> Iterator[BrowserContext]:
     """A browser profile of its own, so that each test has its own login."""
     fresh = browser.new_context(viewport={"width": 1440, "height": 900}, locale="en-US")
-    fresh.set_default_timeout(20_000)
+    fresh.set_default_timeout(30_000)
     yield fresh
     fresh.close()
 
 
 @pytest.fixture
-def page(context: BrowserContext, server: Server) -> Page:
-    """The workbench, logged in by a one-time link."""
+def page(context: BrowserContext, server: Server, request: pytest.FixtureRequest) -> Iterator[Page]:
+    """The workbench, logged in by a one-time link; its last picture is kept for whoever mends a failure."""
     opened = context.new_page()
     opened.goto(server.fresh_link())
-    return opened
+    opened.evaluate(AS_DELIVERED)
+    yield opened
+    with suppress(PlaywrightError):
+        opened.screenshot(path=server.data / f"{request.node.name}.png", timeout=5_000)
