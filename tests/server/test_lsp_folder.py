@@ -143,9 +143,8 @@ async def test_frames_and_the_end() -> None:
 
 async def test_the_process_an_editor_starts(tmp_path: Path) -> None:
     write(tmp_path, {"p.st": "PROGRAM P\nVAR a : INT; END_VAR\na := 1 +;\nEND_PROGRAM"})
-    code = "import sys, pathlib, tappet.server.lsp.stdio as s; sys.exit(s.main(pathlib.Path(sys.argv[1])))"
     process = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", code, str(tmp_path),
+        sys.executable, "-c", "from tappet.cli import main; main()", "lsp", str(tmp_path), "--stdio",
         stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
     assert process.stdin is not None

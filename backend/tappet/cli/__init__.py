@@ -10,7 +10,7 @@ import sys
 import typer
 
 from tappet import __version__
-from tappet.cli import bench, check, deploy, library, projects, run, serve
+from tappet.cli import bench, check, deploy, library, lsp, projects, run, serve
 from tappet.cli.output import UsageError, complain
 
 app = typer.Typer(
@@ -28,6 +28,7 @@ app.command("import")(projects.import_project)
 app.command("export")(projects.export_project)
 app.add_typer(library.app, name="library")
 app.command("deploy")(deploy.deploy)
+app.command("lsp")(lsp.lsp)
 app.command("bench")(bench.bench)
 
 

@@ -64,7 +64,7 @@ def references(
         return []
     return [
         Reference(snapshot.program.texts[index].place(item.span), item.role)
-        for index, item in occurrences_of(snapshot, found.key)
+        for index, item in occurrences_of(snapshot, found, view.index)
         if with_declaration or item.role != "declaration"
     ]
 

@@ -326,9 +326,14 @@ def occurrence_at(snapshot: Snapshot, index: int, position: Position) -> Occurre
     return None
 
 
-def occurrences_of(snapshot: Snapshot, key: Key) -> Iterator[tuple[int, Occurrence]]:
-    """Every place of the program that names something, with the index of its text."""
-    for index in range(len(snapshot.program.texts)):
-        for item in occurrences(snapshot, index):
-            if item.key == key:
-                yield index, item
+def occurrences_of(snapshot: Snapshot, found: Occurrence, index: int) -> Iterator[tuple[int, Occurrence]]:
+    """Every place of the program that names what `found` in text number `index` names, with its text."""
+    texts = snapshot.program.texts
+    line = split_lines(texts[index].source.text)[found.span.line]
+    name = re.escape(line[found.span.column : found.span.end_column])
+    named = re.compile(rf"(?<!\w){name}(?!\w)", re.IGNORECASE)
+    for number, text in enumerate(texts):
+        if named.search(text.source.text):  # far cheaper than to walk the tree
+            for item in occurrences(snapshot, number):
+                if item.key == found.key:
+                    yield number, item

@@ -41,7 +41,7 @@ def rename(snapshot: Snapshot, document: str, position: Position, name: str) -> 
     view = snapshot.view(document, position)
     found = _target(snapshot, view)
     _check_name(name)
-    places = list(occurrences_of(snapshot, found.key))
+    places = list(occurrences_of(snapshot, found, view.index))
     _check_free(snapshot, view, found, places, name)
     edits: dict[tuple[str, Span], Edit] = {}
     for index, item in places:
