@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from tappet.runtime.contexts import STUCK_LIMIT_S
+from tappet.runtime.flight import FlightSettings
 from tappet.runtime.logbook import Logbook, LogEntry
 from tappet.runtime.plc import SoftPlc
 from tappet.runtime.posix import lock_memory
@@ -43,6 +44,13 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--all-cpus", action="store_true", help="let tasks run on all processors, not on one")
     text = "longest cycle, in seconds, of tasks without watchdog (default: %(default)s)"
     p.add_argument("--stuck-limit", type=float, default=STUCK_LIMIT_S, metavar="S", help=text)
+    kept = FlightSettings()
+    text = "memory of the flight recorder in MiB, 0 turns it off (default: %(default)s)"
+    p.add_argument("--flight-memory", type=int, default=kept.memory >> 20, metavar="MIB", help=text)
+    text = "how far the flight recorder reaches back, in seconds (default: %(default)s)"
+    p.add_argument("--flight-seconds", type=float, default=kept.seconds, metavar="S", help=text)
+    text = "take an entry of the flight recorder every N cycles (default: %(default)s)"
+    p.add_argument("--flight-divider", type=int, default=kept.divider, metavar="N", help=text)
     p.add_argument("--ready-fd", type=int, help=argparse.SUPPRESS)
     return p
 
@@ -87,6 +95,9 @@ async def serve(arguments: argparse.Namespace) -> None:
         scheduling=_scheduling(arguments, log),
         stuck_limit_s=arguments.stuck_limit,
         logbook=log,
+        flight=FlightSettings(
+            arguments.flight_memory << 20, arguments.flight_seconds, arguments.flight_divider
+        ),
     )
     service = RuntimeService(plc, token)
     plc.boot()

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.application import LoadedApplication
+from tappet.runtime.flight import FlightRecorder, FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
@@ -100,6 +101,41 @@ class ApplicationAccess:
             application = self.application
             if application is not None and any(recorder in r for r in application.recorders.values()):
                 application.end_record(recorder)
+
+    # -- flight recorder ---------------------------------------------------------------------------------
+
+    def _need_flight(self) -> FlightRecorder:
+        recorder = self._need().flight
+        if recorder is None:
+            raise PlcError("the flight recorder is off, or the application has no task that could feed it")
+        return recorder
+
+    def flight_status(self) -> FlightStatus:
+        """What the flight recorder keeps."""
+        with self._lock:
+            return self._need_flight().status()
+
+    def flight_history(self) -> list[tuple[int, int]]:
+        """(cycle of the bus cycle task, unix time in ns) of every cycle that can be read, oldest first."""
+        with self._lock:
+            return self._need_flight().history()
+
+    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes at (offset, size) at the end of a past cycle; FlightError when it is not kept."""
+        with self._lock:
+            recorder = self._need_flight()
+            for offset, size in places:
+                self._need().image.check(offset, size)
+            capture = recorder.capture(cycle)
+        image = recorder.rebuild(capture)  # takes its time: nobody waits for it
+        return [image[offset : offset + size] for offset, size in places]
+
+    def flight_freeze(self, on: bool) -> FlightStatus:
+        """Keep what is recorded, or record again; an exception freezes until the next start after a reset."""
+        with self._lock:
+            recorder = self._need_flight()
+            recorder.freeze(on)
+            return recorder.status()
 
     # -- monitoring --------------------------------------------------------------------------------------
 

@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
-from tappet.runtime.contexts import FAULTED, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
+from tappet.runtime.contexts import FAULTED, RUNNING, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block
 from tappet.runtime.faults import RawFault
+from tappet.runtime.flight import FlightRecorder, FlightSettings
 from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
 from tappet.runtime.image import Image
 from tappet.runtime.link import LinkedCode
@@ -36,6 +37,7 @@ class LoadedApplication:
         virtual: bool = False,
         scheduling: Scheduling = NORMAL,
         stuck_limit_s: float = STUCK_LIMIT_S,
+        flight: FlightSettings | None = None,
     ) -> None:
         self.executive = executive
         self.package = package
@@ -59,6 +61,41 @@ class LoadedApplication:
         self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
         self.connect_code(self.code)
         self.connect_io()
+        self.flight = self._make_flight(flight or FlightSettings())
+        self.connect_flight()
+
+    def _make_flight(self, settings: FlightSettings) -> FlightRecorder | None:
+        """The flight recorder, at the bus cycle task; None without task, memory or wish for it."""
+        bus = self.ownership.bus
+        if bus is None or not settings.memory:
+            return None
+        try:
+            return FlightRecorder(
+                self.executive,
+                settings,
+                self.image,
+                self.package.tasks[bus].interval_ns,
+                faulted=lambda: self.tasks.state == FAULTED,
+                touch=not self.virtual,
+            )
+        except OSError:
+            return None
+
+    def connect_flight(self) -> None:
+        """Let the bus cycle task record the image as it is now; what was kept is dropped. While no task
+        runs."""
+        if self.flight is None:
+            return
+        self.flight.relocate()
+        for i, task in enumerate(self.contexts.tasks):
+            address = self.flight.address if i == self.ownership.bus else 0
+            self.executive.store(task.place("pFlight"), address)
+
+    def run(self) -> None:
+        """State RUNNING, with the flight recorder beginning first."""
+        if self.flight is not None:
+            self.flight.begin()
+        self.tasks.set_state(RUNNING)
 
     def area(self, name: str) -> tuple[int, int]:
         """Offset and size of the area I, Q or M; (0, 0) when the application has none."""
@@ -104,6 +141,8 @@ class LoadedApplication:
             self.contexts.watchdog(task)["overruns"] = 0
             self.contexts.clear_statistics(task)
         self.contexts.application["pFaulted"] = 0
+        if self.flight is not None:
+            self.flight.renew()
         for recorder in (r for recorders in self.recorders.values() for r in recorders):
             recorder.restart()
         if self.virtual:
@@ -369,6 +408,8 @@ class LoadedApplication:
     def close(self) -> None:
         """End the threads and release everything."""
         self.tasks.halt()
+        if self.flight is not None:
+            self.flight.close()
         self.close_retain_file()
         self.code.close()
         self.tasks.close()

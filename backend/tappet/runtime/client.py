@@ -23,6 +23,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import protocol
 from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.flight import FlightStatus
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.protocol import ProtocolError
@@ -354,6 +355,24 @@ class RuntimeClient:
         self._recorders.pop(recorder.number, None)
         await self._call("end_record", recorder=recorder.number)
         self._orphans.pop(recorder.number, None)
+
+    # -- flight recorder ---------------------------------------------------------------------------------
+
+    async def flight_status(self) -> FlightStatus:
+        """What the flight recorder keeps."""
+        return FlightStatus(**await self._call("flight_status"))
+
+    async def flight_history(self) -> list[tuple[int, int]]:
+        """(cycle of the bus cycle task, unix time in ns) of every cycle that can be read, oldest first."""
+        return [(cycle, stamp) for cycle, stamp in await self._call("flight_history")]
+
+    async def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes at (offset, size) at the end of a past cycle; RuntimeRefused when it is not kept."""
+        return list(await self._call("flight_read", cycle=cycle, places=[list(p) for p in places]))
+
+    async def flight_freeze(self, on: bool) -> FlightStatus:
+        """Keep what is recorded, or record again."""
+        return FlightStatus(**await self._call("flight_freeze", on=on))
 
     # -- monitoring --------------------------------------------------------------------------------------
 

@@ -15,6 +15,7 @@ from tappet.codegen.values import Value
 from tappet.runtime.access import PlcError
 from tappet.runtime.contexts import STUCK_LIMIT_S, VIRTUAL_FREEWHEEL_NS
 from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.flight import FlightSettings, FlightStatus
 from tappet.runtime.forces import PlacedValue
 from tappet.runtime.places import Place
 from tappet.runtime.plc import ResetKind, SoftPlc, State
@@ -98,11 +99,14 @@ class LocalRuntime:
         scheduling: Scheduling = NORMAL,
         cycle_limit_s: float = STUCK_LIMIT_S,
         start: bool = True,
+        flight: FlightSettings | None = None,
     ) -> None:
         """Load and, with `start`, run. `cycle_limit_s` of wall time ends a cycle that never comes to its
         end.
         """
-        self.plc = SoftPlc(folder, virtual=virtual, scheduling=scheduling, stuck_limit_s=cycle_limit_s)
+        self.plc = SoftPlc(
+            folder, virtual=virtual, scheduling=scheduling, stuck_limit_s=cycle_limit_s, flight=flight
+        )
         self.virtual = virtual
         self.traces: list[Trace] = []
         self.plc.load(package)
@@ -281,6 +285,25 @@ class LocalRuntime:
         trace = Trace(self, self.plc.record(items, task, divider, min_interval_ns), refs)
         self.traces.append(trace)
         return trace
+
+    # -- flight recorder ---------------------------------------------------------------------------------
+
+    def flight_status(self) -> FlightStatus:
+        """What the flight recorder keeps."""
+        return self.plc.flight_status()
+
+    def flight_history(self) -> list[tuple[int, int]]:
+        """(cycle of the bus cycle task, unix time in ns) of every cycle that can be read, oldest first."""
+        return self.plc.flight_history()
+
+    def flight_read(self, cycle: int, path: str) -> Value:
+        """Value of a variable at the end of a past cycle; FlightError when it is not kept."""
+        ref = self.package.symbols.resolve(path)
+        return self.package.symbols.decode(ref, self.plc.flight_read(cycle, [(ref.offset, ref.size)])[0])
+
+    def flight_freeze(self, on: bool) -> FlightStatus:
+        """Keep what is recorded, or record again."""
+        return self.plc.flight_freeze(on)
 
     def statistics(self) -> list[TaskStatistics]:
         """Task monitoring."""

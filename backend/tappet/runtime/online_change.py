@@ -90,6 +90,7 @@ def apply_change(
             if fault is not None:
                 application.mark_faulted()
         old_code.close()
+        application.connect_flight()  # in what was kept, places would name other variables
     return ChangeResult(fault, tuple(lost), paused=True)
 
 

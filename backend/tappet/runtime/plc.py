@@ -21,6 +21,7 @@ from tappet.runtime.boot import BootError, load_boot, remove_boot, store_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.faults import ExceptionReport, RawFault, describe
+from tappet.runtime.flight import FlightSettings
 from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
@@ -72,6 +73,7 @@ class SoftPlc(ApplicationAccess):
         scheduling: Scheduling = NORMAL,
         stuck_limit_s: float = STUCK_LIMIT_S,
         logbook: Logbook | None = None,
+        flight: FlightSettings | None = None,
     ) -> None:
         super().__init__()
         self.executive = Executive.shared()
@@ -79,6 +81,7 @@ class SoftPlc(ApplicationAccess):
         self.virtual = virtual
         self.scheduling = scheduling
         self.stuck_limit_s = stuck_limit_s
+        self.flight = flight or FlightSettings()
         self.log = logbook or Logbook()
         self.instance_id = uuid.uuid4().hex
         self.on_event: Callable[[Event], None] | None = None
@@ -155,7 +158,7 @@ class SoftPlc(ApplicationAccess):
                     "the application is in the state exception; reset it (warm or cold) before starting"
                 )
             if application.tasks.state != RUNNING:
-                application.tasks.set_state(RUNNING)
+                application.run()
                 self.log.add("info", "application", f"{application.package.application} started")
                 self._tell("state")
 
@@ -254,6 +257,7 @@ class SoftPlc(ApplicationAccess):
                 virtual=self.virtual,
                 scheduling=self.scheduling,
                 stuck_limit_s=self.stuck_limit_s,
+                flight=self.flight,
             )
         except (LinkError, ImageError, OSError) as error:
             raise PlcError(f"the package was refused: {error}") from error
@@ -281,9 +285,20 @@ class SoftPlc(ApplicationAccess):
                 self.log.add("info", "scheduler", note)
         for note in self._notes()[len(self.scheduling.notes) :]:
             self.log.add("warning", "image", note)
+        self._note_flight(application)
         self.log.add("info", "application", f"{package.application} loaded ({package.code_id[:12]})")
         if fault is not None:
             self.poll()
+
+    def _note_flight(self, application: LoadedApplication) -> None:
+        recorder = application.flight
+        if recorder is None:
+            if self.flight.memory and application.contexts.tasks:
+                self.log.add("error", "flight", "no memory for the flight recorder; past cycles are not kept")
+        elif recorder.parts > 1:
+            self.log.add(
+                "info", "flight", f"large image: each cycle records one of {recorder.parts} parts in turn"
+            )
 
     def _persistent_of(self, old: LoadedApplication | None, package: CodePackage) -> Kept:
         """Persistent values survive a download of the application of the same name (PERS-05)."""
@@ -319,6 +334,8 @@ class SoftPlc(ApplicationAccess):
         took = (time.monotonic() - begun) * 1000
         how = "tasks paused" if result.paused else "code exchanged while running"
         self.log.add("info", "application", f"{package.application} changed online in {took:.0f} ms, {how}")
+        if result.paused:
+            self._note_flight(application)
         if result.lost_forces:
             self.log.add(
                 "warning", "forces", f"{len(result.lost_forces)} forces released: their variables are gone"

@@ -17,7 +17,7 @@ from typing import Any
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
-from tappet.runtime import protocol
+from tappet.runtime import flight_wire, protocol
 from tappet.runtime.access import PlcError
 from tappet.runtime.forces import PlacedValue
 from tappet.runtime.places import Place
@@ -94,6 +94,7 @@ class Connection:
             "write": self._write, "force": self._force, "unforce": self._unforce, "forces": self._forces,
             "record": self._record, "end_record": self._end_record, "tasks": self._tasks,
             "reset_statistics": self._reset_statistics, "exception": self._exception, "log": self._log,
+            **flight_wire.operations(service.plc),
         }  # fmt: skip
 
     async def serve(self) -> None:
