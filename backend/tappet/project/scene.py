@@ -10,10 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from tappet.project.data import Data
 
+MOST_BODIES = 10_000
+"""Single elements in a scene, repetitions counted one by one; more is no picture a page could keep moving."""
+Finite = Annotated[float, Field(allow_inf_nan=False)]
 Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
 
 
@@ -21,15 +24,15 @@ class Linear(Data):
     """offset + factor * variable, in the unit of the scene."""
 
     variable: str = Field(min_length=1)
-    factor: float = 1.0
-    offset: float = 0.0
+    factor: Finite = 1.0
+    offset: Finite = 0.0
 
 
 class Threshold(Data):
     """TRUE while the variable is at least as large; BOOL counts as 0 or 1."""
 
     variable: str = Field(min_length=1)
-    at_least: float | Literal["{i}"] = 1.0
+    at_least: Finite | Literal["{i}"] = 1.0
 
 
 class ColorChoice(Data):
@@ -43,11 +46,19 @@ class ColorChoice(Data):
 class Repetition(Data):
     """The element stands once for each index from `first` to `last`."""
 
-    first: int = 1
+    first: int = Field(default=1, ge=-1000)
     last: int = Field(le=1000)
 
+    @model_validator(mode="after")
+    def _upwards(self) -> Repetition:
+        if self.last < self.first:
+            raise ValueError(
+                f"a repetition from {self.first} to {self.last} is empty; last is the larger one"
+            )
+        return self
 
-Number = float | Linear
+
+Number = Finite | Linear
 
 
 class Element(Data):
@@ -56,7 +67,7 @@ class Element(Data):
     `size` is x, y, z for a box, diameter x, diameter y, height for a cylinder or sphere; labels ignore it.
     """
 
-    name: str = Field(min_length=1, max_length=60, pattern=r"^[A-Za-z0-9_ .-]+$")
+    name: str = Field(min_length=1, max_length=60, pattern=r"^([A-Za-z0-9_ .-]|\{i\})+$")
     shape: Literal["box", "cylinder", "sphere", "label"]
     size: tuple[Number, Number, Number] = (1.0, 1.0, 1.0)
     position: tuple[Number, Number, Number] = (0.0, 0.0, 0.0)
@@ -68,20 +79,46 @@ class Element(Data):
     """Variable whose value takes the place of `{}` in `text`."""
     repeat: Repetition | None = None
 
+    @model_validator(mode="after")
+    def _index_needs_repetition(self) -> Element:
+        bound = self.visible.at_least if isinstance(self.visible, Threshold) else None
+        if self.repeat is None and (bound == "{i}" or "{i}" in self.name):
+            raise ValueError(f"'{self.name}' uses the index {{i}} without a repetition")
+        return self
+
+    def names(self) -> list[str]:
+        """Names of the single elements this one stands for."""
+        if self.repeat is None:
+            return [self.name]
+        return [_indexed_name(self.name, i) for i in range(self.repeat.first, self.repeat.last + 1)]
+
 
 class Camera(Data):
     """Where the view starts, in scene units."""
 
-    position: tuple[float, float, float]
-    look_at: tuple[float, float, float]
+    position: tuple[Finite, Finite, Finite]
+    look_at: tuple[Finite, Finite, Finite]
 
 
 class Scene(Data):
     """Elements in the order they are drawn."""
 
-    unit: float = Field(default=0.001, gt=0.0)
+    unit: Finite = Field(default=0.001, gt=0.0)
     camera: Camera | None = None
     elements: tuple[Element, ...] = ()
+
+    @model_validator(mode="after")
+    def _bodies_can_be_told_apart(self) -> Scene:
+        names = [name for element in self.elements for name in element.names()]
+        if len(names) > MOST_BODIES:
+            raise ValueError(f"the scene has {len(names)} bodies; at most {MOST_BODIES} can be drawn")
+        seen: set[str] = set()
+        for name in names:
+            key = name.replace(" ", "_")
+            if key in seen:
+                raise ValueError(f"two bodies are named '{name}'; give each a name of its own")
+            seen.add(key)
+        return self
 
     def expanded(self) -> Iterator[Element]:
         """Every single element, repetitions written out with their index."""
@@ -104,8 +141,12 @@ class Scene(Data):
         return list(found)
 
 
+def _indexed_name(name: str, i: int) -> str:
+    return name.replace("{i}", str(i)) if "{i}" in name else f"{name} {i}"
+
+
 def _with_index(element: Element, i: int) -> Element:
-    raw = element.model_dump(exclude={"repeat"})
+    raw = element.model_dump(exclude={"repeat", "name"})
 
     def fill(node: object) -> object:
         if isinstance(node, str):
@@ -121,5 +162,5 @@ def _with_index(element: Element, i: int) -> Element:
 
     filled = fill(raw)
     assert isinstance(filled, dict)
-    filled["name"] = f"{element.name} {i}" if filled["name"] == element.name else filled["name"]
+    filled["name"] = _indexed_name(element.name, i)
     return Element.model_validate(filled)

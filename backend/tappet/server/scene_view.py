@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,16 +15,16 @@ Values = Mapping[str, Any]
 
 
 def number(bound: Number, values: Values) -> float:
-    """The value of a fixed or bound number; a variable that is not there counts as 0."""
+    """The value of a fixed or bound number; a variable that is not there or no finite number counts as 0."""
     if isinstance(bound, Linear):
-        return bound.offset + bound.factor * float(values.get(bound.variable) or 0.0)
+        return bound.offset + bound.factor * _measure(values.get(bound.variable))
     return bound
 
 
 def visible(element: Element, values: Values) -> bool:
     """Whether the element is drawn now."""
     if isinstance(element.visible, Threshold):
-        return float(values.get(element.visible.variable) or 0.0) >= float(element.visible.at_least)
+        return _measure(values.get(element.visible.variable)) >= float(element.visible.at_least)
     return element.visible
 
 
@@ -105,6 +106,10 @@ class SceneView:
             handle.position = (x, y, z + size[2] / 2.0)
             handle.scale = size
             handle.color = tint
+
+
+def _measure(value: object) -> float:
+    return float(value) if isinstance(value, (int, float)) and math.isfinite(value) else 0.0
 
 
 def _text(value: object) -> str:
