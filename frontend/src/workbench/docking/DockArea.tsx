@@ -7,7 +7,7 @@ import { useSelection } from '../selection';
 import { resetLayout, setDockApi } from './dock';
 import './dockview.css';
 import { EditorPanel } from './EditorPanel';
-import { followEditors, keepDockSizes, pruneEmptyGroups } from './follow';
+import { followEditors, keepDockSizes, panelAround, pruneEmptyGroups } from './follow';
 import type { StoredLayout } from './layout';
 import { EditorTab, ToolTab } from './Tab';
 import { ToolPanel } from './ToolPanel';
@@ -99,13 +99,16 @@ function saveLayout(api: DockviewApi, projectId: string): () => void {
   };
 }
 
-/** Remembers which panel holds the keyboard focus: commands go to its handlers. */
+/** Remembers which panel holds the keyboard focus or was clicked last: commands go to its handlers. */
 function followFocus(): () => void {
-  const onFocus = (event: FocusEvent) => {
-    const panel = event.target instanceof Element ? event.target.closest<HTMLElement>('[data-panel-id]') : null;
-    const focusedPanel = panel?.dataset.panelId;
+  const follow = (event: Event) => {
+    const focusedPanel = panelAround(event.target);
     if (focusedPanel && focusedPanel !== useSelection.getState().focusedPanel) useSelection.setState({ focusedPanel });
   };
-  document.addEventListener('focusin', onFocus);
-  return () => document.removeEventListener('focusin', onFocus);
+  document.addEventListener('focusin', follow);
+  document.addEventListener('pointerdown', follow, true);
+  return () => {
+    document.removeEventListener('focusin', follow);
+    document.removeEventListener('pointerdown', follow, true);
+  };
 }

@@ -1,6 +1,6 @@
 import type { IDockviewPanelProps } from 'dockview-react';
 import { FileQuestion, Trash2 } from 'lucide-react';
-import { Suspense, useEffect, useState } from 'react';
+import { Suspense, useEffect, useRef, useState } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
 import { editorFor } from '../editors';
@@ -24,6 +24,14 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
     if (name !== undefined && api.title !== name) api.setTitle(name);
   }, [api, name]);
 
+  const reveal = params.reveal;
+  const frame = useRef<HTMLDivElement>(null);
+  const known = object !== undefined;
+  useEffect(() => {
+    // Editors with a cursor take the focus from here once they are loaded.
+    if (known && reveal?.focus && !frame.current?.contains(document.activeElement)) frame.current?.focus();
+  }, [known, reveal]);
+
   if (!projectId || !objects) return <Loading />;
   if (!object) {
     return (
@@ -38,7 +46,7 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
   }
   const Editor = registration.component;
   return (
-    <div className={styles.panel} data-panel-id={api.id} data-scope="editor">
+    <div ref={frame} className={styles.panel} data-panel-id={api.id} data-scope="editor" tabIndex={-1}>
       <OnlineStripe object={object} objects={objects} instance={params.instance} />
       <div className={styles.content}>
         <ErrorBoundary resetKey={object.id}>
@@ -48,7 +56,7 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
               projectId={projectId}
               objectId={object.id}
               instance={params.instance}
-              reveal={params.reveal}
+              reveal={reveal}
               visible={visible}
             />
           </Suspense>

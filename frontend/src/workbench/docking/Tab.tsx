@@ -4,6 +4,7 @@ import type { MouseEvent, ReactNode } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
+import { displayName } from '../objectName';
 import { useOnline } from '../onlineSession';
 import { findPanel, type PanelRegistration } from '../panels';
 import { useProject } from '../project';
@@ -19,6 +20,7 @@ import styles from './Tab.module.css';
 
 /** The tab of an editor: icon, name, online state, a dot while unsaved. */
 export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
+  const t = useText();
   const { objectId, instance } = props.params;
   const panelId = props.api.id;
   const projectId = useProject((state) => state.projectId);
@@ -27,18 +29,19 @@ export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
   const sessions = useOnline((state) => state.sessions);
   const object = objects?.find((candidate) => candidate.id === objectId);
   const application = object && objects && ancestorOfKind(objects, object.id, 'application');
+  const name = object ? displayName(object, t) : (props.api.title ?? '');
   const tone = application && toneOfApplication(application.id, sessions);
   return (
     <TabFrame
       entries={() => panelEntries(props.containerApi, panelId)}
       onClose={() => void closeEditors([panelId])}
       dirty={dirty}
-      title={object?.name ?? props.api.title ?? ''}
+      title={name}
     >
       <ObjectIcon kind={object?.kind ?? 'folder'} subkind={object?.subkind} name={object?.name} size={15} />
       {tone && <ToneDot tone={tone} />}
       <span className={styles.title} data-gone={objects && !object ? '' : undefined}>
-        {object?.name ?? props.api.title}
+        {name}
       </span>
       {instance && <span className={styles.instance}>{instance}</span>}
     </TabFrame>

@@ -7,6 +7,11 @@ import { EDITORS_GROUP, type EditorParams } from './layout';
 
 const isEditor = (panel: { view: { contentComponent: string } }) => panel.view.contentComponent === 'editor';
 
+/** Id of the dock panel that an element is in. */
+export function panelAround(element: EventTarget | null): string | undefined {
+  return element instanceof Element ? element.closest<HTMLElement>('[data-panel-id]')?.dataset.panelId : undefined;
+}
+
 export function followEditors(api: DockviewApi): () => void {
   const list = () => {
     const editors = api.panels.filter(isEditor).map((panel) => {
@@ -20,7 +25,9 @@ export function followEditors(api: DockviewApi): () => void {
   const activate = () => {
     const panel = api.activePanel;
     if (!panel) return;
-    useSelection.setState(isEditor(panel) ? { activeEditor: panel.id, focusedPanel: panel.id } : { focusedPanel: panel.id });
+    // Where the keyboard is counts more than which tab is in front.
+    const focusedPanel = panelAround(document.activeElement) ?? panel.id;
+    useSelection.setState(isEditor(panel) ? { activeEditor: panel.id, focusedPanel } : { focusedPanel });
     if (isEditor(panel)) editorGroupUsed(panel.group.id);
   };
   const disposers = [

@@ -4,7 +4,7 @@ import type { PanelRegistration } from '../panels';
 import { defaultLayout, editorPanelId, restoreLayout } from './layout';
 
 const panel = (id: string, position: PanelRegistration['position'], initial = true): PanelRegistration =>
-  ({ id, position, initial, title: 'panel.messages', order: 1, icon: () => null, component: () => null }) as PanelRegistration;
+  ({ id, position, initial, title: 'panel.messages', order: 1, icon: () => null, component: () => null });
 const PANELS = [panel('devices', 'left'), panel('pous', 'left'), panel('messages', 'bottom'), panel('doc', 'right', false)];
 const SIZE = { width: 1400, height: 800 };
 const editor = (objectId: string) => ({ id: editorPanelId(objectId, null), title: objectId, params: { objectId, instance: null, reveal: null } });
@@ -24,8 +24,8 @@ const groups = (dock: SerializedDockview) => {
   visit(dock.grid.root as unknown as Leaf);
   return found;
 };
-const restore = (dock: SerializedDockview, alive: string[]) =>
-  restoreLayout({ version: 1, dock }, (id) => PANELS.some((one) => one.id === id), (id) => alive.includes(id))!;
+const restore = (dock: SerializedDockview, alive: string[], size = SIZE) =>
+  restoreLayout({ version: 1, dock }, { panelExists: (id) => PANELS.some((one) => one.id === id), objectExists: (id) => alive.includes(id), size })!;
 
 describe('the default layout', () => {
   it('has trees left, editors in the middle, lists below over the whole width', () => {
@@ -80,9 +80,22 @@ describe('a stored layout', () => {
     expect(back.floatingGroups!.map((group) => group.data!.views)).toEqual([['doc']]);
   });
 
+  it('keeps the docks as large as they were in another window', () => {
+    const root = restore(layout(), ['a', 'b'], { width: 2500, height: 1300 }).grid.root as unknown as Leaf;
+    const [upper, bottom] = root.data;
+    expect([upper!.size, bottom!.size]).toEqual([1080, 220]);
+    expect(upper!.data.map((leaf) => leaf.size)).toEqual([280, 2220]);
+  });
+
+  it('leaves room for the editors in a small window', () => {
+    const root = restore(layout(), ['a', 'b'], { width: 300, height: 200 }).grid.root as unknown as Leaf;
+    expect(root.data[0]!.size).toBe(60);
+    expect(root.data[0]!.data.map((leaf) => leaf.size)).toEqual([210, 90]);
+  });
+
   it('of another version or shape is refused', () => {
     for (const blob of [null, 5, {}, { version: 2, dock: layout() }, { version: 1, dock: { grid: null } }, { version: 1 }]) {
-      expect(restoreLayout(blob, () => true, () => true)).toBeNull();
+      expect(restoreLayout(blob, { panelExists: () => true, objectExists: () => true, size: SIZE })).toBeNull();
     }
   });
 });

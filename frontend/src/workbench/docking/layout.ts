@@ -31,6 +31,7 @@ interface Size {
 }
 
 type Node = SerializedDockview['grid']['root'];
+const VERTICAL = 'VERTICAL' as SerializedDockview['grid']['orientation'];
 
 /** Trees at the left, editors in the middle, the rest at the right; messages and watch lists below, over the whole width. */
 export function defaultLayout(
@@ -68,7 +69,7 @@ export function defaultLayout(
       root: { type: 'branch', size: size.width, data: rows },
       width: size.width,
       height: size.height,
-      orientation: 'VERTICAL' as SerializedDockview['grid']['orientation'],
+      orientation: VERTICAL,
     },
     panels: Object.fromEntries([...tools, ...open]) as SerializedDockview['panels'],
     activeGroup: EDITORS_GROUP,
@@ -84,15 +85,18 @@ export interface StoredLayout {
   dock: SerializedDockview;
 }
 
+export interface LayoutWorld {
+  panelExists: (id: string) => boolean;
+  objectExists: (objectId: string) => boolean;
+  /** Room that the docking area has now. */
+  size: Size;
+}
+
 /**
- * A stored layout made fit for use: panels that no longer exist and editors whose object is gone are taken out.
- * Null when the blob is no layout of this version.
+ * A stored layout made fit for use: panels that no longer exist and editors whose object is gone are taken out, and
+ * docks keep their size in another window, the editors take what is left. Null when the blob is no layout of this version.
  */
-export function restoreLayout(
-  stored: unknown,
-  panelExists: (id: string) => boolean,
-  objectExists: (objectId: string) => boolean,
-): SerializedDockview | null {
+export function restoreLayout(stored: unknown, { panelExists, objectExists, size }: LayoutWorld): SerializedDockview | null {
   if (typeof stored !== 'object' || stored === null) return null;
   const { version, dock } = stored as Partial<StoredLayout>;
   if (version !== 1 || typeof dock !== 'object' || !dock.grid?.root || !dock.panels) return null;
@@ -110,7 +114,7 @@ export function restoreLayout(
   const { popoutGroups: _windows, ...rest } = dock;
   return {
     ...rest,
-    grid: { ...dock.grid, root: whole },
+    grid: { ...dock.grid, root: fitted(whole, dock.grid.orientation === VERTICAL, size), width: size.width, height: size.height },
     panels: panels as SerializedDockview['panels'],
     floatingGroups: [...floating(dock.floatingGroups, gone), ...floating(dock.popoutGroups, gone)],
   };
@@ -140,6 +144,39 @@ function withoutViews(node: Node, gone: ReadonlySet<string>): Node | null {
   return children.length === 0 ? null : { ...node, data: children };
 }
 
+/** Whether editors live in this part of the grid: it may grow and shrink with the window. */
+function holdsEditors(node: Node): boolean {
+  if (node.type === 'branch') return (node.data as Node[]).some(holdsEditors);
+  const { id, views } = node.data as unknown as GroupData;
+  return id === EDITORS_GROUP || views.some((view) => view.startsWith('editor:'));
+}
+
+/**
+ * The tree with sizes that fill the given room. A branch's own size is that across its direction, its children divide
+ * the room along it: docks as before, but never all of it, the editors take the rest.
+ */
+function fitted(node: Node, vertical: boolean, room: Size): Node {
+  if (node.type === 'leaf') return node;
+  const children = node.data as Node[];
+  const along = vertical ? room.height : room.width;
+  const across = vertical ? room.width : room.height;
+  const elastic = children.filter(holdsEditors);
+  const docks = children.filter((child) => !elastic.includes(child));
+  const sum = (nodes: readonly Node[]) => nodes.reduce((total, child) => total + (child.size ?? 0), 0);
+  const dockSpace = elastic.length ? Math.min(sum(docks), along * 0.7) : along;
+  const scale = (child: Node) => {
+    const group = elastic.includes(child) ? elastic : docks;
+    const space = elastic.includes(child) ? along - dockSpace : dockSpace;
+    return Math.round(((child.size ?? 0) / (sum(group) || 1)) * space);
+  };
+  const data = children.map((child): Node => {
+    const share = scale(child);
+    const inner = vertical ? { width: room.width, height: share } : { width: share, height: room.height };
+    return { ...fitted(child, !vertical, inner), size: share };
+  });
+  return { ...node, size: across, data };
+}
+
 type Floating = NonNullable<SerializedDockview['floatingGroups']>[number];
 type Window = NonNullable<SerializedDockview['popoutGroups']>[number];
 
@@ -151,9 +188,9 @@ const FLOAT = { left: 120, top: 80, width: 640, height: 420 };
  */
 function floating(groups: readonly (Floating | Window)[] | undefined, gone: ReadonlySet<string>): Floating[] {
   return (groups ?? []).flatMap((group): Floating[] => {
-    const position = 'gridReferenceGroup' in group || !group.position ? FLOAT : (group.position as Floating['position']);
+    const position = 'gridReferenceGroup' in group || !group.position ? FLOAT : (group.position);
     if (group.data) {
-      const data = pruned(group.data as GroupData, gone);
+      const data = pruned(group.data, gone);
       return data.views.length ? [{ data, position }] : [];
     }
     const root = group.grid && withoutViews(group.grid.root, gone);

@@ -77,8 +77,8 @@ function TaskItem({ runtimeId }: { runtimeId: string }) {
     >
       <button className={styles.item} onClick={() => showPanel('tasks')}>
         {task.name}
-        <span>{microsText(task.last_us)}</span>
-        <span>±{microsText(Math.abs(task.jitter_us ?? 0))}</span>
+        <span className={styles.measure}>{microsText(task.last_us)}</span>
+        <span className={styles.measure}>±{microsText(Math.abs(task.jitter_us))}</span>
       </button>
     </Tooltip>
   );

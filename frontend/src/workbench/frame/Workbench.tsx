@@ -61,6 +61,7 @@ export function Workbench({ projectId }: { projectId: string }) {
 /** The project has arrived: take over its layout, tree and active application, and listen to what others do. */
 function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects: readonly ObjectSummary[] }) {
   const projectId = project.id;
+  const area = useRef<HTMLElement>(null);
   const [layout, setLayout] = useState<{ dock: SerializedDockview | null } | null>(null);
   const activeEditor = useSelection((state) => state.editors.find((editor) => editor.panelId === state.activeEditor)?.objectId ?? null);
   useEffect(() => useProject.setState({ projectName: project.name }), [project.name]);
@@ -71,7 +72,9 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
     const start = async () => {
       const [stored] = await Promise.all([loadSetting(`layout.${projectId}`).catch(() => null), startTree(projectId, objects)]);
       const alive = new Set(objects.map((object) => object.id));
-      if (!gone) setLayout({ dock: restoreLayout(stored, (id) => findPanel(id) !== undefined, (id) => alive.has(id)) });
+      if (gone) return;
+      const size = { width: window.innerWidth, height: (area.current?.clientHeight ?? 0) || window.innerHeight };
+      setLayout({ dock: restoreLayout(stored, { panelExists: (id) => findPanel(id) !== undefined, objectExists: (id) => alive.has(id), size }) });
     };
     void start();
     void rememberVisit(projectId);
@@ -97,7 +100,7 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
     <div className={styles.frame}>
       <MenuBar />
       <Toolbar />
-      <main className={styles.dock}>{layout && <DockArea projectId={projectId} layout={layout.dock} />}</main>
+      <main ref={area} className={styles.dock}>{layout && <DockArea projectId={projectId} layout={layout.dock} />}</main>
       <StatusBar />
       <Palette />
     </div>

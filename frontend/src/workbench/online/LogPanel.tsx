@@ -4,7 +4,7 @@ import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { LogEntry } from '@/api/types';
-import { useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
 import { saveBlob } from '../downloadFile';
 import messages from '../messages/Messages.module.css';
 import { runCommand } from '../run';
@@ -13,7 +13,7 @@ import { Empty, Failed, Loading } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
-import { levelOf, logCsv, merged, shownEntries, type LogLevel } from './log';
+import { levelOf, logCsv, merged, shownEntries, timeText, type LogLevel } from './log';
 import { useActiveSession } from './session';
 
 const POLL_MS = 2000;
@@ -36,7 +36,6 @@ export default function LogPanel() {
 
 function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
   const t = useText();
-  const language = useLanguage();
   const [hidden, setHidden] = useState<ReadonlySet<LogLevel>>(new Set());
   const [search, setSearch] = useState('');
   const [selected, setSelected] = useState<string | null>(null);
@@ -62,11 +61,11 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
           return <Icon size={15} className={messages[level]} aria-label={t(`severity.${level}`)} />;
         },
       },
-      { id: 'at', title: t('log.time'), width: 180, cell: (entry) => <span className="digits">{timeText(entry.at, language)}</span> },
+      { id: 'at', title: t('log.time'), width: 200, cell: (entry) => <span className="digits">{timeText(entry.at)}</span> },
       { id: 'message', title: t('log.message'), width: 300, grow: true, hint: (entry) => entry.message, cell: (entry) => <span>{entry.message}</span> },
       { id: 'component', title: t('log.component'), width: 140, cell: (entry) => <span>{entry.component}</span> },
     ],
-    [t, language],
+    [t],
   );
   if (error && !data) return <Failed error={error} retry={() => void refetch()} />;
   if (!data) return <Loading />;
@@ -113,7 +112,3 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
   );
 }
 
-function timeText(at: string, language: string): string {
-  const date = new Date(at);
-  return `${date.toLocaleString(language)}.${String(date.getMilliseconds()).padStart(3, '0')}`;
-}

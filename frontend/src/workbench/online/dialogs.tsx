@@ -76,7 +76,7 @@ function LoginDialog({ answer, application, runtime, close }: LoginQuestion & { 
           ))}
         </div>
       )}
-      {answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />}
+      {answer.relation !== 'empty' && answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />}
       {how === 'download' && (
         <>
           {runtime.state === 'run' && <p className={styles.warning}>{t('login.stops')}</p>}

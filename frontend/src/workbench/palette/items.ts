@@ -5,6 +5,7 @@ import type { Command } from '../commands';
 import type { CommandContext } from '../context';
 import { openObject } from '../docking/dock';
 import { keysText } from '../keys';
+import { displayName } from '../objectName';
 import { refusal, runCommand, titleOf } from '../run';
 import { placesOf } from '../frame/menuModel';
 import { lineage, objectPath } from '../tree/model';
@@ -49,7 +50,7 @@ export function objectItems(objects: readonly ObjectSummary[]): PaletteItem[] {
       const owner = lineage(objects, object.id)[1];
       return {
         id: object.id,
-        text: object.name,
+        text: displayName(object, t),
         detail: owner ? objectPath(objects, owner.id) : t('panel.pous'),
         icon: objectIcon(object.kind, object.subkind, object.name),
         run: () => openObject(object.id, object.name),

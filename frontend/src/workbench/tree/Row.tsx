@@ -3,6 +3,7 @@ import { useState, type KeyboardEvent } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
+import { displayName } from '../objectName';
 import type { OnlineTone } from '../onlineSession';
 import { ToneDot } from '../ui/ToneDot';
 import type { Row } from './model';
@@ -30,6 +31,7 @@ interface TreeRowProps {
 
 /** The inside of a tree row: guide lines, twisty, icon, name, what it is, state. */
 export function TreeRow({ row, filter, strong, tone, renaming, faultOf, onTwist, onRenamed }: TreeRowProps) {
+  const t = useText();
   const { object } = row;
   return (
     <>
@@ -56,7 +58,7 @@ export function TreeRow({ row, filter, strong, tone, renaming, faultOf, onTwist,
       ) : (
         <>
           <span className={styles.name} data-strong={strong ? '' : undefined}>
-            <Marked text={object.name} filter={filter} />
+            <Marked text={displayName(object, t)} filter={filter} />
           </span>
           <Suffix object={object} tone={tone} />
         </>

@@ -52,16 +52,16 @@ const kinds = (parent: string | null, view: 'devices' | 'pous') => placeableKind
 describe('placement', () => {
   it('offers at the roots what each view takes', () => {
     expect(kinds(null, 'devices')).toEqual(['device']);
-    expect(kinds(null, 'pous')).toEqual(['folder', 'pou']);
+    expect(kinds(null, 'pous')).toEqual(['pou', 'folder']);
   });
 
   it('lets a folder take what its owner takes, except what stands directly at the owner', () => {
-    expect(kinds('App', 'devices')).toEqual(['folder', 'pou', 'task_configuration']);
-    expect(kinds('Folder', 'devices')).toEqual(['folder', 'pou']);
+    expect(kinds('App', 'devices')).toEqual(['pou', 'task_configuration', 'folder']);
+    expect(kinds('Folder', 'devices')).toEqual(['pou', 'folder']);
   });
 
   it('looks at what the POU is', () => {
-    expect(kinds('FB', 'devices')).toEqual(['folder', 'method']);
+    expect(kinds('FB', 'devices')).toEqual(['method', 'folder']);
     expect(kinds('Fun', 'devices')).toEqual([]);
   });
 

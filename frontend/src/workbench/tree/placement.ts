@@ -40,14 +40,16 @@ export function mayPlace(
   return !rule.once || !scopeOf(forest, owner?.id ?? null).some((item) => item.kind === rule.kind && item.id !== present);
 }
 
-/** Kinds that Add Object offers here, in the order of the rules. */
+/** Kinds that Add Object offers here, in the order of the rules, folders last. */
 export function placeableKinds(
   rules: readonly PlacementRule[],
   forest: Forest,
   parentId: string | null,
   view: TreeView,
 ): PlacementRule[] {
-  return rules.filter((rule) => mayPlace(rule, forest, parentId, view));
+  const kinds = rules.filter((rule) => mayPlace(rule, forest, parentId, view));
+  // Folders fit nearly everywhere and are seldom what is wanted: they come last.
+  return [...kinds.filter((rule) => rule.kind !== 'folder'), ...kinds.filter((rule) => rule.kind === 'folder')];
 }
 
 function freeFixedNames(rule: PlacementRule, forest: Forest, parentId: string | null, present?: string): string[] {

@@ -72,8 +72,7 @@ function Item({ parts, entry }: { parts: Parts; entry: Extract<MenuEntry, { kind
     <parts.Item
       className={`${styles.item} ${entry.danger && !disabled ? styles.danger : ''}`}
       aria-disabled={disabled || undefined}
-      role={entry.checked === undefined ? undefined : 'menuitemcheckbox'}
-      aria-checked={entry.checked}
+      {...(entry.checked !== undefined && { role: 'menuitemcheckbox', 'aria-checked': entry.checked })}
       onSelect={(event) => (disabled ? event.preventDefault() : entry.run())}
     >
       <Slot icon={entry.icon} checked={entry.checked} />

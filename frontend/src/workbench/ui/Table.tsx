@@ -79,7 +79,7 @@ export function Table<Item>(props: TableProps<Item>) {
             <div
               key={column.id}
               role="columnheader"
-              className={styles.headCell}
+              className={`${styles.headCell} ${column.align === 'right' ? styles.right : ''}`}
               style={widthOf(column)}
               data-sortable={column.sort ? '' : undefined}
               aria-sort={sorting?.column === column.id ? (sorting.descending ? 'descending' : 'ascending') : undefined}
