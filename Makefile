@@ -7,7 +7,7 @@ PORT   ?= 8080
 DATA   ?= data
 
 .DEFAULT_GOAL := run
-.PHONY: run test test-all check format lock system generate clean
+.PHONY: run test test-all check format lock system generate pictures clean
 
 ## run: set everything up, then serve the IDE with a running example machine and print its address
 run: $(VENV)/.ready frontend/dist/.ready
@@ -66,6 +66,10 @@ frontend/dist/.ready: frontend/node_modules/.ready $(FRONTEND_SOURCES)
 ## system: the browser and the database server that the tests drive (Debian's packages)
 system:
 	@.ci/system
+
+## pictures: the screenshots of the README and docs
+pictures: $(VENV)/.ready frontend/dist/.ready system
+	TAPPET_PICTURES=docs/images $(BIN)/python -m pytest tests/e2e/test_pictures.py
 
 clean:
 	rm -rf $(VENV) frontend/node_modules frontend/dist build dist
