@@ -1,4 +1,4 @@
-"""The workbench in both themes and both languages: it opens without a single console error, and has its picture taken.
+"""The workbench in both themes and languages opens without a console error, and has its picture taken.
 
 `make pictures` puts the pictures into docs/images; otherwise they go to the server's temporary folder.
 """
