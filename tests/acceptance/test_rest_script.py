@@ -1,4 +1,4 @@
-"""A commissioning script over REST: from an empty project to a machine that is watched, changed and faulted."""
+"""A commissioning script over REST: from an empty project to a machine that is watched, changed, faulted."""
 
 from __future__ import annotations
 

@@ -1,0 +1,75 @@
+"""`tappet serve` on PostgreSQL: what is saved survives the server."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import psycopg
+import pytest
+from live_server import RUNTIME, Script, station
+
+_PLACE = Path(__file__).parents[1] / "project" / "conftest.py"
+_SPEC = importlib.util.spec_from_file_location("databases_of_the_store", _PLACE)
+assert _SPEC is not None
+assert _SPEC.loader is not None
+_databases = importlib.util.module_from_spec(_SPEC)
+_SPEC.loader.exec_module(_databases)
+postgres_server, postgres_url = _databases.postgres_server, _databases.postgres_url
+
+pytestmark = pytest.mark.postgres
+BODY = "n := n + 1; // Zähler 计数器 🙂"
+DECLARATION = "PROGRAM PLC_PRG\nVAR\n    n : DINT;\nEND_VAR"
+
+
+def test_projects_live_in_the_database(postgres_url: str, tmp_path: Path) -> None:
+    with station(tmp_path, DATABASE_URL=postgres_url) as plant:
+        script = plant.admin
+        script.create_project("Auf PostgreSQL 项目")
+        script.save("PLC_PRG", declaration=DECLARATION, implementation="n := n + 2;")
+        saved = script.save("PLC_PRG", declaration=DECLARATION, implementation=BODY)
+        late = {**saved["data"], "implementation": "n := n + 3;"}
+        stale = {"base_revision": saved["revision"] - 1, "data": late}
+        refused = script.call("PUT", f"{script.project}/objects/{saved['id']}", stale, 409)
+        assert refused["current"]["revision"] == saved["revision"]
+        script.download()
+        script.wait_for_state("run")
+        script.write("PLC_PRG.n", 1000)
+        tree = script.get(f"{script.project}/objects")
+        history = script.get(f"{script.project}/objects/{saved['id']}/revisions")
+        assert [e["revision"] for e in history] == sorted((e["revision"] for e in history), reverse=True)
+        secret = script.http.headers["Authorization"]
+    assert not list((tmp_path / "data").glob("*.sqlite")), "nothing is stored beside the database"
+    with psycopg.connect(postgres_url) as database:
+        assert database.execute("SELECT count(*) FROM projects").fetchone() == (1,)
+
+    with station(tmp_path, DATABASE_URL=postgres_url) as plant:
+        again: Script = plant.script(secret.removeprefix("Bearer "))
+        again.project_id, again.application_id, again.ids = (
+            script.project_id,
+            script.application_id,
+            script.ids,
+        )
+        assert [p["name"] for p in again.get("/projects")] == ["Auf PostgreSQL 项目"]
+        assert again.get(f"{again.project}/objects") == tree
+        assert again.read_object("PLC_PRG") == saved
+        assert again.get(f"{again.project}/objects/{saved['id']}/revisions") == history
+        assert again.relation() == "same", "the package of the running application is in the database too"
+        assert again.value("PLC_PRG.n") > 0
+        back = again.post(
+            f"{again.project}/objects/{saved['id']}/revert", {"revision": history[1]["revision"]}
+        )
+        assert back["data"]["implementation"] == "n := n + 2;"
+        assert back["revision"] > saved["revision"]
+        (write,) = again.get("/audit?action=write")
+        assert (write["subject"], write["new_value"]) == ("PLC_PRG.n", "1000")
+        assert again.get(RUNTIME)["connected"] is True
+
+
+def test_a_database_that_does_not_answer_is_named(tmp_path: Path) -> None:
+    url = f"postgresql://nobody@/nothing?host={tmp_path}"
+    with pytest.raises(AssertionError) as stopped, station(tmp_path, "--no-runtime", DATABASE_URL=url):
+        pass
+    said = str(stopped.value)
+    assert "error: " in said
+    assert "Traceback" not in said
