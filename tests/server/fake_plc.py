@@ -12,6 +12,7 @@ from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
 from tappet.runtime.client import ForcedValue, RuntimeEvent, RuntimeRefused
 from tappet.runtime.faults import CallFrame, ExceptionReport
+from tappet.runtime.flight import FlightStatus
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.plc import RuntimeInfo
@@ -76,6 +77,8 @@ class FakePlc:
     recorders: list[FakeRecorder] = field(default_factory=list)
     refuses_recorders: bool = False
     cycle: int = 0
+    past: dict[int, bytes] = field(default_factory=dict)
+    frozen: bool = False
 
     async def connect(self, url: str, token: str) -> FakeClient:
         if self.down:
@@ -106,6 +109,8 @@ class FakePlc:
     def run_cycle(self) -> None:
         """One cycle: recorders sample."""
         self.cycle += 1
+        if not self.frozen:
+            self.past[self.cycle] = bytes(self.image)
         for recorder in self.recorders:
             recorder.sample()
 
@@ -228,6 +233,29 @@ class FakeClient:
         recorder = FakeRecorder(self.plc, items, min_interval_ns)
         self.plc.recorders.append(recorder)
         return recorder
+
+    async def flight_status(self) -> FlightStatus:
+        self._alive()
+        cycles = sorted(self.plc.past)
+        ends = (
+            (cycles[0], cycles[0] * 10_000_000, cycles[-1], cycles[-1] * 10_000_000) if cycles else [None] * 4
+        )
+        by = "exception" if self.plc.state == "exception" else "request" if self.plc.frozen else None
+        return FlightStatus(by is not None, by, len(cycles), *ends, 1, 1, 16 << 20, 48 * len(cycles))
+
+    async def flight_history(self) -> list[tuple[int, int]]:
+        self._alive()
+        return [(cycle, cycle * 10_000_000) for cycle in sorted(self.plc.past)]
+
+    async def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        self._alive()
+        if cycle not in self.plc.past:
+            raise RuntimeRefused("bad_request", f"cycle {cycle} is not kept")
+        return [self.plc.past[cycle][offset : offset + size] for offset, size in places]
+
+    async def flight_freeze(self, on: bool) -> FlightStatus:
+        self.plc.frozen = on
+        return await self.flight_status()
 
     async def tasks(self) -> list[TaskStatistics]:
         self._alive()

@@ -114,6 +114,17 @@ def test_from_text_to_live_values_and_back(app: FastAPI, engineer: TestClient) -
     assert report["pou"] == "PLC_PRG"
     assert report["object_id"]
     assert (report["part"], report["line"]) == ("implementation", 2)
+    flight = engineer.get(f"{RUNTIME}/flight").json()
+    assert (flight["frozen"], flight["frozen_by"]) == (True, "exception")
+    last = flight["entries"]["last_cycle"]
+    values = []
+    for cycle in (last - 1, last):
+        past = {"cycle": cycle, "expressions": ["PLC_PRG.d", "PLC_PRG.n"]}
+        answer = engineer.post(f"{RUNTIME}/flight/read", json=past)
+        assert answer.status_code == 200, answer.text
+        values.append([value["value"] for value in answer.json()["values"]])
+    assert values[0][0] == 16, "the cycle before the fault"
+    assert values[1] == [0, _value(engineer, "PLC_PRG.n")]
 
 
 def test_a_killed_runtime_comes_back_with_its_application(app: FastAPI, engineer: TestClient) -> None:

@@ -8,6 +8,7 @@ from typing import Literal, Protocol
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import ForcedValue, RuntimeEvent
 from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.flight import FlightStatus
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.recorder import Frame
@@ -67,6 +68,18 @@ class PlcClient(Protocol):
         self, items: Sequence[tuple[int, int]], task: str | None, divider: int, min_interval_ns: int
     ) -> Recorder:
         """Samples (offset, size) at the end of the cycles of a task."""
+
+    async def flight_status(self) -> FlightStatus:
+        """What the flight recorder keeps."""
+
+    async def flight_history(self) -> list[tuple[int, int]]:
+        """(cycle, unix time in ns) of what it keeps."""
+
+    async def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        """Bytes at (offset, size) at the end of a past cycle."""
+
+    async def flight_freeze(self, on: bool) -> FlightStatus:
+        """Stops the recording, or goes on."""
 
     async def tasks(self) -> list[TaskStatistics]:
         """Statistics."""

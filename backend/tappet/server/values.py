@@ -30,18 +30,20 @@ class Written:
     new_literal: str
 
 
-async def read(link: RuntimeLink, expressions: Sequence[str]) -> list[Value]:
-    """The values of one moment; an expression that has none carries its error."""
+async def read(link: RuntimeLink, expressions: Sequence[str], *, cycle: int | None = None) -> list[Value]:
+    """The values of one moment, the present or the end of a past cycle; an expression that has none carries
+    its error."""
     symbols = link.loaded_symbols()
     found = resolve_all(symbols, expressions)
     refs = [ref for ref in found if isinstance(ref, VarRef)]
-    data = iter(await _read_refs(link, refs))
+    data = iter(await _read_refs(link, refs, cycle))
     result = []
     for expression, ref in zip(expressions, found, strict=True):
         if isinstance(ref, str):
             result.append(Value(expression=expression, error=ref))
         else:
-            result.append(_value(link, symbols, expression, ref, next(data)))
+            value = _value(link, symbols, expression, ref, next(data))
+            result.append(value if cycle is None else value.model_copy(update={"forced": False}))
     return result
 
 
@@ -209,7 +211,7 @@ def _resolve_or_refuse(symbols: SymbolMap, expression: str) -> VarRef:
     return found
 
 
-async def _read_refs(link: RuntimeLink, refs: Iterable[VarRef]) -> list[bytes]:
+async def _read_refs(link: RuntimeLink, refs: Iterable[VarRef], cycle: int | None = None) -> list[bytes]:
     places = [(ref.offset, ref.size) for ref in refs]
     total = sum(size for _, size in places)
     if total > MAX_BYTES:
@@ -217,7 +219,7 @@ async def _read_refs(link: RuntimeLink, refs: Iterable[VarRef]) -> list[bytes]:
     if not places:
         return []
     async with link.client() as client:
-        return await client.read(places)
+        return await (client.read(places) if cycle is None else client.flight_read(cycle, places))
 
 
 def _value(link: RuntimeLink, symbols: SymbolMap, expression: str, ref: VarRef, data: bytes) -> Value:

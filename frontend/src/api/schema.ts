@@ -820,6 +820,86 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/flight": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Flight State
+         * @description What is kept of the past. It freezes at an exception; a start after a reset begins anew.
+         */
+        get: operations["flight_state"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/flight/cycles": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Flight Cycles
+         * @description All past cycles that can be read, oldest first. Numbers are missing where nothing was recorded.
+         */
+        get: operations["list_flight_cycles"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/flight/freeze": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Freeze Flight
+         * @description Keep what is recorded, or record again. An exception stays frozen until it is reset.
+         */
+        post: operations["freeze_flight"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/flight/read": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Flight
+         * @description Read values at the end of a past cycle. An unknown expression carries its own error.
+         */
+        post: operations["read_flight"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/forces": {
         parameters: {
             query?: never;
@@ -1723,6 +1803,79 @@ export interface components {
             username: string;
         };
         /**
+         * FlightCycle
+         * @description A past cycle that can be read.
+         */
+        FlightCycle: {
+            /** Cycle */
+            cycle: number;
+            /**
+             * Timestamp
+             * Format: date-time
+             */
+            timestamp: string;
+        };
+        /**
+         * FlightEntries
+         * @description What is kept; null where nothing is.
+         */
+        FlightEntries: {
+            /** Count */
+            count: number;
+            /** First Cycle */
+            first_cycle: number | null;
+            /** First Timestamp */
+            first_timestamp: string | null;
+            /** Last Cycle */
+            last_cycle: number | null;
+            /** Last Timestamp */
+            last_timestamp: string | null;
+        };
+        /**
+         * FlightReadOrder
+         * @description What to read, and of which cycle.
+         */
+        FlightReadOrder: {
+            /** Cycle */
+            cycle: number;
+            /** Expressions */
+            expressions: string[];
+        };
+        /**
+         * FlightState
+         * @description State of the flight recorder.
+         */
+        FlightState: {
+            entries: components["schemas"]["FlightEntries"];
+            /**
+             * Frozen
+             * @description Nothing is recorded, so nothing kept is dropped.
+             */
+            frozen: boolean;
+            /** Frozen By */
+            frozen_by: ("request" | "exception") | null;
+            /**
+             * Memory
+             * @description Bytes the entries may take.
+             */
+            memory: number;
+            /**
+             * Parts
+             * @description 1: all values of an entry are of its cycle. More: the image is large, each entry covers one part of it in turn, and a value may be up to `parts - 1` entries old.
+             */
+            parts: number;
+            /**
+             * Period
+             * @description An entry every so many cycles.
+             */
+            period: number;
+            /**
+             * Used
+             * @description Bytes they take.
+             */
+            used: number;
+        };
+        /**
          * FolderObject
          * @description Groups objects; says nothing to the compiler.
          */
@@ -1781,6 +1934,14 @@ export interface components {
              * @enum {string}
              */
             op: "forces";
+        };
+        /**
+         * FreezeOrder
+         * @description Keep what is recorded (true), or record again (false).
+         */
+        FreezeOrder: {
+            /** On */
+            on: boolean;
         };
         /**
          * GvlObject
@@ -2542,6 +2703,16 @@ export interface components {
             current: string;
             /** New */
             new: string;
+        };
+        /**
+         * PastValues
+         * @description Values at the end of a past cycle, in the order asked for. Whether they were forced is not kept.
+         */
+        PastValues: {
+            /** Cycle */
+            cycle: number;
+            /** Values */
+            values: components["schemas"]["Value"][];
         };
         /**
          * PersistentObject
@@ -5721,6 +5892,174 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RuntimeException"] | null;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    flight_state: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FlightState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_flight_cycles: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FlightCycle"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    freeze_flight: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FreezeOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FlightState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_flight: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FlightReadOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PastValues"];
                 };
             };
             /** @description The request was refused */
