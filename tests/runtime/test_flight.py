@@ -266,11 +266,17 @@ def test_a_large_image_is_recorded_in_parts_and_says_so() -> None:
         images = run_and_keep(runtime, 24)
         first = images[min(images)]
         assert len(first) > 4_000_000
+        application = runtime.plc.application
+        assert application is not None
+        assert application.flight is not None
+        size = application.flight.record["partSize"]
+        assert size <= 1 << 20
+        assert 3 * size < len(first) <= 4 * size
         for cycle in (8, 12, 24):
             past = past_image(runtime, cycle)
             for part in range(4):
                 seen = cycle - (cycle - 1 - part) % 4  # part 0 in cycles 1, 5, ...; part 1 in 2, 6, ...
-                place = slice(part << 20, part + 1 << 20)
+                place = slice(part * size, (part + 1) * size)
                 assert past[place] == images[seen][place], (cycle, part)
 
 
@@ -348,6 +354,32 @@ def test_the_bus_cycle_task_records() -> None:
         assert seen == sorted(seen)
         assert seen[-1] == 6
         assert images
+
+
+def test_a_fault_of_another_task_freezes() -> None:
+    tasks = (
+        TaskSpec("Slow", interval_ns=50 * MS, programs=("Other",)),
+        TaskSpec("Fast", interval_ns=10 * MS, programs=("PLC_PRG",)),
+    )
+    text = (
+        ONE
+        + """
+    PROGRAM Other VAR m, zero : DINT; END_VAR
+    m := m + 1;
+    IF m = 4 THEN m := 1 / zero; END_IF
+    END_PROGRAM"""
+    )
+    with LocalRuntime(build(text, tasks)) as runtime:
+        with pytest.raises(ApplicationException):
+            runtime.run(cycles=100)
+        status = runtime.flight_status()
+        assert status.frozen_by == "exception"
+        assert status.last_cycle is not None
+        assert status.last_cycle in (15, 16)
+        assert [runtime.flight_read(c, "PLC_PRG.n") for c in (1, 10, status.last_cycle)] == [
+            1, 10, status.last_cycle,
+        ]  # fmt: skip
+        assert runtime.flight_read(status.last_cycle, "Other.m") == 3
 
 
 def test_switched_off_and_without_application() -> None:

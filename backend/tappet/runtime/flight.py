@@ -141,8 +141,10 @@ class FlightRecorder:
         record = self.record
         self._size = -(-self._image.size // BLOCK) * BLOCK
         limit = min(self.settings.scan_limit, self._ring_size // 4) // _CHUNK * _CHUNK
-        part = min(self._size, limit)
         self.parts = max(1, -(-self._size // limit))
+        part = self._size
+        if self.parts > 1:  # about equal, so that no cycle has more to do than another one
+            part = -(-self._size // self.parts // _CHUNK) * _CHUNK
         record["imageSize"] = self._size
         record["partSize"] = part
         record["partStart"] = 0
