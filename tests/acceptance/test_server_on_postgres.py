@@ -7,7 +7,7 @@ from pathlib import Path
 
 import psycopg
 import pytest
-from live_server import RUNTIME, Script, station
+from live_server import RUNTIME, Script, process, station
 
 _PLACE = Path(__file__).parents[1] / "project" / "conftest.py"
 _SPEC = importlib.util.spec_from_file_location("databases_of_the_store", _PLACE)
@@ -54,7 +54,7 @@ def test_projects_live_in_the_database(postgres_url: str, tmp_path: Path) -> Non
         assert again.get(f"{again.project}/objects") == tree
         assert again.read_object("PLC_PRG") == saved
         assert again.get(f"{again.project}/objects/{saved['id']}/revisions") == history
-        assert again.relation() == "same", "the package of the running application is in the database too"
+        assert again.relation() == "same", "the server knows what it has downloaded"
         assert again.value("PLC_PRG.n") > 0
         back = again.post(
             f"{again.project}/objects/{saved['id']}/revert", {"revision": history[1]["revision"]}
@@ -66,10 +66,20 @@ def test_projects_live_in_the_database(postgres_url: str, tmp_path: Path) -> Non
         assert again.get(RUNTIME)["connected"] is True
 
 
-def test_a_database_that_does_not_answer_is_named(tmp_path: Path) -> None:
-    url = f"postgresql://nobody@/nothing?host={tmp_path}"
-    with pytest.raises(AssertionError) as stopped, station(tmp_path, "--no-runtime", DATABASE_URL=url):
-        pass
-    said = str(stopped.value)
-    assert "error: " in said
+@pytest.mark.parametrize(
+    ("url", "says"),
+    [
+        ("postgresql://nobody:sesame@/nothing?host=/nonexistent", "No such file or directory"),
+        ("nonsense", "postgresql://user@host/name"),
+    ],
+)
+def test_a_database_that_cannot_be_used_is_named(tmp_path: Path, url: str, says: str) -> None:
+    log = tmp_path / "log"
+    command = ["serve", "--port", "0", "--data", str(tmp_path / "data"), "--no-runtime"]
+    with process(command, log, DATABASE_URL=url) as started:
+        assert started.wait(60) == 1
+    said = log.read_text()
+    assert said.startswith("error: ")
+    assert says in said
+    assert "sesame" not in said
     assert "Traceback" not in said

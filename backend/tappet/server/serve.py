@@ -18,6 +18,7 @@ from pathlib import Path
 import uvicorn
 
 from tappet.project.errors import ProjectError
+from tappet.project.store import Store
 from tappet.server.app import create_app
 from tappet.server.auth.login import LOCAL_LINK
 from tappet.server.example import find_example, provide_example
@@ -56,6 +57,7 @@ def serve(options: ServeOptions) -> int:
         if options.example is not None:
             find_example(options.example)
         with _owned(options.settings.data_dir), _listening(options.settings) as listener:
+            Store(options.settings.url).close()  # an unusable database is one sentence, not a trace
             return asyncio.run(_serve(options, listener))
     except (ServeError, ProjectError) as error:
         print(f"error: {error}", file=sys.stderr)
@@ -71,7 +73,10 @@ class _Server(uvicorn.Server):
         self.up = asyncio.Event()
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        await super().startup(sockets)
+        try:
+            await super().startup(sockets)
+        except SystemExit:  # would end the event loop before anybody could say what to do
+            self.should_exit = True
         self.up.set()
 
     @contextmanager
@@ -102,8 +107,7 @@ async def _serve(options: ServeOptions, listener: socket.socket) -> int:
     await asyncio.wait({running, up}, return_when=asyncio.FIRST_COMPLETED)
     up.cancel()
     if not server.started:
-        with suppress(SystemExit):
-            await running
+        await running
         raise ServeError("the server did not start; the messages above say why")
     services: Services = app.state.services
     console = Console(services, _address(settings, listener))

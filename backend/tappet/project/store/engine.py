@@ -15,7 +15,7 @@ from alembic.script import ScriptDirectory
 from alembic.util import CommandError
 from sqlalchemy import Connection, Engine, create_engine, event, make_url, text
 from sqlalchemy.engine.interfaces import DBAPIConnection
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import ArgumentError, OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
 from tappet.project.errors import ProjectError
@@ -42,7 +42,15 @@ def open_engine(url: str) -> Engine:
 
     SQLite runs in WAL mode with foreign keys. Raises StoreError for other databases.
     """
-    address = make_url(url)
+    try:
+        address = make_url(url)
+    except (
+        ArgumentError,
+        ValueError,
+    ):  # the message of neither names the place; the text may hold a password
+        raise StoreError(
+            "The address of the database is no URL; use sqlite:///file or postgresql://user@host/name"
+        ) from None
     if address.drivername in ("postgres", "postgresql"):
         address = address.set(drivername="postgresql+psycopg")
     name = address.get_backend_name()
