@@ -196,9 +196,16 @@ def test_promoted_variable_is_written_back_at_return_and_fault():
 
 @pytest.mark.parametrize(
     ("value", "mode", "expected"),
-    [(1.5, "round", 2), (-1.5, "round", -2), (1.4, "round", 1), (-1.9, "trunc", -1), (1e300, "round", 2**31 - 1),
-     (float("nan"), "round", 0), (-1e300, "trunc", -(2**31))],
-)  # fmt: skip
+    [
+        (1.5, "round", 2),
+        (-1.5, "round", -2),
+        (1.4, "round", 1),
+        (-1.9, "trunc", -1),
+        (1e300, "round", 2**31 - 1),
+        (float("nan"), "round", 0),
+        (-1e300, "trunc", -(2**31)),
+    ],
+)
 def test_float_to_integer_saturates(value: float, mode: str, expected: int):
     body: list[ir.Stmt] = [ir.Store(place(0), ir.Convert(ir.I32, number(value, ir.F64), mode))]
     assert int_at(run(body), 0) == expected

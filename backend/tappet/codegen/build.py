@@ -20,6 +20,7 @@ from tappet.codegen import layout as image_layout
 from tappet.codegen.compile_pool import Compilation
 from tappet.codegen.emit_module import EmitOptions, emit_module
 from tappet.codegen.online import plan_online_change
+from tappet.codegen.online_code import add_online_change
 from tappet.codegen.optimise import ObjectCache, OptimiseOptions
 from tappet.codegen.package import (
     INIT_SYMBOL,
@@ -70,7 +71,7 @@ class BuildOptions:
     defines: tuple[tuple[str, str], ...] = ()
     """Identifiers known to conditional pragmas, with their values (LPRG-06)."""
     check_only: bool = False
-    """Stop after analysis."""
+    """Make no object code."""
     main_program: str = "PLC_PRG"
 
 
@@ -80,7 +81,7 @@ class BuildResult:
 
     package: CodePackage | None
     diagnostics: list[Diagnostic]
-    analysis: Analysis | None
+    analysis: Analysis | None = field(repr=False)
     timings: dict[str, float] = field(default_factory=dict)
     """Seconds per stage."""
     code_size: int = 0
@@ -238,7 +239,7 @@ class _Build:
         specs = check_tasks(task_list, analysis, result.diagnostics)
         if not task_list:
             specs = default_tasks(analysis, sources, options.main_program)
-        if options.check_only or any(d.severity == "error" for d in result.diagnostics):
+        if any(d.severity == "error" for d in result.diagnostics):
             return result
         try:
             self.generate(analysis, specs)
@@ -270,11 +271,19 @@ class _Build:
                 [Task(s.name, s.programs) for s in specs],
                 previous.type_ids if previous is not None else None,
             )
-            passes.run(lowered.module)
         with self.timed("layout"):
             placed = self.place(lowered)
             symbols = build_symbol_map(lowered.data, placed.objects, options.byte_addressing)
+            specs = [event_place(spec, symbols, result.diagnostics) for spec in specs]
+            if options.check_only or any(d.severity == "error" for d in result.diagnostics):
+                return
             remanence = remanent_variables(lowered.data, placed.objects)
+            change = None
+            if previous is not None:
+                change = plan_online_change(previous, symbols, placed)
+                add_online_change(lowered, previous, change, placed.objects, symbols)
+        with self.timed("passes"):
+            passes.run(lowered.module)
         objects = self.compile(lowered)
         image = bytearray(placed.size)
         for item in lowered.data:
@@ -294,7 +303,7 @@ class _Build:
             image_size=placed.size,
             data_objects=placed.objects,
             initial_image=bytes(image),
-            tasks=[event_place(replace(s, symbol=Task(s.name, ()).symbol), symbols) for s in specs],
+            tasks=[replace(s, symbol=Task(s.name, ()).symbol) for s in specs],
             symbols=symbols,
             retain=remanence.retain,
             persistent=remanence.persistent,
@@ -304,8 +313,7 @@ class _Build:
             runtime={"byte_addressing": options.byte_addressing, "signatures": self.signatures},
         )
         package.code_id = _code_id(package)
-        if previous is not None:
-            package.online_change = plan_online_change(previous, package, placed)
+        package.online_change = change
         result.package = package
         result.code_size = sum(len(o) for o in objects)
         result.data_size = placed.size
@@ -385,8 +393,8 @@ def _code_id(package: CodePackage) -> str:
 class SystemBuild:
     """Compiled ST of the product with the layouts of its structures."""
 
-    object: bytes
-    analysis: Analysis
+    object: bytes = field(repr=False)
+    analysis: Analysis = field(repr=False)
 
     def size_of(self, type_name: str) -> int:
         """Bytes of a type."""

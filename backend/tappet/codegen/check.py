@@ -1,11 +1,11 @@
-"""Compile only: the findings of an application, and how one is written as a line."""
+"""Compile only: every message about an application, without object code."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
 
-from tappet.codegen.build import BuildOptions, SourceLike, TaskLike, build_application
+from tappet.codegen.build import BuildOptions, BuildSession, SourceLike, TaskLike, build_application
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 
@@ -14,16 +14,17 @@ def check_application(
     sources: Iterable[Source | SourceLike],
     tasks: Iterable[TaskLike] = (),
     options: BuildOptions | None = None,
+    session: BuildSession | None = None,
 ) -> list[Diagnostic]:
-    """Everything the compiler has to say, by text and place; no code is generated."""
+    """All messages, in order of texts and places; errors, warnings and notes."""
     settings = replace(options or BuildOptions(), check_only=True)
-    found = build_application(sources, tasks, settings).diagnostics
-    return sorted(found, key=lambda d: (d.uri, d.span.line, d.span.column, d.code))
+    texts = list(sources)
+    result = build_application(texts, tasks, settings, session=session)
+    order = {text.uri: number for number, text in enumerate(texts)}
+    last = len(order)
+    return sorted(result.diagnostics, key=lambda d: (order.get(d.uri, last), d.uri, d.span))
 
 
 def format_diagnostic(diagnostic: Diagnostic) -> str:
-    """`file:line:column: severity code: message`, line and column from 1; advice follows the message."""
-    span = diagnostic.span
-    advice = f" {diagnostic.advice}" if diagnostic.advice else ""
-    place = f"{diagnostic.uri}:{span.line + 1}:{span.column + 1}"
-    return f"{place}: {diagnostic.severity} {diagnostic.code}: {diagnostic.message}{advice}"
+    """`file:line:column: severity code: message. Advice`, lines and columns counted from 1."""
+    return str(diagnostic)

@@ -88,7 +88,7 @@ def emit_module(
         function = module.functions[name]
         linkage = "available_externally " + ("" if function.exported else "hidden ")
         body += FunctionEmitter(state, function).text(linkage)
-    tables = _dispatch(module, state, whole or bool(own & _dispatch_home(module)))
+    tables = _dispatch(module, state, whole, bool(own & _dispatch_home(module)))
     head = [f'target triple = "{options.triple}"']
     head += _globals(module, state, f", !absolute_symbol !{absolute}" if options.absolute_data else "")
     head += tables
@@ -133,11 +133,13 @@ def _dispatch_home(module: ir.Module) -> set[str]:
     return {next(iter(module.functions))} if module.functions else set()
 
 
-def _dispatch(module: ir.Module, state: ModuleState, define: bool) -> list[str]:
-    if "tappet.dispatch" not in state.used and not (define and module.dispatch):
+def _dispatch(module: ir.Module, state: ModuleState, whole: bool, home: bool) -> list[str]:
+    """The method tables: in the one module where they are used, or in the first of several."""
+    used = "tappet.dispatch" in state.used
+    if not used and (whole or not home or not any(t.methods for t in module.dispatch)):
         return []
     highest = max((t.type_id for t in module.dispatch), default=0)
-    if not define:
+    if not whole and not home:
         return [f'@"tappet.dispatch" = external hidden constant [{highest + 1} x ptr]']
     slots = max((s for t in module.dispatch for s in t.methods), default=0) + 1
     lines, rows = [], {}
@@ -151,6 +153,6 @@ def _dispatch(module: ir.Module, state: ModuleState, define: bool) -> list[str]:
         rows[table.type_id] = row = f'@"tappet.vt.{table.type_id}"'
         lines.append(f"{row} = private unnamed_addr constant [{slots} x ptr] [{', '.join(entries)}]")
     pointers = ", ".join(f"ptr {rows.get(i, 'null')}" for i in range(highest + 1))
-    linkage = "hidden " if state.used and highest else ""
+    linkage = "internal " if whole else "hidden "
     lines.append(f'@"tappet.dispatch" = {linkage}constant [{highest + 1} x ptr] [{pointers}]')
     return lines

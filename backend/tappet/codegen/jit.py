@@ -88,10 +88,12 @@ def release(address: int, size: int) -> None:
 class LoadedApplication:
     """A package linked into this process with its memory image."""
 
-    def __init__(self, package: CodePackage) -> None:
+    def __init__(self, package: CodePackage, address: int = 0) -> None:
+        """Link `package`; `address` is memory of another application to work on, which keeps owning it."""
         self.package = package
-        self.size = package.image_size + 4096
-        self.address = allocate_low(self.size)
+        self.size = package.image_size + (1 << 16)
+        self.owner = not address
+        self.address = address or allocate_low(self.size)
         self.image = (ctypes.c_char * self.size).from_address(self.address)
         self._machine = target_machine(OptimiseOptions())
         self._jit = llvm.create_lljit_compiler(self._machine, use_jit_link=True)
@@ -116,7 +118,8 @@ class LoadedApplication:
         if self.address:
             self._tracker.close()
             self._jit.close()
-            release(self.address, self.size)
+            if self.owner:
+                release(self.address, self.size)
             self.address = 0
 
     @property

@@ -7,10 +7,10 @@ from tappet.codegen.package import CodePackage, OnlineChange
 from tappet.codegen.symbol_map import SymbolMap, TypeInfo
 
 
-def plan_online_change(old: CodePackage, new: CodePackage, placed: Layout) -> OnlineChange:
+def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> OnlineChange:
     """Moves and initialised ranges of the data objects that are new or changed."""
-    plan = _Plan(old.symbols, new.symbols)
-    for symbol, place in new.data_objects.items():
+    plan = _Plan(old.symbols, symbols)
+    for symbol, place in placed.objects.items():
         if symbol in placed.kept:
             continue
         before = old.data_objects.get(symbol)
@@ -21,7 +21,7 @@ def plan_online_change(old: CodePackage, new: CodePackage, placed: Layout) -> On
                 plan.moves.append((before.offset, place.offset, size))
             plan.reasons.append(f"area %{symbol[-1]} has {place.size} bytes")
             continue
-        old_root, new_root = old.symbols.roots.get(name), new.symbols.roots.get(name)
+        old_root, new_root = old.symbols.roots.get(name), symbols.roots.get(name)
         if before is None or old_root is None or new_root is None:
             plan.reasons.append(f"{name} is new")
             plan.fresh.append((place.offset, place.size))
@@ -32,7 +32,7 @@ def plan_online_change(old: CodePackage, new: CodePackage, placed: Layout) -> On
             plan.old.types[old_root.type], old_root.offset, plan.new.types[new_root.type], new_root.offset
         )
     for symbol in old.data_objects:
-        if symbol not in new.data_objects:
+        if symbol not in placed.objects:
             plan.reasons.append(f"{symbol.rpartition('tappet.data.')[2]} was removed")
     return OnlineChange(
         old.code_id, old.data_id, tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)

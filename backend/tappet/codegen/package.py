@@ -111,16 +111,16 @@ class CodePackage:
     data_id: str
     """Hash of the layout: equal means the same data image."""
     triple: str
-    objects: list[bytes]
+    objects: list[bytes] = field(repr=False)
     """ELF relocatable objects importing `tappet.data.*`, `tappet.area.*`, `tappet_fault`, `tappet_now_ns`,
     libc and libm."""
     image_size: int
     data_objects: dict[str, DataObject]
     """By external symbol (`tappet.data.PLC_PRG`, `tappet.area.I`)."""
-    initial_image: bytes
+    initial_image: bytes = field(repr=False)
     """Constant initial values of the whole image; as long as `image_size`."""
     tasks: list[TaskSpec]
-    symbols: SymbolMap
+    symbols: SymbolMap = field(repr=False)
     retain: list[RemanentRange] = field(default_factory=list)
     persistent: list[RemanentRange] = field(default_factory=list)
     exports: list[str] = field(default_factory=list)
@@ -216,8 +216,8 @@ def _unpack(data: bytes) -> dict[str, Any]:
     if data[len(MAGIC)] != VERSION:
         raise PackageError(f"package version {data[len(MAGIC)]} is not {VERSION}; rebuild the application")
     try:
-        body = msgpack.unpackb(data[head:], raw=False, strict_map_key=False)
-    except (ValueError, msgpack.UnpackException) as error:
+        body = msgpack.unpackb(data[head:], raw=False)
+    except (ValueError, TypeError, msgpack.UnpackException) as error:
         raise PackageError(f"damaged package: {error}") from error
     if not isinstance(body, dict):
         raise PackageError("damaged package: no map at top level")

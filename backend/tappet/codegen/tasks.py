@@ -89,12 +89,18 @@ def default_tasks(analysis: Analysis, sources: Sequence[Source], main_program: s
     return [TaskSpec("MainTask", "cyclic", DEFAULT_INTERVAL_NS, 1, programs=(chosen.name,))]
 
 
-def event_place(spec: TaskSpec, symbols: SymbolMap) -> TaskSpec:
-    """The specification with the place of its event variable."""
+def event_place(spec: TaskSpec, symbols: SymbolMap, found: list[Diagnostic]) -> TaskSpec:
+    """The specification with the place of its event variable; what is wrong with it is added to `found`."""
     if not spec.event:
         return spec
     try:
         ref = symbols.resolve(spec.event)
-    except SymbolError:
+    except SymbolError as error:
+        hint = f"{str(error)[:1].upper()}{str(error)[1:]}."
+        found.append(report("E0704", "", NOWHERE, task=spec.name, event=spec.event, hint=hint))
+        return spec
+    if ref.type.kind != "bool":
+        wrong = report("E0705", "", NOWHERE, task=spec.name, event=spec.event, type=ref.type.name)
+        found.append(wrong)
         return spec
     return replace(spec, event_offset=ref.offset, event_bit=ref.bit)

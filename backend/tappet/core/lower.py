@@ -69,10 +69,15 @@ def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, in
     if tasks:
         _init_function(program, data)
         _exit_function(program, data)
+    complete(program, data)
+    return Lowered(program.module, data, program.type_ids, program)
+
+
+def complete(program: Program, data: list[DataObject]) -> None:
+    """Lower what is waiting, then number the virtual methods; may be called again after more code was added."""
     work_off(program)
     _dispatch_tables(program)
     _relations(program, data)
-    return Lowered(program.module, data, program.type_ids, program)
 
 
 def work_off(program: Program) -> None:
@@ -435,6 +440,7 @@ def _dispatch_tables(program: Program) -> None:
 
     Two names share a slot when no block type has both.
     """
+    program.module.dispatch.clear()
     slots: dict[str, int] = {}
     taken: dict[str, set[int]] = {name: set() for name in program.blocks}
     users: dict[str, list[str]] = {}

@@ -46,7 +46,8 @@ def slot_of(b: Body, variable: VarSymbol) -> ir.Place:
     storage = variable.home if variable.storage is Storage.CONSTANT else variable.storage
     if storage is Storage.INSTANCE:
         if b.own_data is not None:
-            return at(b.own_data, variable.offset, variable.offset)
+            whole = not b.own_data.offset and not b.own_data.subscripts
+            return at(b.own_data, variable.offset, variable.offset if whole else None)
     elif storage in (Storage.GLOBAL, Storage.PROGRAM):
         return ir.Place(ir.Data(b.program.home(variable)), variable.offset, root=variable.offset)
     elif storage is Storage.DIRECT:

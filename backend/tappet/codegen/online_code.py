@@ -1,0 +1,189 @@
+"""Code an online change runs once: initial values of what is new, FB_Reinit, pointers that follow moves."""
+
+from __future__ import annotations
+
+import struct
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, DataObject, OnlineChange
+from tappet.codegen.symbol_map import SymbolMap, TypeInfo
+from tappet.core import calls, initial, ir, places
+from tappet.core.body import Body
+from tappet.core.lower import Lowered, complete
+from tappet.core.program import Program
+from tappet.lang import types as t
+
+_GONE = 0xFFFF_FFFF
+
+
+class Fresh:
+    """Ranges of the new image that did not come from the running one."""
+
+    def __init__(self, change: OnlineChange) -> None:
+        ordered = sorted(change.initialise)
+        self.starts = [start for start, _ in ordered]
+        self.ends = [start + size for start, size in ordered]
+        targets = sorted((target, target + size) for _, target, size in change.moves)
+        self.move_starts = [start for start, _ in targets]
+        self.move_ends = [end for _, end in targets]
+
+    def covers(self, offset: int) -> bool:
+        """Whether the byte at `offset` is new."""
+        at = bisect_right(self.starts, offset) - 1
+        return at >= 0 and offset < self.ends[at]
+
+    def moved_into(self, offset: int, size: int) -> bool:
+        """Whether any byte of a range was moved there."""
+        at = bisect_right(self.move_starts, offset + size - 1) - 1
+        return at >= 0 and self.move_ends[at] > offset
+
+
+def add_online_change(
+    lowered: Lowered,
+    old: CodePackage,
+    change: OnlineChange,
+    objects: Mapping[str, DataObject],
+    symbols: SymbolMap,
+) -> None:
+    """Add the function to the module when there is something for it to do."""
+    program = lowered.program
+    assert program is not None
+    function = ir.Function(ONLINE_CHANGE_SYMBOL, exported=True, uri="", cold=True)
+    b = Body(program, function, None)
+    _relocate(b, program, old, change, objects, symbols)
+    fresh = Fresh(change)
+    for item in lowered.data:
+        place = objects[item.symbol]
+        base = ir.Place(ir.Data(item.symbol))
+        b.own_data = base
+        _run_new(b, base, item.template.steps, place.offset, fresh)
+    if not b.out:
+        return
+    function.body = [*b.entry, *b.out]
+    lowered.module.functions[function.name] = function
+    complete(program, lowered.data)
+
+
+def _run_new(b: Body, base: ir.Place, steps: list[initial.Step], offset: int, fresh: Fresh) -> None:
+    """Dynamic initial values of new variables; blocks that kept values get FB_Reinit instead of FB_Init."""
+    initialiser = initial.initialiser_of(b.program)
+    for step in steps:
+        at = offset + step.offset
+        extent = step.count * step.stride if step.inner else step.type.size
+        if not fresh.moved_into(at, extent):
+            if fresh.covers(at):
+                initial.run_steps(b, base, [step])
+            continue
+        if step.inner:
+            for number in range(step.count):
+                shift = step.offset + number * step.stride
+                _run_new(b, places.at(base, shift), step.inner, offset + shift, fresh)
+        elif step.value is None and not step.after and isinstance(step.type, t.FunctionBlock):
+            place = places.at(base, step.offset)
+            outer, b.own_data = b.own_data, place
+            _run_new(b, place, initialiser.of_type(step.type).steps, at, fresh)
+            b.own_data = outer
+            if any(fresh.covers(at + m.offset) for m in step.type.members.values()):
+                _reinitialise(b, place, step.type)
+
+
+def _reinitialise(b: Body, place: ir.Place, type_: t.FunctionBlock) -> None:
+    for method in initial.life_cycle_methods(type_, "FB_REINIT"):
+        prepared = calls.Prepared()
+        calls.finish(b, prepared, method, [], places.address_of(place), False)
+        b.out.extend(prepared.statements())
+
+
+# -- pointers ---------------------------------------------------------------------------------------
+
+
+def _relocate(
+    b: Body,
+    program: Program,
+    old: CodePackage,
+    change: OnlineChange,
+    objects: Mapping[str, DataObject],
+    symbols: SymbolMap,
+) -> None:
+    ranges = relocation_ranges(old, change, objects)
+    if not ranges:
+        return
+    offsets = [o for root in symbols.roots.values() for o in pointers_in(symbols, root.type, root.offset)]
+    target = program.library_function("RELOCATE")
+    if not offsets or target is None:
+        return
+    slots = program.string_constant(struct.pack(f"<{len(offsets)}I", *offsets), 4)
+    table = program.string_constant(b"".join(struct.pack("<3I", *r) for r in ranges), 4)
+    anchor, place = next(iter(objects.items()))
+    address = ir.Convert(ir.U64, ir.Address(ir.PTR, ir.Place(ir.Data(anchor))))
+    base = ir.Binary(ir.U64, "sub", address, ir.Const(ir.U64, place.offset))
+    args: list[ir.Expr] = [
+        base,
+        ir.Address(ir.PTR, ir.Place(ir.Data(slots.symbol))),
+        ir.Const(ir.I32, len(offsets)),
+        ir.Address(ir.PTR, ir.Place(ir.Data(table.symbol))),
+        ir.Const(ir.I32, len(ranges)),
+    ]
+    b.emit(ir.Evaluate(ir.Call(ir.I32, program.function(target), args)))
+
+
+def relocation_ranges(
+    old: CodePackage, change: OnlineChange, objects: Mapping[str, DataObject]
+) -> list[tuple[int, int, int]]:
+    """(old start, old end, new start) of everything that is not where it was; start 2^32 - 1 = gone."""
+    moved = sorted(change.moves)
+    found: list[tuple[int, int, int]] = []
+    for symbol, place in sorted(old.data_objects.items(), key=lambda item: item[1].offset):
+        if objects.get(symbol) == place and not any(
+            place.offset <= source < place.offset + place.size for source, _, _ in moved
+        ):
+            kept = not any(
+                start < place.offset + place.size and start + n > place.offset
+                for start, n in change.initialise
+            )
+            if kept:
+                continue
+        at, end = place.offset, place.offset + place.size
+        for source, target, size in moved:
+            if source + size <= at or source >= end:
+                continue
+            if source > at:
+                found.append((at, source, _GONE))
+            found.append((source, source + size, target))
+            at = source + size
+        if at < end:
+            found.append((at, end, _GONE))
+    return [r for r in found if r[0] != r[2]]
+
+
+def pointers_in(symbols: SymbolMap, type_index: int, offset: int) -> Iterator[int]:
+    """Offsets of all pointers, references and interfaces inside a variable."""
+    info = symbols.types[type_index]
+    if not _has_pointers(symbols, info, {}):
+        return
+    if info.kind in ("pointer", "reference", "interface"):
+        yield offset
+    elif info.kind == "array" and info.elem is not None:
+        size = symbols.types[info.elem].size
+        for number in range(info.size // size if size else 0):
+            yield from pointers_in(symbols, info.elem, offset + number * size)
+    else:
+        for member in info.members:
+            if not member.absolute:
+                yield from pointers_in(symbols, member.type, offset + member.offset)
+
+
+def _has_pointers(symbols: SymbolMap, info: TypeInfo, seen: dict[int, bool]) -> bool:
+    if info.kind in ("pointer", "reference", "interface"):
+        return True
+    if info.kind == "array" and info.elem is not None:
+        return _has_pointers(symbols, symbols.types[info.elem], seen)
+    for member in info.members:
+        known = seen.get(member.type)
+        if known is None:
+            seen[member.type] = False
+            known = seen[member.type] = _has_pointers(symbols, symbols.types[member.type], seen)
+        if known:
+            return True
+    return False

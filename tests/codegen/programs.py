@@ -1,0 +1,62 @@
+"""Building and running small programs in the tests of this room."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
+from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.package import CodePackage
+from tappet.lang.source import Source
+
+SESSION = BuildSession()
+
+
+def build(text: str, previous: CodePackage | None = None, **options: object) -> CodePackage:
+    return result(text, previous, **options).package_or_fail()
+
+
+class Result:
+    def __init__(self, inner: BuildResult) -> None:
+        self.inner = inner
+
+    def package_or_fail(self) -> CodePackage:
+        errors = [str(d) for d in self.inner.diagnostics if d.severity == "error"]
+        assert errors == []
+        assert self.inner.package is not None
+        return self.inner.package
+
+
+def result(text: str, previous: CodePackage | None = None, **options: object) -> Result:
+    settings = BuildOptions(**options)  # type: ignore[arg-type]
+    return Result(build_application([Source("test.st", text)], (), settings, previous, SESSION))
+
+
+@contextmanager
+def running(package: CodePackage) -> Iterator[LoadedApplication]:
+    application = LoadedApplication(package)
+    try:
+        application.start()
+        yield application
+    finally:
+        application.close()
+
+
+def change_over(application: LoadedApplication, package: CodePackage) -> LoadedApplication:
+    """What a runtime does with an online change; the image of the new application keeps the old address."""
+    change = package.online_change
+    assert change is not None
+    size = application.package.image_size
+    before = bytes(application.image[:size])
+    image = bytearray(before.ljust(package.image_size, b"\0"))
+    for old, new, length in change.moves:
+        image[new : new + length] = before[old : old + length]
+    for offset, length in change.initialise:
+        image[offset : offset + length] = package.initial_image[offset : offset + length]
+    changed = LoadedApplication(package, application.address)
+    ctypes.memmove(changed.address, bytes(image[: package.image_size]), package.image_size)
+    if "tappet.online_change" in package.exports:
+        changed.call("tappet.online_change")
+    return changed

@@ -1,0 +1,131 @@
+"""Online changes: what stays in place, what moves, what starts anew, and pointers that follow."""
+
+from __future__ import annotations
+
+from programs import build, change_over, running
+
+BASE = """
+FUNCTION_BLOCK FB_Counter
+VAR_INPUT step : INT := 1; END_VAR
+VAR_OUTPUT value : INT; END_VAR
+{more}
+METHOD Get : INT
+Get := value;
+END_METHOD
+{methods}
+value := value + step;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB_Plain
+VAR_OUTPUT n : INT; END_VAR
+n := n + {add};
+END_FUNCTION_BLOCK
+PROGRAM Other
+VAR_OUTPUT o : DINT := 4; END_VAR
+o := o + 1;
+END_PROGRAM
+PROGRAM PLC_PRG
+VAR
+    {first}
+    a : INT := 7; c : FB_Counter; row : ARRAY [1..{rows}] OF FB_Counter; p : FB_Plain;
+    pa : POINTER TO INT := ADR(a); r : REFERENCE TO FB_Counter; s : STRING({length}) := 'text'; k : INT;
+END_VAR
+r REF= c;
+a := a + 1; c(); p(); Other();
+FOR k := 1 TO {rows} DO row[k](step := k); END_FOR
+END_PROGRAM
+"""
+
+
+def text(**changes: object) -> str:
+    values = {"more": "", "methods": "", "add": 1, "first": "", "rows": 3, "length": 10}
+    return BASE.format(**(values | changes))
+
+
+def test_code_only_keeps_the_layout():
+    old = build(text())
+    new = build(text(add=100), old)
+    change = new.online_change
+    assert change is not None
+    assert (change.moves, change.initialise) == ((), ())
+    assert new.data_id == old.data_id
+    assert new.code_id != old.code_id
+    assert "tappet.online_change" not in new.exports
+    with running(old) as application:
+        application.cycle()
+        changed = change_over(application, new)
+        changed.cycle()
+        assert changed.read("PLC_PRG.p.n") == 101
+        changed.close()
+
+
+def test_new_variable_in_front_moves_the_others():
+    old = build(text())
+    new = build(text(first="added : LREAL := 2.5;"), old)
+    change = new.online_change
+    assert change is not None
+    assert change.reasons == ("declaration of PLC_PRG changed",)
+    assert new.data_objects["tappet.data.OTHER"] == old.data_objects["tappet.data.OTHER"]
+    with running(old) as application:
+        for _ in range(3):
+            application.cycle()
+        changed = change_over(application, new)
+        assert changed.read("PLC_PRG.added") == 2.5
+        assert changed.read("PLC_PRG.a") == 10
+        assert changed.read("PLC_PRG.c.value") == 3
+        assert changed.read("PLC_PRG.row[2].value") == 6
+        assert changed.read("PLC_PRG.s") == "text"
+        assert changed.read("Other.o") == 7
+        a = changed.package.symbols.resolve("PLC_PRG.a")
+        assert changed.read("PLC_PRG.pa") == changed.address + a.offset
+        c = changed.package.symbols.resolve("PLC_PRG.c")
+        assert changed.read("PLC_PRG.r") == changed.address + c.offset
+        changed.cycle()
+        assert changed.read("PLC_PRG.c.value") == 4
+        changed.close()
+
+
+def test_changed_block_keeps_values_and_is_reinitialised():
+    old = build(text())
+    method = "METHOD FB_Reinit : BOOL\nextra := extra + 1000;\nEND_METHOD"
+    new = build(text(more="VAR extra : DINT := 5; twice : INT := 2 * step; END_VAR", methods=method), old)
+    with running(old) as application:
+        application.cycle()
+        application.cycle()
+        changed = change_over(application, new)
+        assert changed.read("PLC_PRG.c.value") == 2
+        assert changed.read("PLC_PRG.c.extra") == 1005
+        assert changed.read("PLC_PRG.row[3].value") == 6
+        assert changed.read("PLC_PRG.row[3].extra") == 1005
+        assert changed.read("PLC_PRG.row[3].twice") == 6
+        changed.close()
+
+
+def test_arrays_grow_and_strings_shrink():
+    old = build(text())
+    new = build(text(rows=5, length=2), old)
+    with running(old) as application:
+        application.cycle()
+        changed = change_over(application, new)
+        values = [changed.read(f"PLC_PRG.row[{n}].value") for n in range(1, 6)]
+        assert values == [1, 2, 3, 0, 0]
+        assert changed.read("PLC_PRG.s") == "te"
+        changed.cycle()
+        assert changed.read("PLC_PRG.row[5].value") == 5
+        changed.close()
+
+
+def test_pointer_to_a_removed_variable_becomes_null():
+    old = build("PROGRAM PLC_PRG VAR x : INT; y : INT; p : POINTER TO INT; END_VAR p := ADR(x); END_PROGRAM")
+    new = build("PROGRAM PLC_PRG VAR y : INT; p : POINTER TO INT; END_VAR END_PROGRAM", old)
+    with running(old) as application:
+        application.cycle()
+        assert application.read("PLC_PRG.p") != 0
+        changed = change_over(application, new)
+        assert changed.read("PLC_PRG.p") == 0
+        changed.close()
+
+
+def test_type_numbers_are_kept():
+    old = build(text())
+    new = build(text() + "FUNCTION_BLOCK FB_A METHOD M END_METHOD END_FUNCTION_BLOCK", old)
+    assert {k: v for k, v in new.type_ids.items() if k in old.type_ids} == old.type_ids
