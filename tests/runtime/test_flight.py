@@ -2,6 +2,7 @@
 
 import asyncio
 import itertools
+from random import Random
 
 import pytest
 from plc_programs import MS, build
@@ -140,6 +141,31 @@ def test_the_memory_bound_holds_and_what_is_left_is_right(words: int) -> None:
             assert past_image(runtime, cycle) == image
         oldest = runtime.flight_history()[0][0]
         assert runtime.flight_read(oldest, "PLC_PRG.n") == oldest
+
+
+@pytest.mark.parametrize(("seed", "words"), [(1, 1), (2, 13), (3, 901), (4, 2500)])
+def test_bytes_changed_anywhere_come_back(seed: int, words: int) -> None:
+    """Changes at any place and of any length, the first and the last byte included, in a small ring."""
+    random = Random(seed)
+    text = f"PROGRAM PLC_PRG VAR big : ARRAY [0..{words}] OF LINT; n : DINT; END_VAR n := n + 1; END_PROGRAM"
+    with LocalRuntime(build(text), flight=FlightSettings(memory=160 << 10)) as runtime:
+        application = runtime.plc.application
+        assert application is not None
+        size = application.image.size
+        images: dict[int, bytes] = {}
+        assert runtime.flight_status().parts == 1
+        for _ in range(400):
+            for _ in range(random.choice((0, 1, 1, 5))):
+                length = random.choice((1, 3, 64, 65, 700, size))
+                at = random.choice((0, size - min(length, size), random.randrange(size)))
+                application.image.write(at, random.randbytes(min(length, size - at)))
+            images |= run_and_keep(runtime, 1)
+        kept = [cycle for cycle, _ in runtime.flight_history()]
+        assert len(kept) >= 4
+        assert kept == list(images)[-len(kept) :]
+        random.shuffle(kept)
+        for cycle in kept:
+            assert past_image(runtime, cycle) == images[cycle], cycle
 
 
 def test_nothing_is_older_than_the_time_limit() -> None:
