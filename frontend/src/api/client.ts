@@ -68,7 +68,12 @@ async function problemOf(response: Response): Promise<Problem> {
   return fallback;
 }
 
-async function request<Answer>(method: string, path: string, body: unknown, options: RequestOptions = {}): Promise<Answer> {
+async function request<Answer>(
+  method: string,
+  path: string,
+  body: unknown,
+  options: RequestOptions = {},
+): Promise<Answer> {
   const headers: Record<string, string> = { Accept: 'application/json', 'X-Tappet-Client': '1' };
   const init: RequestInit = { method, headers, credentials: 'same-origin', signal: options.signal };
   if (body instanceof FormData) init.body = body;
@@ -94,8 +99,10 @@ async function request<Answer>(method: string, path: string, body: unknown, opti
 
 export const api = {
   get: <Answer>(path: string, options?: RequestOptions) => request<Answer>('GET', path, undefined, options),
-  post: <Answer>(path: string, body?: unknown, options?: RequestOptions) => request<Answer>('POST', path, body, options),
+  post: <Answer>(path: string, body?: unknown, options?: RequestOptions) =>
+    request<Answer>('POST', path, body, options),
   put: <Answer>(path: string, body: unknown, options?: RequestOptions) => request<Answer>('PUT', path, body, options),
-  patch: <Answer>(path: string, body: unknown, options?: RequestOptions) => request<Answer>('PATCH', path, body, options),
+  patch: <Answer>(path: string, body: unknown, options?: RequestOptions) =>
+    request<Answer>('PATCH', path, body, options),
   delete: <Answer>(path: string, options?: RequestOptions) => request<Answer>('DELETE', path, undefined, options),
 };

@@ -89,7 +89,12 @@ export async function saveObject<Data>(
     patchSummary(projectId, saved);
     return saved;
   } catch (error) {
-    if (error instanceof ApiError && error.status === 409 && typeof error.problem.current === 'object' && error.problem.current !== null) {
+    if (
+      error instanceof ApiError &&
+      error.status === 409 &&
+      typeof error.problem.current === 'object' &&
+      error.problem.current !== null
+    ) {
       throw new StaleObject(error.problem.current as ProjectObject<Data>, data);
     }
     throw error;

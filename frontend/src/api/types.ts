@@ -15,7 +15,11 @@ export type AuthStatus = Schemas['AuthStatus'];
 export type ProjectSummary = Schemas['ProjectSummary'];
 export type Revision = Schemas['Revision'];
 
-type KindOf<Some extends { kind: string }> = Some extends unknown ? (string extends Some['kind'] ? never : Some['kind']) : never;
+type KindOf<Some extends { kind: string }> = Some extends unknown
+  ? string extends Some['kind']
+    ? never
+    : Some['kind']
+  : never;
 /** Every kind that is installed. Objects of other kinds (their plug-in is missing) are shown and kept, not edited. */
 export type ObjectKind = KindOf<Schemas['AnyProjectObject']>;
 /** An object in the tree. */

@@ -54,7 +54,8 @@ function Page() {
     void adoptPreferences(known);
   }, [known]);
 
-  if (user) return route.page === 'project' ? <Workbench key={route.projectId} projectId={route.projectId} /> : <StartPage />;
+  if (user)
+    return route.page === 'project' ? <Workbench key={route.projectId} projectId={route.projectId} /> : <StartPage />;
   if (status.isError) return <Failed error={status.error} retry={() => void status.refetch()} />;
   if (!status.data || known) return <Loading />;
   return status.data.first_account_needed ? <FirstAccountPage /> : <LoginPage />;

@@ -8,7 +8,9 @@ function texts(language: string): Record<string, string> {
   const folder = join(import.meta.dirname, language);
   const all: Record<string, string> = {};
   for (const file of readdirSync(folder)) {
-    for (const [key, text] of Object.entries(JSON.parse(readFileSync(join(folder, file), 'utf8')) as Record<string, string>)) {
+    for (const [key, text] of Object.entries(
+      JSON.parse(readFileSync(join(folder, file), 'utf8')) as Record<string, string>,
+    )) {
       if (key in all) throw new Error(`${language}/${file}: '${key}' is defined twice`);
       all[key] = text;
     }

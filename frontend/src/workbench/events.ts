@@ -76,7 +76,10 @@ function receive(projectId: string, message: EventMessage): void {
     usePresence.setState({ users: message.users });
     return;
   }
-  queryClient.setQueryData<ObjectSummary[]>(keys.objects(projectId), (objects) => objects && applyChange(objects, message));
+  queryClient.setQueryData<ObjectSummary[]>(
+    keys.objects(projectId),
+    (objects) => objects && applyChange(objects, message),
+  );
   const key = keys.object(projectId, message.object.id);
   if (message.change === 'deleted') queryClient.removeQueries({ queryKey: key });
   else {

@@ -54,7 +54,8 @@ export function findByKey(commands: Iterable<Command>, event: KeyPress, scope: C
 export function belongsToField(event: KeyPress): boolean {
   if (event.altKey) return false;
   const key = event.key.toLowerCase();
-  if (!event.ctrlKey && !event.metaKey) return key.length === 1 || ['delete', 'backspace', 'enter', 'home', 'end'].includes(key) || key.startsWith('arrow');
+  if (!event.ctrlKey && !event.metaKey)
+    return key.length === 1 || ['delete', 'backspace', 'enter', 'home', 'end'].includes(key) || key.startsWith('arrow');
   return ['c', 'x', 'v', 'a', 'z', 'y', 'insert', 'home', 'end'].includes(key) || key.startsWith('arrow');
 }
 
@@ -70,12 +71,23 @@ export function shieldedFromBrowser(event: KeyPress): boolean {
   return ctrl && !event.shiftKey && ['s', 'p', 'f', 'g', 'h', 'd', 'o', 'e', 'k', 'u'].includes(key);
 }
 
-const SHOWN: Record<string, string> = { delete: 'Del', escape: 'Esc', ' ': 'Space', arrowup: '↑', arrowdown: '↓', arrowleft: '←', arrowright: '→', enter: 'Enter' };
+const SHOWN: Record<string, string> = {
+  delete: 'Del',
+  escape: 'Esc',
+  ' ': 'Space',
+  arrowup: '↑',
+  arrowdown: '↓',
+  arrowleft: '←',
+  arrowright: '→',
+  enter: 'Enter',
+};
 
 /** As menus show it; on a Mac with its symbols. */
 export function keysText(text: string, mac = isMac()): string {
   const stroke = parseKeys(text);
-  const key = SHOWN[stroke.key] ?? (stroke.key.length === 1 ? stroke.key.toUpperCase() : stroke.key.charAt(0).toUpperCase() + stroke.key.slice(1));
+  const key =
+    SHOWN[stroke.key] ??
+    (stroke.key.length === 1 ? stroke.key.toUpperCase() : stroke.key.charAt(0).toUpperCase() + stroke.key.slice(1));
   if (mac) return `${stroke.ctrl ? '⌘' : ''}${stroke.alt ? '⌥' : ''}${stroke.shift ? '⇧' : ''}${key}`;
   return [stroke.ctrl && 'Ctrl', stroke.alt && 'Alt', stroke.shift && 'Shift', key].filter(Boolean).join('+');
 }

@@ -20,7 +20,10 @@ export function notify(notice: Omit<Notice, 'id'>): number {
   const id = ++last;
   // The same words twice replace each other instead of piling up.
   useNotices.setState(({ notices }) => ({
-    notices: [...notices.filter((other) => other.title !== notice.title || other.text !== notice.text), { ...notice, id }].slice(-5),
+    notices: [
+      ...notices.filter((other) => other.title !== notice.title || other.text !== notice.text),
+      { ...notice, id },
+    ].slice(-5),
   }));
   setTimeout(() => dismiss(id), STAY_MS[notice.tone]);
   return id;
@@ -32,7 +35,8 @@ export function dismiss(id: number): void {
 
 /** What went wrong and what to do, in the user's language where the status says it; the server's detail below. */
 export function explain(error: unknown): { title: string; text?: string } {
-  if (!(error instanceof ApiError)) return { title: t('error.unexpected'), text: error instanceof Error ? error.message : String(error) };
+  if (!(error instanceof ApiError))
+    return { title: t('error.unexpected'), text: error instanceof Error ? error.message : String(error) };
   const text = error.problem.detail ?? error.problem.title;
   switch (error.status) {
     case 0:

@@ -15,13 +15,71 @@ import { registerPanel } from './panels';
 import TreePanel from './tree/TreePanel';
 
 export function registerWorkbench(): void {
-  registerPanel({ id: 'devices', title: 'panel.devices', icon: FolderTree, component: TreePanel, props: { view: 'devices' }, position: 'left', order: 1, initial: true });
-  registerPanel({ id: 'pous', title: 'panel.pous', icon: SquareFunction, component: TreePanel, props: { view: 'pous' }, position: 'left', order: 2, initial: true });
-  registerPanel({ id: 'libraries', title: 'panel.libraries', icon: Library, component: lazy(() => import('./libraries/LibrariesPanel')), position: 'left', order: 3, initial: true });
-  registerPanel({ id: 'messages', title: 'panel.messages', icon: ListChecks, component: MessagesPanel, position: 'bottom', order: 10, initial: true, useBadge: useMessageBadge });
-  registerPanel({ id: 'tasks', title: 'panel.tasks', icon: Timer, component: lazy(() => import('./online/TasksPanel')), position: 'bottom', order: 60, initial: true });
-  registerPanel({ id: 'log', title: 'panel.log', icon: ScrollText, component: lazy(() => import('./online/LogPanel')), position: 'bottom', order: 70, initial: true });
-  registerPanel({ id: 'libraryDoc', title: 'panel.libraryDoc', icon: FileText, component: lazy(() => import('./libraries/LibraryDocPanel')), position: 'right', order: 40 });
+  registerPanel({
+    id: 'devices',
+    title: 'panel.devices',
+    icon: FolderTree,
+    component: TreePanel,
+    props: { view: 'devices' },
+    position: 'left',
+    order: 1,
+    initial: true,
+  });
+  registerPanel({
+    id: 'pous',
+    title: 'panel.pous',
+    icon: SquareFunction,
+    component: TreePanel,
+    props: { view: 'pous' },
+    position: 'left',
+    order: 2,
+    initial: true,
+  });
+  registerPanel({
+    id: 'libraries',
+    title: 'panel.libraries',
+    icon: Library,
+    component: lazy(() => import('./libraries/LibrariesPanel')),
+    position: 'left',
+    order: 3,
+    initial: true,
+  });
+  registerPanel({
+    id: 'messages',
+    title: 'panel.messages',
+    icon: ListChecks,
+    component: MessagesPanel,
+    position: 'bottom',
+    order: 10,
+    initial: true,
+    useBadge: useMessageBadge,
+  });
+  registerPanel({
+    id: 'tasks',
+    title: 'panel.tasks',
+    icon: Timer,
+    component: lazy(() => import('./online/TasksPanel')),
+    position: 'bottom',
+    order: 60,
+    initial: true,
+  });
+  registerPanel({
+    id: 'log',
+    title: 'panel.log',
+    icon: ScrollText,
+    component: lazy(() => import('./online/LogPanel')),
+    position: 'bottom',
+    order: 70,
+    initial: true,
+  });
+  registerPanel({
+    id: 'libraryDoc',
+    title: 'panel.libraryDoc',
+    icon: FileText,
+    component: lazy(() => import('./libraries/LibraryDocPanel')),
+    position: 'right',
+    order: 40,
+  });
   registerFileCommands();
   registerEditCommands();
   registerProjectCommands();

@@ -1,6 +1,14 @@
 /** Running commands, from menus, buttons, keys and the palette alike. */
 import { t, type TextKey } from '@/i18n';
-import { activeHandler, enablementOf, findCommand, useRegistry, type Command, type MenuId, type Reason } from './commands';
+import {
+  activeHandler,
+  enablementOf,
+  findCommand,
+  useRegistry,
+  type Command,
+  type MenuId,
+  type Reason,
+} from './commands';
 import { commandContext, type CommandContext } from './context';
 import { dialogOpen } from './dialogs';
 import { belongsToField, findByKey, shieldedFromBrowser } from './keys';
@@ -67,7 +75,18 @@ export function listenToKeys(): () => void {
   return () => window.removeEventListener('keydown', onKeyDown, true);
 }
 
-const MENU_IDS: readonly MenuId[] = ['file', 'edit', 'view', 'project', 'build', 'online', 'debug', 'tools', 'window', 'help'];
+const MENU_IDS: readonly MenuId[] = [
+  'file',
+  'edit',
+  'view',
+  'project',
+  'build',
+  'online',
+  'debug',
+  'tools',
+  'window',
+  'help',
+];
 
 /** The menus of the menu bar, left to right. */
 export const MENUS: readonly { id: MenuId; title: TextKey }[] = MENU_IDS.map((id) => ({ id, title: `menu.${id}` }));

@@ -25,7 +25,8 @@ export function FirstAccountPage() {
   const [refused, setRefused] = useState<string | null>(null);
   const [busy, setBusy] = useState(false);
   const differs = again !== '' && again !== password ? t('firstAccount.differs') : null;
-  const missing = token === '' || username === '' || password === '' || again !== password ? t('firstAccount.fillIn') : null;
+  const missing =
+    token === '' || username === '' || password === '' || again !== password ? t('firstAccount.fillIn') : null;
 
   const create = async (event: FormEvent) => {
     event.preventDefault();
@@ -52,16 +53,37 @@ export function FirstAccountPage() {
           </div>
         )}
         <Field label={t('firstAccount.token')} hint={t('firstAccount.tokenHint')}>
-          {(attributes) => <TextInput {...attributes} className="code" autoFocus={token === ''} value={token} onValue={setToken} />}
+          {(attributes) => (
+            <TextInput {...attributes} className="code" autoFocus={token === ''} value={token} onValue={setToken} />
+          )}
         </Field>
         <Field label={t('signIn.username')}>
-          {(attributes) => <TextInput {...attributes} autoFocus={token !== ''} autoComplete="username" name="username" value={username} onValue={setUsername} />}
+          {(attributes) => (
+            <TextInput
+              {...attributes}
+              autoFocus={token !== ''}
+              autoComplete="username"
+              name="username"
+              value={username}
+              onValue={setUsername}
+            />
+          )}
         </Field>
         <Field label={t('signIn.password')}>
-          {(attributes) => <TextInput {...attributes} type="password" autoComplete="new-password" value={password} onValue={setPassword} />}
+          {(attributes) => (
+            <TextInput
+              {...attributes}
+              type="password"
+              autoComplete="new-password"
+              value={password}
+              onValue={setPassword}
+            />
+          )}
         </Field>
         <Field label={t('firstAccount.again')} error={differs}>
-          {(attributes) => <TextInput {...attributes} type="password" autoComplete="new-password" value={again} onValue={setAgain} />}
+          {(attributes) => (
+            <TextInput {...attributes} type="password" autoComplete="new-password" value={again} onValue={setAgain} />
+          )}
         </Field>
         <Button type="submit" variant="primary" disabledReason={missing}>
           {t('firstAccount.action')}

@@ -47,12 +47,34 @@ export function LoginPage() {
           </div>
         )}
         <Field label={t('signIn.username')}>
-          {(attributes) => <TextInput {...attributes} autoFocus autoComplete="username" name="username" value={username} onValue={setUsername} />}
+          {(attributes) => (
+            <TextInput
+              {...attributes}
+              autoFocus
+              autoComplete="username"
+              name="username"
+              value={username}
+              onValue={setUsername}
+            />
+          )}
         </Field>
         <Field label={t('signIn.password')}>
-          {(attributes) => <TextInput {...attributes} type="password" autoComplete="current-password" name="password" value={password} onValue={setPassword} />}
+          {(attributes) => (
+            <TextInput
+              {...attributes}
+              type="password"
+              autoComplete="current-password"
+              name="password"
+              value={password}
+              onValue={setPassword}
+            />
+          )}
         </Field>
-        <Button type="submit" variant="primary" disabledReason={username === '' || password === '' ? t('signIn.fillIn') : null}>
+        <Button
+          type="submit"
+          variant="primary"
+          disabledReason={username === '' || password === '' ? t('signIn.fillIn') : null}
+        >
           {t('signIn.action')}
         </Button>
       </form>

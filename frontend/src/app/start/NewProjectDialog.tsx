@@ -61,7 +61,14 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
       </Field>
       <div role="radiogroup" aria-label={t('project.template')} className={choice.choices}>
         {TEMPLATES.map((each) => (
-          <button key={each} type="button" role="radio" aria-checked={each === template} className={choice.choice} onClick={() => setTemplate(each)}>
+          <button
+            key={each}
+            type="button"
+            role="radio"
+            aria-checked={each === template}
+            className={choice.choice}
+            onClick={() => setTemplate(each)}
+          >
             <span className={choice.radio} />
             <span>
               <span className={choice.name}>{t(`template.${each}`)}</span>

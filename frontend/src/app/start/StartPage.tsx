@@ -26,7 +26,11 @@ import styles from './StartPage.module.css';
 export function StartPage() {
   const t = useText();
   const projects = useProjects();
-  const recent = useQuery({ queryKey: ['settings', 'recent'], queryFn: () => loadSetting<string[]>('recent'), retry: false });
+  const recent = useQuery({
+    queryKey: ['settings', 'recent'],
+    queryFn: () => loadSetting<string[]>('recent'),
+    retry: false,
+  });
   const role = useSession((state) => state.user?.role ?? null);
   const refused = atLeast(role, 'engineer') ? null : t('reason.engineer');
   const [search, setSearch] = useState('');
@@ -87,7 +91,13 @@ export function StartPage() {
           <div className={styles.head}>
             <h1 className={styles.heading}>{t('start.projects')}</h1>
             {(projects.data?.length ?? 0) > 0 && (
-              <TextInput className={styles.search} value={search} onValue={setSearch} placeholder={t('start.search')} aria-label={t('start.search')} />
+              <TextInput
+                className={styles.search}
+                value={search}
+                onValue={setSearch}
+                placeholder={t('start.search')}
+                aria-label={t('start.search')}
+              />
             )}
           </div>
           {projects.isError ? (
@@ -125,14 +135,27 @@ interface StartActionProps {
 
 function StartAction({ icon: Icon, text, refused, run }: StartActionProps) {
   return (
-    <button className={styles.action} aria-disabled={refused ? true : undefined} title={refused ?? undefined} onClick={() => !refused && run()}>
+    <button
+      className={styles.action}
+      aria-disabled={refused ? true : undefined}
+      title={refused ?? undefined}
+      onClick={() => !refused && run()}
+    >
       <Icon size={17} strokeWidth={1.6} aria-hidden />
       {text}
     </button>
   );
 }
 
-function Section({ title, projects, refused }: { title: string | null; projects: readonly ProjectSummary[]; refused: string | null }) {
+function Section({
+  title,
+  projects,
+  refused,
+}: {
+  title: string | null;
+  projects: readonly ProjectSummary[];
+  refused: string | null;
+}) {
   if (projects.length === 0) return null;
   return (
     <section>
@@ -153,9 +176,23 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
   const open = () => go({ page: 'project', projectId: project.id });
   const entries = (): MenuEntry[] => [
     { kind: 'item', key: 'open', text: t('action.open'), icon: FolderOpen, run: open },
-    { kind: 'item', key: 'export', text: t('command.export'), icon: Download, run: () => void guard(() => downloadUrl(`/projects/${project.id}/export`, `${project.name}.zip`)) },
+    {
+      kind: 'item',
+      key: 'export',
+      text: t('command.export'),
+      icon: Download,
+      run: () => void guard(() => downloadUrl(`/projects/${project.id}/export`, `${project.name}.zip`)),
+    },
     { kind: 'line', key: 'line' },
-    { kind: 'item', key: 'delete', text: t('action.delete'), icon: Trash2, danger: true, disabledReason: refused, run: () => void deleteProject(project, t) },
+    {
+      kind: 'item',
+      key: 'delete',
+      text: t('action.delete'),
+      icon: Trash2,
+      danger: true,
+      disabledReason: refused,
+      run: () => void deleteProject(project, t),
+    },
   ];
   return (
     <div className={styles.project} onClick={open}>
@@ -164,11 +201,19 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
         <span className={styles.name}>{project.name}</span>
         {project.description && <span className={styles.description}>{project.description}</span>}
       </button>
-      <time className={styles.date} dateTime={project.modified} title={new Date(project.modified).toLocaleString(language)}>
+      <time
+        className={styles.date}
+        dateTime={project.modified}
+        title={new Date(project.modified).toLocaleString(language)}
+      >
         {ago(project.modified, now, language)}
       </time>
       <span onClick={(event) => event.stopPropagation()}>
-        <DropdownMenu align="end" entries={entries} trigger={<IconButton icon={Ellipsis} label={t('start.more', { name: project.name })} />} />
+        <DropdownMenu
+          align="end"
+          entries={entries}
+          trigger={<IconButton icon={Ellipsis} label={t('start.more', { name: project.name })} />}
+        />
       </span>
     </div>
   );

@@ -2,7 +2,16 @@ import { describe, expect, it } from 'vitest';
 import type { ProjectSummary } from '@/api/types';
 import { ago, sections } from './projects';
 
-const project = (id: string, modified: string): ProjectSummary => ({ id, name: id, description: `about ${id}`, created: modified, modified, created_by: 'eva', modified_by: 'eva', revision: 1 });
+const project = (id: string, modified: string): ProjectSummary => ({
+  id,
+  name: id,
+  description: `about ${id}`,
+  created: modified,
+  modified,
+  created_by: 'eva',
+  modified_by: 'eva',
+  revision: 1,
+});
 const projects = [project('old', '2026-01-01'), project('new', '2026-03-01'), project('mid', '2026-02-01')];
 const ids = (list: ProjectSummary[]) => list.map((one) => one.id);
 

@@ -7,14 +7,20 @@ export interface ProjectSections {
 }
 
 /** Those opened last in that order, then the rest by last change; a search looks at all and knows no sections. */
-export function sections(projects: readonly ProjectSummary[], recentIds: readonly string[], search: string): ProjectSections {
+export function sections(
+  projects: readonly ProjectSummary[],
+  recentIds: readonly string[],
+  search: string,
+): ProjectSections {
   const wanted = search.trim().toLowerCase();
   const byChange = [...projects].sort((a, b) => b.modified.localeCompare(a.modified));
   if (wanted) {
     const hits = byChange.filter((project) => `${project.name} ${project.description}`.toLowerCase().includes(wanted));
     return { recent: [], others: hits };
   }
-  const recent = recentIds.map((id) => projects.find((project) => project.id === id)).filter((project) => project !== undefined);
+  const recent = recentIds
+    .map((id) => projects.find((project) => project.id === id))
+    .filter((project) => project !== undefined);
   return { recent, others: byChange.filter((project) => !recent.includes(project)) };
 }
 

@@ -48,7 +48,9 @@ export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => v
         {(attributes) => <TextInput {...attributes} className="code" value={url} onValue={setUrl} />}
       </Field>
       <Field label={t('runtime.token')} hint={t('runtime.tokenHint')}>
-        {(attributes) => <TextInput {...attributes} type="password" autoComplete="off" value={token} onValue={setToken} />}
+        {(attributes) => (
+          <TextInput {...attributes} type="password" autoComplete="off" value={token} onValue={setToken} />
+        )}
       </Field>
     </Dialog>
   );

@@ -26,8 +26,16 @@ export default function ApplicationEditor({ projectId, objectId }: EditorProps) 
   const build = useMessages((state) => (state.build?.applicationId === objectId ? state.build : null));
   const counts = useMemo(() => {
     const inside = objects ? subtree(forestOf(objects), objectId).slice(1) : [];
-    const of = (...kinds: string[]) => inside.filter((object) => kinds.includes(object.subkind ?? object.kind) || kinds.includes(object.kind)).length;
-    return { programs: of('program'), blocks: of('function_block'), functions: of('function'), types: of('dut'), lists: of('gvl', 'persistent'), tasks: of('task') };
+    const of = (...kinds: string[]) =>
+      inside.filter((object) => kinds.includes(object.subkind ?? object.kind) || kinds.includes(object.kind)).length;
+    return {
+      programs: of('program'),
+      blocks: of('function_block'),
+      functions: of('function'),
+      types: of('dut'),
+      lists: of('gvl', 'persistent'),
+      tasks: of('task'),
+    };
   }, [objects, objectId]);
   const application = objects?.find((object) => object.id === objectId);
   if (!application) return <Loading />;
@@ -45,10 +53,18 @@ export default function ApplicationEditor({ projectId, objectId }: EditorProps) 
               {t('command.setActive')}
             </Button>
           )}
-          <Button icon={Hammer} disabledReason={active ? null : t('application.notActive')} onClick={() => void runCommand('build.build')}>
+          <Button
+            icon={Hammer}
+            disabledReason={active ? null : t('application.notActive')}
+            onClick={() => void runCommand('build.build')}
+          >
             {t('command.build')}
           </Button>
-          <Button icon={LogIn} disabledReason={active ? (session ? t('reason.loggedIn') : null) : t('application.notActive')} onClick={() => void runCommand('online.login')}>
+          <Button
+            icon={LogIn}
+            disabledReason={active ? (session ? t('reason.loggedIn') : null) : t('application.notActive')}
+            onClick={() => void runCommand('online.login')}
+          >
             {t('command.login')}
           </Button>
         </div>

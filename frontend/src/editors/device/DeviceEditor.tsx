@@ -19,7 +19,11 @@ const DeviceIcon = objectIcon('device');
 export default function DeviceEditor({ panelId, projectId, objectId, visible }: EditorProps) {
   const t = useText();
   const draft = useDraft<DeviceData>(panelId, projectId, objectId, () => true);
-  const runtimes = useQuery({ queryKey: keys.runtimes, queryFn: () => api.get<RuntimeState[]>('/runtimes'), refetchInterval: visible ? POLL_MS : false });
+  const runtimes = useQuery({
+    queryKey: keys.runtimes,
+    queryFn: () => api.get<RuntimeState[]>('/runtimes'),
+    refetchInterval: visible ? POLL_MS : false,
+  });
   const disabled = draft.readOnly !== null;
   return (
     <FormPage draft={draft}>
@@ -32,7 +36,11 @@ export default function DeviceEditor({ panelId, projectId, objectId, visible }: 
           </h1>
           <Section title={t('device.communication')}>
             <div>
-              <Checkbox checked={device.simulated} disabled={disabled} onChecked={(simulated) => draft.change({ ...device, simulated })}>
+              <Checkbox
+                checked={device.simulated}
+                disabled={disabled}
+                onChecked={(simulated) => draft.change({ ...device, simulated })}
+              >
                 {t('device.simulated')}
               </Checkbox>
               <p className={styles.note}>{t('device.simulatedText')}</p>

@@ -35,7 +35,12 @@ export function RuntimeList({ runtimes, error, chosen, readOnly, onChoose }: Run
     if (!readOnly) onChoose(added.id);
   };
   const remove = async (runtime: RuntimeState) => {
-    const sure = await confirm({ title: t('runtime.removeTitle', { name: runtime.name }), text: t('runtime.removeText'), action: t('action.remove'), danger: true });
+    const sure = await confirm({
+      title: t('runtime.removeTitle', { name: runtime.name }),
+      text: t('runtime.removeText'),
+      action: t('action.remove'),
+      danger: true,
+    });
     if (!sure) return;
     await guard(async () => {
       await api.delete(`/runtimes/${runtime.id}`);

@@ -28,7 +28,12 @@ export interface Draft<Data> {
  * The data of an object being edited in a form. Changes are saved by themselves a moment later, and at once by
  * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through the changes of this visit.
  */
-export function useDraft<Data>(panelId: string, projectId: string, objectId: string, valid: (data: Data) => boolean): Draft<Data> {
+export function useDraft<Data>(
+  panelId: string,
+  projectId: string,
+  objectId: string,
+  valid: (data: Data) => boolean,
+): Draft<Data> {
   const { data: object, error } = useObject<Data>(projectId, objectId);
   const [draft, setDraft] = useState<{ data: Data; revision: number } | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
@@ -101,8 +106,14 @@ export function useDraft<Data>(panelId: string, projectId: string, objectId: str
     const blocked = allowed !== true ? allowed : null;
     return {
       'file.save': { run: save },
-      'edit.undo': { run: step('past', 'future', -1), enabled: blocked ?? (history.past.length ? (true as const) : ('reason.nothingToUndo' as const)) },
-      'edit.redo': { run: step('future', 'past', 0), enabled: blocked ?? (history.future.length ? (true as const) : ('reason.nothingToRedo' as const)) },
+      'edit.undo': {
+        run: step('past', 'future', -1),
+        enabled: blocked ?? (history.past.length ? (true as const) : ('reason.nothingToUndo' as const)),
+      },
+      'edit.redo': {
+        run: step('future', 'past', 0),
+        enabled: blocked ?? (history.future.length ? (true as const) : ('reason.nothingToRedo' as const)),
+      },
     };
   }, [history, data, save, set, allowed]);
   useHandlers(panelId, handlers);

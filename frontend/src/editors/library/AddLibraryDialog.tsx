@@ -10,16 +10,35 @@ import { Table } from '@/workbench/ui/Table';
 import type { Column } from '@/workbench/ui/table';
 
 /** Chooses an installed library to add. */
-export function AddLibraryDialog({ libraries, close }: { libraries: readonly LibrarySummary[]; close: (names?: string[]) => void }) {
+export function AddLibraryDialog({
+  libraries,
+  close,
+}: {
+  libraries: readonly LibrarySummary[];
+  close: (names?: string[]) => void;
+}) {
   const t = useText();
   const [query, setQuery] = useState('');
   const [selected, setSelected] = useState<string | null>(libraries[0]?.name ?? null);
   const hits = search(query, libraries, (library) => `${library.name} ${library.description}`).map((hit) => hit.entry);
   const chosen = hits.find((library) => library.name === selected) ?? hits[0];
   const columns: Column<LibrarySummary>[] = [
-    { id: 'name', title: t('library.name'), width: 150, sort: (library) => library.name, cell: (library) => <span>{library.name}</span> },
+    {
+      id: 'name',
+      title: t('library.name'),
+      width: 150,
+      sort: (library) => library.name,
+      cell: (library) => <span>{library.name}</span>,
+    },
     { id: 'version', title: t('library.version'), width: 80, cell: (library) => <span>{library.version}</span> },
-    { id: 'description', title: t('libraryDoc.comment'), width: 200, grow: true, hint: (library) => library.description, cell: (library) => <span>{library.description}</span> },
+    {
+      id: 'description',
+      title: t('libraryDoc.comment'),
+      width: 200,
+      grow: true,
+      hint: (library) => library.description,
+      cell: (library) => <span>{library.description}</span>,
+    },
   ];
   return (
     <Dialog
@@ -36,7 +55,13 @@ export function AddLibraryDialog({ libraries, close }: { libraries: readonly Lib
         </>
       }
     >
-      <TextInput data-autofocus value={query} onValue={setQuery} placeholder={t('libraries.search')} aria-label={t('libraries.search')} />
+      <TextInput
+        data-autofocus
+        value={query}
+        onValue={setQuery}
+        placeholder={t('libraries.search')}
+        aria-label={t('libraries.search')}
+      />
       <div style={{ height: 280, border: '1px solid var(--line)', borderRadius: 'var(--radius)', overflow: 'hidden' }}>
         <Table
           label={t('library.add')}

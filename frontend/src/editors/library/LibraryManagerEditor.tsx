@@ -46,7 +46,11 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
           const missing = effectiveVersion(reference, libraries) === null;
           return (
             <>
-              {missing ? <TriangleAlert size={15} className={styles.missing} aria-label={t('library.missing')} /> : <Icon size={15} />}
+              {missing ? (
+                <TriangleAlert size={15} className={styles.missing} aria-label={t('library.missing')} />
+              ) : (
+                <Icon size={15} />
+              )}
               <span className={missing ? styles.missing : undefined}>
                 {reference.name}
                 {library?.company ? ` (${library.company})` : ''}
@@ -54,11 +58,30 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
             </>
           );
         },
-        hint: (reference) => (effectiveVersion(reference, libraries) === null ? t('library.missing') : (libraries.find((one) => one.name === reference.name)?.description ?? '')),
+        hint: (reference) =>
+          effectiveVersion(reference, libraries) === null
+            ? t('library.missing')
+            : (libraries.find((one) => one.name === reference.name)?.description ?? ''),
       },
-      { id: 'namespace', title: t('library.namespace'), width: 180, sort: (reference) => namespaceOf(reference, libraries), cell: (reference) => <span className="code">{namespaceOf(reference, libraries)}</span> },
-      { id: 'version', title: t('library.version'), width: 120, cell: (reference) => <span>{reference.version === '*' ? t('library.newest') : reference.version}</span> },
-      { id: 'effective', title: t('library.effective'), width: 130, cell: (reference) => <span className="digits">{effectiveVersion(reference, libraries) ?? '–'}</span> },
+      {
+        id: 'namespace',
+        title: t('library.namespace'),
+        width: 180,
+        sort: (reference) => namespaceOf(reference, libraries),
+        cell: (reference) => <span className="code">{namespaceOf(reference, libraries)}</span>,
+      },
+      {
+        id: 'version',
+        title: t('library.version'),
+        width: 120,
+        cell: (reference) => <span>{reference.version === '*' ? t('library.newest') : reference.version}</span>,
+      },
+      {
+        id: 'effective',
+        title: t('library.effective'),
+        width: 130,
+        cell: (reference) => <span className="digits">{effectiveVersion(reference, libraries) ?? '–'}</span>,
+      },
     ],
     [t, libraries],
   );
@@ -69,7 +92,9 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
 
   const change = (next: LibraryReference[]) => draft.change({ references: next });
   const add = async () => {
-    const names = await openDialog<string[]>((close) => <AddLibraryDialog libraries={addable(references, libraries)} close={close} />);
+    const names = await openDialog<string[]>((close) => (
+      <AddLibraryDialog libraries={addable(references, libraries)} close={close} />
+    ));
     if (names?.length) {
       change([...references, ...names.map((name) => ({ name, version: '*', namespace: '' }))]);
       setSelected(names[0]!);
@@ -78,7 +103,15 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
   const edit = async () => {
     if (!chosen) return;
     const index = references.indexOf(chosen);
-    const edited = await openDialog<LibraryReference>((close) => <LibraryPropertiesDialog reference={chosen} at={index} references={references} installed={libraries} close={close} />);
+    const edited = await openDialog<LibraryReference>((close) => (
+      <LibraryPropertiesDialog
+        reference={chosen}
+        at={index}
+        references={references}
+        installed={libraries}
+        close={close}
+      />
+    ));
     if (edited) change(references.map((reference, place) => (place === index ? edited : reference)));
   };
   const remove = () => change(references.filter((reference) => reference !== chosen));
@@ -88,11 +121,27 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
     <div className={styles.view}>
       <div className={styles.upper}>
         <div className={styles.bar}>
-          <Button variant="quiet" icon={Plus} disabledReason={draft.readOnly ?? (addable(references, libraries).length ? null : t('library.allAdded'))} onClick={() => void add()}>
+          <Button
+            variant="quiet"
+            icon={Plus}
+            disabledReason={draft.readOnly ?? (addable(references, libraries).length ? null : t('library.allAdded'))}
+            onClick={() => void add()}
+          >
             {t('library.add')}
           </Button>
-          <IconButton icon={Pencil} label={t('library.properties')} disabledReason={draft.readOnly ?? none} onClick={() => void edit()} />
-          <IconButton icon={Trash2} label={t('library.remove')} shortcut="Del" disabledReason={draft.readOnly ?? none} onClick={remove} />
+          <IconButton
+            icon={Pencil}
+            label={t('library.properties')}
+            disabledReason={draft.readOnly ?? none}
+            onClick={() => void edit()}
+          />
+          <IconButton
+            icon={Trash2}
+            label={t('library.remove')}
+            shortcut="Del"
+            disabledReason={draft.readOnly ?? none}
+            onClick={remove}
+          />
         </div>
         <div className={styles.table}>
           <Table
@@ -114,9 +163,18 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
       <div className={styles.lower}>
         <div className={styles.contents}>
           {summary ? (
-            <LibraryTree key={summary.name} label={t('library.contents', { name: summary.name })} libraries={[summary]} flat onChoose={(library, item) => setShown({ library, item })} />
+            <LibraryTree
+              key={summary.name}
+              label={t('library.contents', { name: summary.name })}
+              libraries={[summary]}
+              flat
+              onChoose={(library, item) => setShown({ library, item })}
+            />
           ) : (
-            <Empty title={chosen ? t('library.missing') : t('library.chooseOne')} text={chosen ? t('library.missingText', { name: chosen.name }) : undefined} />
+            <Empty
+              title={chosen ? t('library.missing') : t('library.chooseOne')}
+              text={chosen ? t('library.missingText', { name: chosen.name }) : undefined}
+            />
           )}
         </div>
         <ItemDoc library={shown?.library ?? null} item={shown && shown.library === summary?.name ? shown.item : null} />

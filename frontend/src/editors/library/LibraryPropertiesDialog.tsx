@@ -24,7 +24,10 @@ export function LibraryPropertiesDialog({ reference, at, references, installed, 
     .filter((library) => library.name === reference.name)
     .map((library) => library.version)
     .sort((a, b) => compareVersions(b, a));
-  const choices = [...new Set(['*', reference.version, ...versions])].map((value) => ({ value, text: value === '*' ? t('library.newest') : value }));
+  const choices = [...new Set(['*', reference.version, ...versions])].map((value) => ({
+    value,
+    text: value === '*' ? t('library.newest') : value,
+  }));
   return (
     <Dialog
       title={t('library.propertiesOf', { name: reference.name })}
@@ -41,9 +44,19 @@ export function LibraryPropertiesDialog({ reference, at, references, installed, 
       }
     >
       <Field label={t('library.namespace')} error={fault && t(fault)} hint={t('library.namespaceHint')}>
-        {(attributes) => <TextInput {...attributes} className="code" value={namespace} placeholder={namespaceOf({ ...reference, namespace: '' }, installed)} onValue={setNamespace} />}
+        {(attributes) => (
+          <TextInput
+            {...attributes}
+            className="code"
+            value={namespace}
+            placeholder={namespaceOf({ ...reference, namespace: '' }, installed)}
+            onValue={setNamespace}
+          />
+        )}
       </Field>
-      <Field label={t('library.version')}>{(attributes) => <Select {...attributes} value={version} choices={choices} onValue={setVersion} />}</Field>
+      <Field label={t('library.version')}>
+        {(attributes) => <Select {...attributes} value={version} choices={choices} onValue={setVersion} />}
+      </Field>
     </Dialog>
   );
 }

@@ -26,15 +26,25 @@ export function namespaceOf(reference: LibraryReference, installed: readonly Lib
 }
 
 /** What is wrong with a namespace, or null. */
-export function namespaceFault(namespace: string, at: number, references: readonly LibraryReference[], installed: readonly LibrarySummary[]): TextKey | null {
+export function namespaceFault(
+  namespace: string,
+  at: number,
+  references: readonly LibraryReference[],
+  installed: readonly LibrarySummary[],
+): TextKey | null {
   if (namespace === '') return null;
   if (!/^[A-Za-z_][A-Za-z0-9_]*$/.test(namespace)) return 'library.namespaceFault';
-  const taken = references.some((other, index) => index !== at && namespaceOf(other, installed).toUpperCase() === namespace.toUpperCase());
+  const taken = references.some(
+    (other, index) => index !== at && namespaceOf(other, installed).toUpperCase() === namespace.toUpperCase(),
+  );
   return taken ? 'library.namespaceTaken' : null;
 }
 
 /** Installed libraries that are not referenced yet (LIB-09), each once with its newest version. */
-export function addable(references: readonly LibraryReference[], installed: readonly LibrarySummary[]): LibrarySummary[] {
+export function addable(
+  references: readonly LibraryReference[],
+  installed: readonly LibrarySummary[],
+): LibrarySummary[] {
   const taken = new Set(references.map((reference) => reference.name.toUpperCase()));
   const newest = new Map<string, LibrarySummary>();
   for (const library of installed) {

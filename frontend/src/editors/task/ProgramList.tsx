@@ -31,7 +31,8 @@ export function ProgramList({ pous, programs, readOnly, onChange }: ProgramListP
   const known = (name: string) => programs.find((program) => program.name.toUpperCase() === name.toUpperCase());
   const none = selected ? null : t('task.chooseProgram');
 
-  const pick = async (title: string) => openDialog<string>((close) => <ProgramPicker title={title} programs={programs} close={close} />);
+  const pick = async (title: string) =>
+    openDialog<string>((close) => <ProgramPicker title={title} programs={programs} close={close} />);
   const add = async () => {
     const name = await pick(t('task.addProgram'));
     if (!name) return;
@@ -70,18 +71,52 @@ export function ProgramList({ pous, programs, readOnly, onChange }: ProgramListP
         <Button icon={Plus} disabledReason={readOnly} onClick={() => void add()}>
           {t('task.addProgram')}
         </Button>
-        <IconButton icon={Replace} label={t('task.replaceProgram')} disabledReason={readOnly ?? none} onClick={() => void replace()} />
-        <IconButton icon={SquareArrowOutUpRight} label={t('task.openProgram')} shortcut="Enter" disabledReason={none ?? (known(selected!.name) ? null : t('task.unknownProgram'))} onClick={open} />
-        <IconButton icon={ArrowUp} label={t('action.moveUp')} shortcut="Alt+↑" disabledReason={readOnly ?? none ?? (at > 0 ? null : t('reason.first'))} onClick={() => move(-1)} />
-        <IconButton icon={ArrowDown} label={t('action.moveDown')} shortcut="Alt+↓" disabledReason={readOnly ?? none ?? (at < pous.length - 1 ? null : t('reason.last'))} onClick={() => move(1)} />
-        <IconButton icon={Trash2} label={t('task.removeProgram')} shortcut="Del" disabledReason={readOnly ?? none} onClick={remove} />
+        <IconButton
+          icon={Replace}
+          label={t('task.replaceProgram')}
+          disabledReason={readOnly ?? none}
+          onClick={() => void replace()}
+        />
+        <IconButton
+          icon={SquareArrowOutUpRight}
+          label={t('task.openProgram')}
+          shortcut="Enter"
+          disabledReason={none ?? (known(selected!.name) ? null : t('task.unknownProgram'))}
+          onClick={open}
+        />
+        <IconButton
+          icon={ArrowUp}
+          label={t('action.moveUp')}
+          shortcut="Alt+↑"
+          disabledReason={readOnly ?? none ?? (at > 0 ? null : t('reason.first'))}
+          onClick={() => move(-1)}
+        />
+        <IconButton
+          icon={ArrowDown}
+          label={t('action.moveDown')}
+          shortcut="Alt+↓"
+          disabledReason={readOnly ?? none ?? (at < pous.length - 1 ? null : t('reason.last'))}
+          onClick={() => move(1)}
+        />
+        <IconButton
+          icon={Trash2}
+          label={t('task.removeProgram')}
+          shortcut="Del"
+          disabledReason={readOnly ?? none}
+          onClick={remove}
+        />
       </div>
       <div className={styles.table} role="listbox" aria-label={t('task.programs')} tabIndex={0} onKeyDown={onKeyDown}>
-        {pous.length === 0 && (
-          <Empty title={t('task.noPrograms')} text={t('task.noProgramsText')} />
-        )}
+        {pous.length === 0 && <Empty title={t('task.noPrograms')} text={t('task.noProgramsText')} />}
         {pous.map((pou, index) => (
-          <div key={`${index}:${pou.name}`} role="option" aria-selected={index === at} className={styles.row} onMouseDown={() => setChosen(index)} onDoubleClick={open}>
+          <div
+            key={`${index}:${pou.name}`}
+            role="option"
+            aria-selected={index === at}
+            className={styles.row}
+            onMouseDown={() => setChosen(index)}
+            onDoubleClick={open}
+          >
             <span className={styles.number}>{index + 1}</span>
             <ProgramIcon />
             <span className={styles.name}>{pou.name}</span>
@@ -97,7 +132,11 @@ export function ProgramList({ pous, programs, readOnly, onChange }: ProgramListP
               placeholder={readOnly ? '' : t('task.commentHint')}
               disabled={readOnly !== null}
               onDoubleClick={(event) => event.stopPropagation()}
-              onChange={(event) => onChange(pous.map((other, place) => (place === index ? { ...other, comment: event.target.value } : other)))}
+              onChange={(event) =>
+                onChange(
+                  pous.map((other, place) => (place === index ? { ...other, comment: event.target.value } : other)),
+                )
+              }
             />
           </div>
         ))}

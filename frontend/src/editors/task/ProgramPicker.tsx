@@ -61,7 +61,14 @@ export function ProgramPicker({ title, programs, close }: ProgramPickerProps) {
         <div className={styles.table} style={{ height: 220 }} role="listbox" aria-label={title}>
           {hits.length === 0 && <Empty title={t(programs.length ? 'palette.none' : 'task.noProgramYet')} />}
           {hits.map(({ entry }, index) => (
-            <div key={entry.id} role="option" aria-selected={index === at} className={styles.row} onMouseDown={() => setAt(index)} onDoubleClick={() => close(entry.name)}>
+            <div
+              key={entry.id}
+              role="option"
+              aria-selected={index === at}
+              className={styles.row}
+              onMouseDown={() => setAt(index)}
+              onDoubleClick={() => close(entry.name)}
+            >
               <ProgramIcon />
               {entry.name}
             </div>

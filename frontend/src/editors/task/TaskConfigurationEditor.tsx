@@ -37,16 +37,38 @@ export default function TaskConfigurationEditor({ projectId, objectId }: EditorP
   const application = objects && ancestorOfKind(objects, objectId, 'application');
   const session = useOnline((state) => (application ? state.sessions[application.id] : undefined));
   if (!objects) return <Loading />;
-  const pages = [{ id: 'properties', title: t('taskConfiguration.properties'), content: <Overview projectId={projectId} objectId={objectId} objects={objects} /> }];
-  if (session) pages.push({ id: 'monitoring', title: t('taskConfiguration.monitoring'), content: <TaskTable runtimeId={session.runtimeId} /> });
+  const pages = [
+    {
+      id: 'properties',
+      title: t('taskConfiguration.properties'),
+      content: <Overview projectId={projectId} objectId={objectId} objects={objects} />,
+    },
+  ];
+  if (session)
+    pages.push({
+      id: 'monitoring',
+      title: t('taskConfiguration.monitoring'),
+      content: <TaskTable runtimeId={session.runtimeId} />,
+    });
   return <Tabs key={session ? 'online' : 'offline'} pages={pages} initial={session ? 'monitoring' : 'properties'} />;
 }
 
-function Overview({ projectId, objectId, objects }: { projectId: string; objectId: string; objects: readonly ObjectSummary[] }) {
+function Overview({
+  projectId,
+  objectId,
+  objects,
+}: {
+  projectId: string;
+  objectId: string;
+  objects: readonly ObjectSummary[];
+}) {
   const t = useText();
   const [selected, setSelected] = useState<string | null>(null);
   const tasks = useMemo(
-    () => objects.filter((object) => object.parent_id === objectId && object.kind === 'task').sort((a, b) => a.index - b.index),
+    () =>
+      objects
+        .filter((object) => object.parent_id === objectId && object.kind === 'task')
+        .sort((a, b) => a.index - b.index),
     [objects, objectId],
   );
   const data = useQueries({
@@ -60,13 +82,45 @@ function Overview({ projectId, objectId, objects }: { projectId: string; objectI
   const allowed = mayEdit(useCommandContext());
   const refused = allowed === true ? null : reasonText(allowed);
   const add = () => void runCommand('project.addObject', { kind: 'task', parentId: objectId, view: 'devices' });
-  const when = ({ task }: TaskLine) => (!task ? '' : task.type === 'cyclic' ? task.interval : task.type === 'freewheeling' ? '' : task.event);
+  const when = ({ task }: TaskLine) =>
+    !task ? '' : task.type === 'cyclic' ? task.interval : task.type === 'freewheeling' ? '' : task.event;
   const columns: Column<TaskLine>[] = [
-    { id: 'name', title: t('tasks.task'), width: 150, sort: (line) => line.object.name, cell: (line) => <span>{line.object.name}</span> },
-    { id: 'priority', title: t('task.priority'), width: 80, align: 'right', sort: (line) => line.task?.priority ?? 99, cell: (line) => <span>{line.task?.priority}</span> },
-    { id: 'type', title: t('task.type'), width: 130, sort: (line) => line.task?.type ?? '', cell: (line) => <span>{line.task && t(`taskType.${line.task.type}`)}</span> },
-    { id: 'when', title: t('taskConfiguration.when'), width: 150, sort: (line) => intervalNs(when(line)) ?? 0, cell: (line) => <span className="code">{when(line)}</span> },
-    { id: 'programs', title: t('task.programs'), width: 200, grow: true, cell: (line) => <span>{line.task?.pous.map((pou) => pou.name).join(', ')}</span> },
+    {
+      id: 'name',
+      title: t('tasks.task'),
+      width: 150,
+      sort: (line) => line.object.name,
+      cell: (line) => <span>{line.object.name}</span>,
+    },
+    {
+      id: 'priority',
+      title: t('task.priority'),
+      width: 80,
+      align: 'right',
+      sort: (line) => line.task?.priority ?? 99,
+      cell: (line) => <span>{line.task?.priority}</span>,
+    },
+    {
+      id: 'type',
+      title: t('task.type'),
+      width: 130,
+      sort: (line) => line.task?.type ?? '',
+      cell: (line) => <span>{line.task && t(`taskType.${line.task.type}`)}</span>,
+    },
+    {
+      id: 'when',
+      title: t('taskConfiguration.when'),
+      width: 150,
+      sort: (line) => intervalNs(when(line)) ?? 0,
+      cell: (line) => <span className="code">{when(line)}</span>,
+    },
+    {
+      id: 'programs',
+      title: t('task.programs'),
+      width: 200,
+      grow: true,
+      cell: (line) => <span>{line.task?.pous.map((pou) => pou.name).join(', ')}</span>,
+    },
   ];
   return (
     <div className={styles.page}>
@@ -101,7 +155,9 @@ function Overview({ projectId, objectId, objects }: { projectId: string; objectI
             <dt>{t('taskConfiguration.priorities')}</dt>
             <dd>{t('taskConfiguration.prioritiesText')}</dd>
             <dt>{t('taskConfiguration.types')}</dt>
-            <dd>{(['cyclic', 'freewheeling', 'event', 'status'] as const).map((type) => t(`taskType.${type}`)).join(', ')}</dd>
+            <dd>
+              {(['cyclic', 'freewheeling', 'event', 'status'] as const).map((type) => t(`taskType.${type}`)).join(', ')}
+            </dd>
           </dl>
         </Section>
       </div>

@@ -26,7 +26,8 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
         const faults = taskFaults(task);
         const fault = (key: keyof typeof faults) => (faults[key] ? t(faults[key]) : null);
         const change = (changes: Partial<TaskData>) => draft.change({ ...task, ...changes });
-        const watchdog = (changes: Partial<TaskData['watchdog']>) => change({ watchdog: { ...task.watchdog, ...changes } });
+        const watchdog = (changes: Partial<TaskData['watchdog']>) =>
+          change({ watchdog: { ...task.watchdog, ...changes } });
         return (
           <>
             <h1 className={styles.title}>
@@ -61,7 +62,13 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                   )}
                 </Field>
                 {task.type === 'cyclic' && (
-                  <TimeField label={t('task.interval')} value={task.interval} error={fault('interval')} disabled={disabled} onValue={(interval) => change({ interval })} />
+                  <TimeField
+                    label={t('task.interval')}
+                    value={task.interval}
+                    error={fault('interval')}
+                    disabled={disabled}
+                    onValue={(interval) => change({ interval })}
+                  />
                 )}
                 {(task.type === 'event' || task.type === 'status' || task.type === 'external') && (
                   <Field row label={t('task.event')} error={fault('event')}>
@@ -81,13 +88,28 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
             </Section>
             <Section title={t('task.watchdog')}>
               <div className={styles.fields}>
-                <Checkbox checked={task.watchdog.enabled} disabled={disabled} onChecked={(enabled) => watchdog({ enabled })}>
+                <Checkbox
+                  checked={task.watchdog.enabled}
+                  disabled={disabled}
+                  onChecked={(enabled) => watchdog({ enabled })}
+                >
                   {t('task.watchdogEnable')}
                 </Checkbox>
                 {task.watchdog.enabled && (
                   <>
-                    <TimeField label={t('task.watchdogTime')} value={task.watchdog.time} error={fault('watchdogTime')} disabled={disabled} onValue={(time) => watchdog({ time })} />
-                    <Field row label={t('task.sensitivity')} hint={t('task.sensitivityHint')} error={fault('sensitivity')}>
+                    <TimeField
+                      label={t('task.watchdogTime')}
+                      value={task.watchdog.time}
+                      error={fault('watchdogTime')}
+                      disabled={disabled}
+                      onValue={(time) => watchdog({ time })}
+                    />
+                    <Field
+                      row
+                      label={t('task.sensitivity')}
+                      hint={t('task.sensitivityHint')}
+                      error={fault('sensitivity')}
+                    >
                       {(attributes) => (
                         <TextInput
                           {...attributes}
@@ -105,7 +127,12 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
               </div>
             </Section>
             <Section title={t('task.programs')}>
-              <ProgramList pous={task.pous} programs={callablePrograms(objects ?? [], objectId)} readOnly={draft.readOnly} onChange={(pous) => change({ pous })} />
+              <ProgramList
+                pous={task.pous}
+                programs={callablePrograms(objects ?? [], objectId)}
+                readOnly={draft.readOnly}
+                onChange={(pous) => change({ pous })}
+              />
             </Section>
           </>
         );

@@ -1,6 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import type { ObjectKind, ObjectSummary, TaskData } from '@/api/types';
-import { callablePrograms, canStore, intervalFrom, intervalNs, movedPou, taskFaults, timeLiteral, unitOf } from './model';
+import {
+  callablePrograms,
+  canStore,
+  intervalFrom,
+  intervalNs,
+  movedPou,
+  taskFaults,
+  timeLiteral,
+  unitOf,
+} from './model';
 
 const task = (changes: Partial<TaskData> = {}): TaskData => ({
   priority: 1,
@@ -17,7 +26,14 @@ describe('times', () => {
     expect(timeLiteral('T#1s500ms')).toBe(1_500_000_000);
     expect(timeLiteral('time#2m')).toBe(120e9);
     expect(timeLiteral('t#0.5ms')).toBe(500_000);
-    expect(['t#', 't#5', 't#5ms1s', '5ms', 'abc', 't#1s1s'].map(timeLiteral)).toEqual([null, null, null, null, null, null]);
+    expect(['t#', 't#5', 't#5ms1s', '5ms', 'abc', 't#1s1s'].map(timeLiteral)).toEqual([
+      null,
+      null,
+      null,
+      null,
+      null,
+      null,
+    ]);
   });
 
   it('are entered as numbers with a unit (tasks.md EX-04)', () => {
@@ -65,7 +81,14 @@ describe('programs', () => {
 
   it('are offered from the own application first, and not twice', () => {
     const object = (id: string, kind: ObjectKind, parent_id: string | null, name = id): ObjectSummary => ({
-      id, kind, parent_id, name, subkind: kind === 'pou' ? 'program' : null, index: 0, revision: 1, badges: [],
+      id,
+      kind,
+      parent_id,
+      name,
+      subkind: kind === 'pou' ? 'program' : null,
+      index: 0,
+      revision: 1,
+      badges: [],
     });
     const objects = [
       object('App', 'application', null),

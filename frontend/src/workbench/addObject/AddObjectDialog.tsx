@@ -109,7 +109,15 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
             const Icon = objectIcon(candidate.kind);
             const chosen = candidate.kind === rule.kind;
             return (
-              <button key={candidate.kind} type="button" role="radio" aria-checked={chosen} tabIndex={chosen ? 0 : -1} className={styles.kind} onClick={() => choose(candidate)}>
+              <button
+                key={candidate.kind}
+                type="button"
+                role="radio"
+                aria-checked={chosen}
+                tabIndex={chosen ? 0 : -1}
+                className={styles.kind}
+                onClick={() => choose(candidate)}
+              >
                 <Icon />
                 {t(`kind.${candidate.kind}`)}
               </button>
@@ -121,7 +129,12 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
           <Field label={t('addObject.name')} error={refused ?? (fault && t(fault.key, fault.values))}>
             {(attributes) =>
               fixed.length > 0 ? (
-                <Select {...attributes} value={name} choices={fixed.map((each) => ({ value: each, text: each }))} onValue={setName} />
+                <Select
+                  {...attributes}
+                  value={name}
+                  choices={fixed.map((each) => ({ value: each, text: each }))}
+                  onValue={setName}
+                />
               ) : (
                 <TextInput
                   {...attributes}
@@ -141,7 +154,15 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
               {rule.subkinds.map((each) => {
                 const Icon = objectIcon(rule.kind, each);
                 return (
-                  <button key={each} type="button" role="radio" aria-checked={each === subkind} tabIndex={each === subkind ? 0 : -1} className={styles.subkind} onClick={() => setSubkind(each)}>
+                  <button
+                    key={each}
+                    type="button"
+                    role="radio"
+                    aria-checked={each === subkind}
+                    tabIndex={each === subkind ? 0 : -1}
+                    className={styles.subkind}
+                    onClick={() => setSubkind(each)}
+                  >
                     <Icon />
                     {t(`subkind.${each as 'program'}`)}
                   </button>
@@ -158,7 +179,12 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
 
 /** Arrow keys walk through a group of radio buttons and choose as they go. */
 function walk(event: KeyboardEvent<HTMLElement>): void {
-  const step = event.key === 'ArrowDown' || event.key === 'ArrowRight' ? 1 : event.key === 'ArrowUp' || event.key === 'ArrowLeft' ? -1 : 0;
+  const step =
+    event.key === 'ArrowDown' || event.key === 'ArrowRight'
+      ? 1
+      : event.key === 'ArrowUp' || event.key === 'ArrowLeft'
+        ? -1
+        : 0;
   if (!step) return;
   event.preventDefault();
   const buttons = [...event.currentTarget.querySelectorAll<HTMLButtonElement>('[role="radio"]')];

@@ -20,7 +20,9 @@ describe('declarations of new objects', () => {
 
   it('write methods without a type, and their access', () => {
     expect(declarationOf('method', undefined, 'M', { access: 'PRIVATE' })).toBe('METHOD PRIVATE M\nVAR_INPUT\nEND_VAR');
-    expect(declarationOf('method', undefined, 'M', { returns: 'BOOL', access: 'PUBLIC' })).toBe('METHOD M : BOOL\nVAR_INPUT\nEND_VAR');
+    expect(declarationOf('method', undefined, 'M', { returns: 'BOOL', access: 'PUBLIC' })).toBe(
+      'METHOD M : BOOL\nVAR_INPUT\nEND_VAR',
+    );
   });
 
   it('offer the options that count', () => {

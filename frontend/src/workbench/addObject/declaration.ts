@@ -15,7 +15,12 @@ export interface ObjectOptions {
  * The declaration for a new object, or null where no option differs from the template and the server's text will do.
  * Options left empty count as not given.
  */
-export function declarationOf(kind: ObjectKind, subkind: string | undefined, name: string, options: ObjectOptions): string | null {
+export function declarationOf(
+  kind: ObjectKind,
+  subkind: string | undefined,
+  name: string,
+  options: ObjectOptions,
+): string | null {
   const base = options.extends?.trim();
   const interfaces = options.implements?.trim();
   const returns = options.returns?.trim();

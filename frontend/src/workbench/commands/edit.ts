@@ -1,11 +1,24 @@
-import { ClipboardPaste, Copy, Redo2, Replace, Save, SaveAll, Scissors, Search, TextCursorInput, Trash2, Undo2 } from 'lucide-react';
+import {
+  ClipboardPaste,
+  Copy,
+  Redo2,
+  Replace,
+  Save,
+  SaveAll,
+  Scissors,
+  Search,
+  TextCursorInput,
+  Trash2,
+  Undo2,
+} from 'lucide-react';
 import { registerCommands, useRegistry, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
 import { saveEditors } from '../docking/close';
 import { mayEdit } from '../rights';
 import { useTree } from '../tree/state';
 
-const somethingSelected = (context: CommandContext): Enablement => (context.selection.length > 0 ? true : 'reason.nothingSelected');
+const somethingSelected = (context: CommandContext): Enablement =>
+  context.selection.length > 0 ? true : 'reason.nothingSelected';
 
 /** Cut, delete and rename change the project when a tree has the focus; in an editor they are the editor's affair. */
 const editsSelection = (context: CommandContext): Enablement => {
@@ -19,15 +32,86 @@ function inTree(context: CommandContext): boolean {
 }
 
 const commands: Command[] = [
-  { id: 'edit.undo', title: 'command.undo', icon: Undo2, keys: ['Ctrl+Z'], delegated: true, menu: { menu: 'edit', group: '1_undo', order: 1 } },
-  { id: 'edit.redo', title: 'command.redo', icon: Redo2, keys: ['Ctrl+Y', 'Ctrl+Shift+Z'], delegated: true, menu: { menu: 'edit', group: '1_undo', order: 2 } },
-  { id: 'edit.cut', title: 'command.cut', icon: Scissors, keys: ['Ctrl+X'], scope: 'tree', delegated: true, enabled: editsSelection, menu: { menu: 'edit', group: '2_clipboard', order: 1 } },
-  { id: 'edit.copy', title: 'command.copy', icon: Copy, keys: ['Ctrl+C'], scope: 'tree', delegated: true, enabled: (context) => (inTree(context) ? somethingSelected(context) : true), menu: { menu: 'edit', group: '2_clipboard', order: 2 } },
-  { id: 'edit.paste', title: 'command.paste', icon: ClipboardPaste, keys: ['Ctrl+V'], scope: 'tree', delegated: true, enabled: (context) => (inTree(context) ? mayEdit(context) : true), menu: { menu: 'edit', group: '2_clipboard', order: 3 } },
-  { id: 'edit.delete', title: 'command.delete', icon: Trash2, keys: ['Del'], scope: 'tree', delegated: true, enabled: editsSelection, menu: { menu: 'edit', group: '2_clipboard', order: 4 } },
-  { id: 'edit.selectAll', title: 'command.selectAll', keys: ['Ctrl+A'], scope: 'tree', delegated: true, menu: { menu: 'edit', group: '2_clipboard', order: 5 } },
-  { id: 'edit.find', title: 'command.find', icon: Search, keys: ['Ctrl+F'], delegated: true, menu: { menu: 'edit', group: '3_find', order: 1 } },
-  { id: 'edit.replace', title: 'command.replace', icon: Replace, keys: ['Ctrl+H'], delegated: true, menu: { menu: 'edit', group: '3_find', order: 2 } },
+  {
+    id: 'edit.undo',
+    title: 'command.undo',
+    icon: Undo2,
+    keys: ['Ctrl+Z'],
+    delegated: true,
+    menu: { menu: 'edit', group: '1_undo', order: 1 },
+  },
+  {
+    id: 'edit.redo',
+    title: 'command.redo',
+    icon: Redo2,
+    keys: ['Ctrl+Y', 'Ctrl+Shift+Z'],
+    delegated: true,
+    menu: { menu: 'edit', group: '1_undo', order: 2 },
+  },
+  {
+    id: 'edit.cut',
+    title: 'command.cut',
+    icon: Scissors,
+    keys: ['Ctrl+X'],
+    scope: 'tree',
+    delegated: true,
+    enabled: editsSelection,
+    menu: { menu: 'edit', group: '2_clipboard', order: 1 },
+  },
+  {
+    id: 'edit.copy',
+    title: 'command.copy',
+    icon: Copy,
+    keys: ['Ctrl+C'],
+    scope: 'tree',
+    delegated: true,
+    enabled: (context) => (inTree(context) ? somethingSelected(context) : true),
+    menu: { menu: 'edit', group: '2_clipboard', order: 2 },
+  },
+  {
+    id: 'edit.paste',
+    title: 'command.paste',
+    icon: ClipboardPaste,
+    keys: ['Ctrl+V'],
+    scope: 'tree',
+    delegated: true,
+    enabled: (context) => (inTree(context) ? mayEdit(context) : true),
+    menu: { menu: 'edit', group: '2_clipboard', order: 3 },
+  },
+  {
+    id: 'edit.delete',
+    title: 'command.delete',
+    icon: Trash2,
+    keys: ['Del'],
+    scope: 'tree',
+    delegated: true,
+    enabled: editsSelection,
+    menu: { menu: 'edit', group: '2_clipboard', order: 4 },
+  },
+  {
+    id: 'edit.selectAll',
+    title: 'command.selectAll',
+    keys: ['Ctrl+A'],
+    scope: 'tree',
+    delegated: true,
+    menu: { menu: 'edit', group: '2_clipboard', order: 5 },
+  },
+  {
+    id: 'edit.find',
+    title: 'command.find',
+    icon: Search,
+    keys: ['Ctrl+F'],
+    delegated: true,
+    menu: { menu: 'edit', group: '3_find', order: 1 },
+  },
+  {
+    id: 'edit.replace',
+    title: 'command.replace',
+    icon: Replace,
+    keys: ['Ctrl+H'],
+    delegated: true,
+    menu: { menu: 'edit', group: '3_find', order: 2 },
+  },
   {
     id: 'edit.rename',
     title: 'command.rename',

@@ -11,8 +11,10 @@ import { allOf, atLeast } from '../rights';
 const application = (context: CommandContext): Enablement =>
   !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication';
 const idle = (context: CommandContext): Enablement => (context.busy ? 'reason.busy' : true);
-const engineer = (context: CommandContext): Enablement => (atLeast(context.role, 'engineer') ? true : 'reason.engineer');
-const operator = (context: CommandContext): Enablement => (atLeast(context.role, 'operator') ? true : 'reason.operator');
+const engineer = (context: CommandContext): Enablement =>
+  atLeast(context.role, 'engineer') ? true : 'reason.engineer';
+const operator = (context: CommandContext): Enablement =>
+  atLeast(context.role, 'operator') ? true : 'reason.operator';
 const online = (context: CommandContext): Enablement => (context.online ? true : 'reason.notLoggedIn');
 const offline = (context: CommandContext): Enablement => (context.online ? 'reason.loggedIn' : true);
 const connected = (context: CommandContext): Enablement =>
@@ -28,7 +30,8 @@ const notRunning = (context: CommandContext): Enablement => {
   return state(context) === 'exception' ? 'reason.exception' : true;
 };
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
-const changed = (context: CommandContext): Enablement => (context.online?.relation === 'same' ? 'reason.nothingChanged' : true);
+const changed = (context: CommandContext): Enablement =>
+  context.online?.relation === 'same' ? 'reason.nothingChanged' : true;
 
 async function askedReset(context: CommandContext, kind: 'warm' | 'cold' | 'origin'): Promise<void> {
   const sure = await confirm({
@@ -53,8 +56,22 @@ const commands: Command[] = [
       await build(context);
     },
   },
-  { id: 'build.nextMessage', title: 'command.nextMessage', keys: ['F4'], menu: { menu: 'build', group: '2_messages', order: 1 }, enabled: hasMessages, run: () => stepMessage(1) },
-  { id: 'build.previousMessage', title: 'command.previousMessage', keys: ['Shift+F4'], menu: { menu: 'build', group: '2_messages', order: 2 }, enabled: hasMessages, run: () => stepMessage(-1) },
+  {
+    id: 'build.nextMessage',
+    title: 'command.nextMessage',
+    keys: ['F4'],
+    menu: { menu: 'build', group: '2_messages', order: 1 },
+    enabled: hasMessages,
+    run: () => stepMessage(1),
+  },
+  {
+    id: 'build.previousMessage',
+    title: 'command.previousMessage',
+    keys: ['Shift+F4'],
+    menu: { menu: 'build', group: '2_messages', order: 2 },
+    enabled: hasMessages,
+    run: () => stepMessage(-1),
+  },
   {
     id: 'online.login',
     title: 'command.login',
@@ -62,7 +79,7 @@ const commands: Command[] = [
     keys: ['Alt+F8'],
     menu: { menu: 'online', group: '1_session', order: 1 },
     toolbar: { group: '2_online', order: 1 },
-    enabled: (context) => allOf(application(context), offline(context), engineer(context), idle(context)),
+    enabled: (context) => allOf(application(context), offline(context), idle(context)),
     run: login,
   },
   {
@@ -89,7 +106,8 @@ const commands: Command[] = [
     title: 'command.onlineChange',
     icon: Zap,
     menu: { menu: 'online', group: '2_load', order: 2 },
-    enabled: (context) => allOf(online(context), connected(context), engineer(context), changed(context), idle(context)),
+    enabled: (context) =>
+      allOf(online(context), connected(context), engineer(context), changed(context), idle(context)),
     run: onlineChange,
   },
   ...(['warm', 'cold', 'origin'] as const).map((kind, at): Command => ({

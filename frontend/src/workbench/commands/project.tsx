@@ -59,7 +59,15 @@ const commands: Command[] = [
       }
       const { kind, parentId, view } = order;
       const created = await openDialog<ProjectObject>((close) => (
-        <AddObjectDialog projectId={projectId} forest={forest} rules={rules} view={view} parentId={parentId} kind={kind} close={close} />
+        <AddObjectDialog
+          projectId={projectId}
+          forest={forest}
+          rules={rules}
+          view={view}
+          parentId={parentId}
+          kind={kind}
+          close={close}
+        />
       ));
       if (!created) return;
       showInTree(projectId, created.id);
@@ -99,7 +107,9 @@ const commands: Command[] = [
     enabled: (context) => (context.projectId ? true : 'reason.noProject'),
     run: async (context) => {
       const object = context.selection.length === 1 ? context.selection[0]! : null;
-      await openDialog((close) => <HistoryDialog projectId={context.projectId!} object={object} close={() => close()} />);
+      await openDialog((close) => (
+        <HistoryDialog projectId={context.projectId!} object={object} close={() => close()} />
+      ));
     },
   },
   {

@@ -41,7 +41,12 @@ function panelCommands(): Command[] {
     titleValues: panel.titleValues,
     icon: panel.icon,
     keys: panel.keys,
-    menu: { menu: 'view', group: `${{ left: 1, right: 2, bottom: 3 }[panel.position]}_${panel.position}`, order: panel.order, submenu: panel.submenu },
+    menu: {
+      menu: 'view',
+      group: `${{ left: 1, right: 2, bottom: 3 }[panel.position]}_${panel.position}`,
+      order: panel.order,
+      submenu: panel.submenu,
+    },
     checked: () => dockApi()?.getPanel(panel.id) !== undefined,
     run: () => showPanel(panel.id),
   }));

@@ -1,4 +1,13 @@
-import { ArrowLeftToLine, ArrowRightToLine, Columns2, ExternalLink, PanelsTopLeft, PictureInPicture2, Rows2, X } from 'lucide-react';
+import {
+  ArrowLeftToLine,
+  ArrowRightToLine,
+  Columns2,
+  ExternalLink,
+  PanelsTopLeft,
+  PictureInPicture2,
+  Rows2,
+  X,
+} from 'lucide-react';
 import { registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
 import { closeEditors } from '../docking/close';
@@ -32,8 +41,24 @@ function step(by: 1 | -1): void {
 }
 
 const commands: Command[] = [
-  { id: 'window.next', title: 'command.nextEditor', icon: ArrowRightToLine, keys: ['Ctrl+F6', 'Alt+PageDown'], menu: { menu: 'window', group: '1_go', order: 1 }, enabled: someEditor, run: () => step(1) },
-  { id: 'window.previous', title: 'command.previousEditor', icon: ArrowLeftToLine, keys: ['Ctrl+Shift+F6', 'Alt+PageUp'], menu: { menu: 'window', group: '1_go', order: 2 }, enabled: someEditor, run: () => step(-1) },
+  {
+    id: 'window.next',
+    title: 'command.nextEditor',
+    icon: ArrowRightToLine,
+    keys: ['Ctrl+F6', 'Alt+PageDown'],
+    menu: { menu: 'window', group: '1_go', order: 1 },
+    enabled: someEditor,
+    run: () => step(1),
+  },
+  {
+    id: 'window.previous',
+    title: 'command.previousEditor',
+    icon: ArrowLeftToLine,
+    keys: ['Ctrl+Shift+F6', 'Alt+PageUp'],
+    menu: { menu: 'window', group: '1_go', order: 2 },
+    enabled: someEditor,
+    run: () => step(-1),
+  },
   {
     id: 'window.close',
     title: 'command.closeEditor',
@@ -54,14 +79,52 @@ const commands: Command[] = [
       await closeEditors(useSelection.getState().editors.map((editor) => editor.panelId));
     },
   },
-  { id: 'window.splitRight', title: 'command.splitRight', icon: Columns2, keys: ['Ctrl+\\'], menu: { menu: 'window', group: '3_place', order: 1 }, enabled: severalInGroup, run: (context) => act(context, (api, id) => splitPanel(api, id, 'right')) },
-  { id: 'window.splitDown', title: 'command.splitDown', icon: Rows2, menu: { menu: 'window', group: '3_place', order: 2 }, enabled: severalInGroup, run: (context) => act(context, (api, id) => splitPanel(api, id, 'below')) },
-  { id: 'window.float', title: 'command.float', icon: PictureInPicture2, menu: { menu: 'window', group: '3_place', order: 3 }, enabled: somePanel, run: (context) => act(context, floatPanel) },
-  { id: 'window.popOut', title: 'command.popOut', icon: ExternalLink, menu: { menu: 'window', group: '3_place', order: 4 }, enabled: somePanel, run: (context) => act(context, popOutPanel) },
-  { id: 'window.resetLayout', title: 'command.resetLayout', icon: PanelsTopLeft, menu: { menu: 'window', group: '4_layout' }, run: () => resetLayout() },
+  {
+    id: 'window.splitRight',
+    title: 'command.splitRight',
+    icon: Columns2,
+    keys: ['Ctrl+\\'],
+    menu: { menu: 'window', group: '3_place', order: 1 },
+    enabled: severalInGroup,
+    run: (context) => act(context, (api, id) => splitPanel(api, id, 'right')),
+  },
+  {
+    id: 'window.splitDown',
+    title: 'command.splitDown',
+    icon: Rows2,
+    menu: { menu: 'window', group: '3_place', order: 2 },
+    enabled: severalInGroup,
+    run: (context) => act(context, (api, id) => splitPanel(api, id, 'below')),
+  },
+  {
+    id: 'window.float',
+    title: 'command.float',
+    icon: PictureInPicture2,
+    menu: { menu: 'window', group: '3_place', order: 3 },
+    enabled: somePanel,
+    run: (context) => act(context, floatPanel),
+  },
+  {
+    id: 'window.popOut',
+    title: 'command.popOut',
+    icon: ExternalLink,
+    menu: { menu: 'window', group: '3_place', order: 4 },
+    enabled: somePanel,
+    run: (context) => act(context, popOutPanel),
+  },
+  {
+    id: 'window.resetLayout',
+    title: 'command.resetLayout',
+    icon: PanelsTopLeft,
+    menu: { menu: 'window', group: '4_layout' },
+    run: () => resetLayout(),
+  },
 ];
 
-function act(context: CommandContext, run: (api: NonNullable<ReturnType<typeof dockApi>>, id: string) => void | Promise<void>): void | Promise<void> {
+function act(
+  context: CommandContext,
+  run: (api: NonNullable<ReturnType<typeof dockApi>>, id: string) => void | Promise<void>,
+): void | Promise<void> {
   const api = dockApi();
   const id = target(context);
   return api && id ? run(api, id) : undefined;

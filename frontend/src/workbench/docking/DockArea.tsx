@@ -1,4 +1,10 @@
-import { DockviewReact, type DockviewApi, type DockviewReadyEvent, type DockviewTheme, type SerializedDockview } from 'dockview-react';
+import {
+  DockviewReact,
+  type DockviewApi,
+  type DockviewReadyEvent,
+  type DockviewTheme,
+  type SerializedDockview,
+} from 'dockview-react';
 import 'dockview-react/dist/styles/dockview.css';
 import { useEffect, useMemo, useState } from 'react';
 import { saveSetting, usePreferences } from '@/app/preferences';
@@ -27,7 +33,14 @@ interface DockAreaProps {
 export function DockArea({ projectId, layout }: DockAreaProps) {
   const shown = usePreferences((state) => state.shown);
   const theme = useMemo<DockviewTheme>(
-    () => ({ name: 'tappet', className: 'dockview-theme-tappet', colorScheme: shown, dndTabIndicator: 'line', dndPanelOverlay: 'group', tabGroupIndicator: 'none' }),
+    () => ({
+      name: 'tappet',
+      className: 'dockview-theme-tappet',
+      colorScheme: shown,
+      dndTabIndicator: 'line',
+      dndPanelOverlay: 'group',
+      tabGroupIndicator: 'none',
+    }),
     [shown],
   );
   const [api, setApi] = useState<DockviewApi | null>(null);

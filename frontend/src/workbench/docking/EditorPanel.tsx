@@ -42,7 +42,13 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
   }
   const registration = editorFor(object);
   if (!registration) {
-    return <Empty icon={FileQuestion} title={t('editor.none', { name: object.name })} text={t('editor.noneText', { kind: object.kind })} />;
+    return (
+      <Empty
+        icon={FileQuestion}
+        title={t('editor.none', { name: object.name })}
+        text={t('editor.noneText', { kind: object.kind })}
+      />
+    );
   }
   const Editor = registration.component;
   return (

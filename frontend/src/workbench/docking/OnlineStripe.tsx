@@ -28,7 +28,9 @@ export function OnlineStripe({ object, objects, instance }: OnlineStripeProps) {
       <span className={styles.path}>{path}</span>
       {isType && <span>{t('online.implementation')}</span>}
       <span className={styles.state}>
-        {tone === 'lost' && since ? t('online.lostSince', { time: new Date(since).toLocaleTimeString() }) : t(`online.tone.${tone}`)}
+        {tone === 'lost' && since
+          ? t('online.lostSince', { time: new Date(since).toLocaleTimeString() })
+          : t(`online.tone.${tone}`)}
       </span>
     </div>
   );

@@ -56,7 +56,12 @@ export function ToolTab(props: IDockviewPanelHeaderProps) {
   const Icon = registration.icon;
   const title = t(registration.title, registration.titleValues);
   return (
-    <TabFrame entries={() => panelEntries(props.containerApi, props.api.id)} onClose={() => props.api.close()} title={title} tool>
+    <TabFrame
+      entries={() => panelEntries(props.containerApi, props.api.id)}
+      onClose={() => props.api.close()}
+      title={title}
+      tool
+    >
       <Icon size={14} strokeWidth={1.75} aria-hidden />
       <span className={styles.title}>{title}</span>
       {registration.useBadge && <Badge registration={registration} />}

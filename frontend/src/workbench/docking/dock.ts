@@ -3,7 +3,13 @@
  *
  * `DockArea.tsx` hands the dockview API over when it is mounted; before that, calls do nothing.
  */
-import type { AddPanelOptions, DockviewApi, DockviewGroupPanel, IDockviewPanel, SerializedDockview } from 'dockview-react';
+import type {
+  AddPanelOptions,
+  DockviewApi,
+  DockviewGroupPanel,
+  IDockviewPanel,
+  SerializedDockview,
+} from 'dockview-react';
 import { t } from '@/i18n';
 import type { Reveal } from '../editors';
 import { defaultLayout, editorPanelId, type EditorParams } from './layout';
@@ -37,8 +43,7 @@ export function openObject(objectId: string, title: string, options: OpenOptions
   if (!api) return;
   const instance = options.instance ?? null;
   const focus = options.focus ?? true;
-  const reveal: Reveal | null =
-    options.place || focus ? { ...options.place, serial: ++serial, focus } : null;
+  const reveal: Reveal | null = options.place || focus ? { ...options.place, serial: ++serial, focus } : null;
   const id = editorPanelId(objectId, instance);
   const params: EditorParams = { objectId, instance, reveal };
   const open = api.getPanel(id);
@@ -54,7 +59,8 @@ export function openObject(objectId: string, title: string, options: OpenOptions
     tabComponent: 'editor',
     title,
     params,
-    position: options.beside && group?.panels.length ? { referenceGroup: group, direction: 'right' } : groupPosition(group),
+    position:
+      options.beside && group?.panels.length ? { referenceGroup: group, direction: 'right' } : groupPosition(group),
   });
 }
 
@@ -113,7 +119,9 @@ export function focusPanel(panel: IDockviewPanel): void {
 
 /** Where a tool panel goes: to its fellows of the same dock, else a new group at that edge. */
 function dockSpot(dock: DockviewApi, position: DockPosition): AddPanelOptions['position'] {
-  const fellow = dock.panels.find((panel) => findPanel(panel.id)?.position === position && panel.group.api.location.type === 'grid');
+  const fellow = dock.panels.find(
+    (panel) => findPanel(panel.id)?.position === position && panel.group.api.location.type === 'grid',
+  );
   if (fellow) return { referenceGroup: fellow.group, direction: 'within' };
   return { direction: position === 'bottom' ? 'below' : position };
 }
@@ -144,6 +152,7 @@ export function applyLayout(layout: SerializedDockview): void {
 export function closePanelsOf(objectIds: readonly string[]): void {
   const gone = new Set(objectIds);
   for (const panel of [...(api?.panels ?? [])]) {
-    if (panel.view.contentComponent === 'editor' && gone.has((panel.params as EditorParams).objectId)) panel.api.close();
+    if (panel.view.contentComponent === 'editor' && gone.has((panel.params as EditorParams).objectId))
+      panel.api.close();
   }
 }

@@ -19,7 +19,9 @@ export function followEditors(api: DockviewApi): () => void {
       return { panelId: panel.id, objectId, instance };
     });
     const { activeEditor } = useSelection.getState();
-    const active = editors.some((editor) => editor.panelId === activeEditor) ? activeEditor : (editors.at(-1)?.panelId ?? null);
+    const active = editors.some((editor) => editor.panelId === activeEditor)
+      ? activeEditor
+      : (editors.at(-1)?.panelId ?? null);
     useSelection.setState({ editors, activeEditor: active });
   };
   const activate = () => {
@@ -76,7 +78,12 @@ function dockOf(group: DockviewGroupPanel): 'left' | 'right' | 'bottom' | undefi
 /** A wider window gives its room to the editors: trees and lists keep their size. */
 export function keepDockSizes(api: DockviewApi): () => void {
   const onResize = () => {
-    const sizes = api.groups.map((group) => ({ group, dock: dockOf(group), width: group.api.width, height: group.api.height }));
+    const sizes = api.groups.map((group) => ({
+      group,
+      dock: dockOf(group),
+      width: group.api.width,
+      height: group.api.height,
+    }));
     requestAnimationFrame(() =>
       requestAnimationFrame(() => {
         for (const { group, dock, width, height } of sizes) {

@@ -3,11 +3,27 @@ import { describe, expect, it } from 'vitest';
 import type { PanelRegistration } from '../panels';
 import { defaultLayout, editorPanelId, restoreLayout } from './layout';
 
-const panel = (id: string, position: PanelRegistration['position'], initial = true): PanelRegistration =>
-  ({ id, position, initial, title: 'panel.messages', order: 1, icon: () => null, component: () => null });
-const PANELS = [panel('devices', 'left'), panel('pous', 'left'), panel('messages', 'bottom'), panel('doc', 'right', false)];
+const panel = (id: string, position: PanelRegistration['position'], initial = true): PanelRegistration => ({
+  id,
+  position,
+  initial,
+  title: 'panel.messages',
+  order: 1,
+  icon: () => null,
+  component: () => null,
+});
+const PANELS = [
+  panel('devices', 'left'),
+  panel('pous', 'left'),
+  panel('messages', 'bottom'),
+  panel('doc', 'right', false),
+];
 const SIZE = { width: 1400, height: 800 };
-const editor = (objectId: string) => ({ id: editorPanelId(objectId, null), title: objectId, params: { objectId, instance: null, reveal: null } });
+const editor = (objectId: string) => ({
+  id: editorPanelId(objectId, null),
+  title: objectId,
+  params: { objectId, instance: null, reveal: null },
+});
 const layout = () => defaultLayout(PANELS, (one) => one.id, SIZE, [editor('a'), editor('b')]);
 
 interface Leaf {
@@ -25,7 +41,10 @@ const groups = (dock: SerializedDockview) => {
   return found;
 };
 const restore = (dock: SerializedDockview, alive: string[], size = SIZE) =>
-  restoreLayout({ version: 1, dock }, { panelExists: (id) => PANELS.some((one) => one.id === id), objectExists: (id) => alive.includes(id), size })!;
+  restoreLayout(
+    { version: 1, dock },
+    { panelExists: (id) => PANELS.some((one) => one.id === id), objectExists: (id) => alive.includes(id), size },
+  )!;
 
 describe('the default layout', () => {
   it('has trees left, editors in the middle, lists below over the whole width', () => {
@@ -94,7 +113,14 @@ describe('a stored layout', () => {
   });
 
   it('of another version or shape is refused', () => {
-    for (const blob of [null, 5, {}, { version: 2, dock: layout() }, { version: 1, dock: { grid: null } }, { version: 1 }]) {
+    for (const blob of [
+      null,
+      5,
+      {},
+      { version: 2, dock: layout() },
+      { version: 1, dock: { grid: null } },
+      { version: 1 },
+    ]) {
       expect(restoreLayout(blob, { panelExists: () => true, objectExists: () => true, size: SIZE })).toBeNull();
     }
   });

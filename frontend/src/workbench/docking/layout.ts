@@ -41,7 +41,8 @@ export function defaultLayout(
   editors: readonly LayoutEditor[] = [],
 ): SerializedDockview {
   const initial = panels.filter((panel) => panel.initial);
-  const idsAt = (position: DockPosition) => initial.filter((panel) => panel.position === position).map((panel) => panel.id);
+  const idsAt = (position: DockPosition) =>
+    initial.filter((panel) => panel.position === position).map((panel) => panel.id);
   const leftWidth = idsAt('left').length ? LEFT_WIDTH : 0;
   const rightWidth = idsAt('right').length ? RIGHT_WIDTH : 0;
   const bottomHeight = idsAt('bottom').length ? Math.min(BOTTOM_HEIGHT, Math.round(size.height * 0.35)) : 0;
@@ -62,7 +63,13 @@ export function defaultLayout(
   ]);
   const open = editors.map((editor) => [
     editor.id,
-    { id: editor.id, contentComponent: 'editor', tabComponent: 'editor', title: editor.title, params: { ...editor.params } },
+    {
+      id: editor.id,
+      contentComponent: 'editor',
+      tabComponent: 'editor',
+      title: editor.title,
+      params: { ...editor.params },
+    },
   ]);
   return {
     grid: {
@@ -96,7 +103,10 @@ export interface LayoutWorld {
  * A stored layout made fit for use: panels that no longer exist and editors whose object is gone are taken out, and
  * docks keep their size in another window, the editors take what is left. Null when the blob is no layout of this version.
  */
-export function restoreLayout(stored: unknown, { panelExists, objectExists, size }: LayoutWorld): SerializedDockview | null {
+export function restoreLayout(
+  stored: unknown,
+  { panelExists, objectExists, size }: LayoutWorld,
+): SerializedDockview | null {
   if (typeof stored !== 'object' || stored === null) return null;
   const { version, dock } = stored as Partial<StoredLayout>;
   if (version !== 1 || typeof dock !== 'object' || !dock.grid?.root || !dock.panels) return null;
@@ -114,7 +124,12 @@ export function restoreLayout(stored: unknown, { panelExists, objectExists, size
   const { popoutGroups: _windows, ...rest } = dock;
   return {
     ...rest,
-    grid: { ...dock.grid, root: fitted(whole, dock.grid.orientation === VERTICAL, size), width: size.width, height: size.height },
+    grid: {
+      ...dock.grid,
+      root: fitted(whole, dock.grid.orientation === VERTICAL, size),
+      width: size.width,
+      height: size.height,
+    },
     panels: panels as SerializedDockview['panels'],
     floatingGroups: [...floating(dock.floatingGroups, gone), ...floating(dock.popoutGroups, gone)],
   };
@@ -188,7 +203,7 @@ const FLOAT = { left: 120, top: 80, width: 640, height: 420 };
  */
 function floating(groups: readonly (Floating | Window)[] | undefined, gone: ReadonlySet<string>): Floating[] {
   return (groups ?? []).flatMap((group): Floating[] => {
-    const position = 'gridReferenceGroup' in group || !group.position ? FLOAT : (group.position);
+    const position = 'gridReferenceGroup' in group || !group.position ? FLOAT : group.position;
     if (group.data) {
       const data = pruned(group.data, gone);
       return data.views.length ? [{ data, position }] : [];

@@ -10,7 +10,11 @@ const FLOAT_SIZE = { width: 640, height: 420 };
 export function floatPanel(api: DockviewApi, panelId: string): void {
   const panel = api.getPanel(panelId);
   if (!panel) return;
-  api.addFloatingGroup(panel, { ...FLOAT_SIZE, x: (api.width - FLOAT_SIZE.width) / 2, y: Math.max(20, (api.height - FLOAT_SIZE.height) / 3) });
+  api.addFloatingGroup(panel, {
+    ...FLOAT_SIZE,
+    x: (api.width - FLOAT_SIZE.width) / 2,
+    y: Math.max(20, (api.height - FLOAT_SIZE.height) / 3),
+  });
 }
 
 /** Takes a panel out into a browser window of its own, with the theme of this one. */
@@ -50,7 +54,12 @@ export function panelEntries(api: DockviewApi, panelId: string): MenuEntry[] {
   return [
     item('close', t('action.close'), () => void closeEditors([panelId])),
     item('others', t('tab.closeOthers'), () => void closeEditors(fellows.filter((id) => id !== panelId)), alone),
-    item('right', t('tab.closeRight'), () => void closeEditors(fellows.slice(at + 1)), at + 1 < fellows.length ? null : t('reason.lastTab')),
+    item(
+      'right',
+      t('tab.closeRight'),
+      () => void closeEditors(fellows.slice(at + 1)),
+      at + 1 < fellows.length ? null : t('reason.lastTab'),
+    ),
     item('all', t('tab.closeAll'), () => void closeEditors(fellows)),
     { kind: 'line', key: 'line-1' },
     item('split', t('command.splitRight'), () => splitPanel(api, panelId, 'right'), alone),

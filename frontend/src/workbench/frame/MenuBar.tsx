@@ -22,7 +22,11 @@ export function MenuBar() {
     <header className={styles.bar}>
       <div className={styles.left}>
         <Tooltip text={t('command.closeProject')}>
-          <button className={styles.mark} aria-label={t('command.closeProject')} onClick={() => void runCommand('file.closeProject')}>
+          <button
+            className={styles.mark}
+            aria-label={t('command.closeProject')}
+            onClick={() => void runCommand('file.closeProject')}
+          >
             <TappetMark />
           </button>
         </Tooltip>
@@ -31,7 +35,13 @@ export function MenuBar() {
             <Menubar.Menu key={menu.id}>
               <Menubar.Trigger className={styles.trigger}>{t(menu.title)}</Menubar.Trigger>
               <Menubar.Portal>
-                <Menubar.Content className={menuClass} align="start" sideOffset={4} alignOffset={-2} collisionPadding={8}>
+                <Menubar.Content
+                  className={menuClass}
+                  align="start"
+                  sideOffset={4}
+                  alignOffset={-2}
+                  collisionPadding={8}
+                >
                   <OpenMenu id={menu.id} />
                 </Menubar.Content>
               </Menubar.Portal>
@@ -39,7 +49,11 @@ export function MenuBar() {
           ))}
         </Menubar.Root>
       </div>
-      <button className={styles.finder} onClick={() => void runCommand('view.quickOpen')} aria-label={t('command.quickOpen')}>
+      <button
+        className={styles.finder}
+        onClick={() => void runCommand('view.quickOpen')}
+        aria-label={t('command.quickOpen')}
+      >
         <Search size={13} aria-hidden />
         <span>{name}</span>
       </button>
@@ -54,6 +68,9 @@ export function MenuBar() {
 /** The entries of a menu while it is open: made from the context at that moment. */
 function OpenMenu({ id }: { id: (typeof MENUS)[number]['id'] }) {
   const commands = useRegistry((state) => state.commands);
-  const entries: readonly MenuEntry[] = useMemo(() => menuEntries(commands.values(), id, commandContext()), [commands, id]);
+  const entries: readonly MenuEntry[] = useMemo(
+    () => menuEntries(commands.values(), id, commandContext()),
+    [commands, id],
+  );
   return <MenuItems parts={menubarParts} entries={entries} />;
 }

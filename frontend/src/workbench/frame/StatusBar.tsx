@@ -51,7 +51,12 @@ function RuntimeItem({ session }: { session: OnlineSession }) {
   const tone = toneOfApplication(session.applicationId, sessions) ?? 'unknown';
   const { runtime, lostSince } = session;
   const detail = [runtime?.exception?.message, runtime?.scheduling].filter(Boolean).join('\n') || undefined;
-  const state = lostSince !== null ? t('online.lostSince', { time: new Date(lostSince).toLocaleTimeString() }) : runtime ? runtimeText(runtime, t) : t('state.loading');
+  const state =
+    lostSince !== null
+      ? t('online.lostSince', { time: new Date(lostSince).toLocaleTimeString() })
+      : runtime
+        ? runtimeText(runtime, t)
+        : t('state.loading');
   return (
     <Tooltip text={`${runtime?.name ?? ''} · ${state}`} detail={detail} side="top">
       <span className={`${styles.item} ${styles.runtime}`} data-tone={tone}>
@@ -72,7 +77,11 @@ function TaskItem({ runtimeId }: { runtimeId: string }) {
   return (
     <Tooltip
       text={t('status.taskTitle', { name: task.name })}
-      detail={t('status.taskDetail', { mean: microsText(task.average_us), max: microsText(task.max_us), jitter: microsText(task.max_jitter_us) })}
+      detail={t('status.taskDetail', {
+        mean: microsText(task.average_us),
+        max: microsText(task.max_us),
+        jitter: microsText(task.max_jitter_us),
+      })}
       side="top"
     >
       <button className={styles.item} onClick={() => showPanel('tasks')}>
@@ -148,7 +157,12 @@ function BusyItem() {
       {busy.text}
       {busy.cancel && (
         <Tooltip text={t('action.cancel')} side="top">
-          <button className={styles.item} style={{ padding: '0 3px' }} aria-label={t('action.cancel')} onClick={busy.cancel}>
+          <button
+            className={styles.item}
+            style={{ padding: '0 3px' }}
+            aria-label={t('action.cancel')}
+            onClick={busy.cancel}
+          >
             <X size={13} />
           </button>
         </Tooltip>

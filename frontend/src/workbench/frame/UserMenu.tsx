@@ -35,7 +35,9 @@ export function UserMenu() {
       run: () => void guard(() => chooseLanguage(choice)),
     }));
     const command = (id: string, icon: typeof Sun): MenuEntry[] =>
-      findCommand(id) ? [{ kind: 'item', key: id, text: t(findCommand(id)!.title), icon, run: () => void runCommand(id) }] : [];
+      findCommand(id)
+        ? [{ kind: 'item', key: id, text: t(findCommand(id)!.title), icon, run: () => void runCommand(id) }]
+        : [];
     return [
       { kind: 'sub', key: 'theme', text: t('theme.label'), icon: THEME_ICONS[theme], entries: themes },
       { kind: 'sub', key: 'language', text: t('language.label'), icon: Languages, entries: languages },

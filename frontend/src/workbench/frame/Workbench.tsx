@@ -30,7 +30,10 @@ import styles from './Workbench.module.css';
 /** The whole frame around one open project. */
 export function Workbench({ projectId }: { projectId: string }) {
   const t = useText();
-  const project = useQuery({ queryKey: keys.project(projectId), queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`) });
+  const project = useQuery({
+    queryKey: keys.project(projectId),
+    queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`),
+  });
   const objects = useObjects(projectId);
   usePlacement();
   const failed = project.error ?? objects.error;
@@ -63,18 +66,29 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
   const projectId = project.id;
   const area = useRef<HTMLElement>(null);
   const [layout, setLayout] = useState<{ dock: SerializedDockview | null } | null>(null);
-  const activeEditor = useSelection((state) => state.editors.find((editor) => editor.panelId === state.activeEditor)?.objectId ?? null);
+  const activeEditor = useSelection(
+    (state) => state.editors.find((editor) => editor.panelId === state.activeEditor)?.objectId ?? null,
+  );
   useEffect(() => useProject.setState({ projectName: project.name }), [project.name]);
   useActiveApplication(projectId, objects);
 
   useEffect(() => {
     let gone = false;
     const start = async () => {
-      const [stored] = await Promise.all([loadSetting(`layout.${projectId}`).catch(() => null), startTree(projectId, objects)]);
+      const [stored] = await Promise.all([
+        loadSetting(`layout.${projectId}`).catch(() => null),
+        startTree(projectId, objects),
+      ]);
       const alive = new Set(objects.map((object) => object.id));
       if (gone) return;
       const size = { width: window.innerWidth, height: (area.current?.clientHeight ?? 0) || window.innerHeight };
-      setLayout({ dock: restoreLayout(stored, { panelExists: (id) => findPanel(id) !== undefined, objectExists: (id) => alive.has(id), size }) });
+      setLayout({
+        dock: restoreLayout(stored, {
+          panelExists: (id) => findPanel(id) !== undefined,
+          objectExists: (id) => alive.has(id),
+          size,
+        }),
+      });
     };
     void start();
     void rememberVisit(projectId);
@@ -100,7 +114,9 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
     <div className={styles.frame}>
       <MenuBar />
       <Toolbar />
-      <main ref={area} className={styles.dock}>{layout && <DockArea projectId={projectId} layout={layout.dock} />}</main>
+      <main ref={area} className={styles.dock}>
+        {layout && <DockArea projectId={projectId} layout={layout.dock} />}
+      </main>
       <StatusBar />
       <Palette />
     </div>
@@ -115,7 +131,8 @@ function useActiveApplication(projectId: string, objects: readonly ObjectSummary
     void loadSetting<string>(`application.${projectId}`)
       .catch(() => null)
       .then((stored) => {
-        if (stored && objects.some((object) => object.id === stored && object.kind === 'application')) useProject.setState({ applicationId: stored });
+        if (stored && objects.some((object) => object.id === stored && object.kind === 'application'))
+          useProject.setState({ applicationId: stored });
       });
     // eslint-disable-next-line react-hooks/exhaustive-deps -- the stored choice is read once per project
   }, [projectId]);
@@ -133,5 +150,7 @@ const RECENT = 12;
 async function rememberVisit(projectId: string): Promise<void> {
   const stored = await loadSetting<string[]>('recent').catch(() => null);
   const recent = Array.isArray(stored) ? stored : [];
-  await saveSetting('recent', [projectId, ...recent.filter((id) => id !== projectId)].slice(0, RECENT)).catch(() => undefined);
+  await saveSetting('recent', [projectId, ...recent.filter((id) => id !== projectId)].slice(0, RECENT)).catch(
+    () => undefined,
+  );
 }

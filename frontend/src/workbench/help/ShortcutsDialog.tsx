@@ -24,12 +24,36 @@ export function ShortcutsDialog({ close }: { close: () => void }) {
       .sort((a, b) => titleOf(a).localeCompare(titleOf(b)));
   }, [commands, search]);
   const columns: Column<Command>[] = [
-    { id: 'command', title: t('shortcuts.command'), width: 220, grow: true, sort: titleOf, cell: (command) => <span>{titleOf(command)}</span> },
-    { id: 'keys', title: t('shortcuts.keys'), width: 190, sort: (command) => command.keys![0]!, cell: (command) => <span>{command.keys!.map((keys) => keysText(keys)).join(', ')}</span> },
+    {
+      id: 'command',
+      title: t('shortcuts.command'),
+      width: 220,
+      grow: true,
+      sort: titleOf,
+      cell: (command) => <span>{titleOf(command)}</span>,
+    },
+    {
+      id: 'keys',
+      title: t('shortcuts.keys'),
+      width: 190,
+      sort: (command) => command.keys![0]!,
+      cell: (command) => <span>{command.keys!.map((keys) => keysText(keys)).join(', ')}</span>,
+    },
   ];
   return (
-    <Dialog title={t('command.shortcuts')} width={560} onClose={close} footer={<Button onClick={close}>{t('action.close')}</Button>}>
-      <TextInput data-autofocus value={search} onValue={setSearch} placeholder={t('messages.search')} aria-label={t('messages.search')} />
+    <Dialog
+      title={t('command.shortcuts')}
+      width={560}
+      onClose={close}
+      footer={<Button onClick={close}>{t('action.close')}</Button>}
+    >
+      <TextInput
+        data-autofocus
+        value={search}
+        onValue={setSearch}
+        placeholder={t('messages.search')}
+        aria-label={t('messages.search')}
+      />
       <div style={{ height: 360, border: '1px solid var(--line)', borderRadius: 'var(--radius)', overflow: 'hidden' }}>
         <Table
           label={t('command.shortcuts')}

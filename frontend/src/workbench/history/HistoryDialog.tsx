@@ -28,7 +28,12 @@ export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) 
   const t = useText();
   const language = useLanguage();
   const path = object ? `/projects/${projectId}/objects/${object.id}` : `/projects/${projectId}`;
-  const { data, error, refetch } = useQuery({ queryKey: ['revisions', path], queryFn: () => api.get<Revision[]>(`${path}/revisions`), staleTime: 0, gcTime: 0 });
+  const { data, error, refetch } = useQuery({
+    queryKey: ['revisions', path],
+    queryFn: () => api.get<Revision[]>(`${path}/revisions`),
+    staleTime: 0,
+    gcTime: 0,
+  });
   const [selected, setSelected] = useState<Revision | null>(null);
   const newest = useMemo(() => [...(data ?? [])].sort((a, b) => b.revision - a.revision), [data]);
   const allowed = mayEdit(commandContext());
@@ -42,11 +47,36 @@ export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) 
 
   const columns = useMemo(
     (): Column<Revision>[] => [
-      { id: 'revision', title: t('history.revision'), width: 76, align: 'right', cell: (one) => <span>{one.revision}</span> },
-      { id: 'at', title: t('history.at'), width: 160, cell: (one) => <span className="digits">{new Date(one.at).toLocaleString(language)}</span> },
+      {
+        id: 'revision',
+        title: t('history.revision'),
+        width: 76,
+        align: 'right',
+        cell: (one) => <span>{one.revision}</span>,
+      },
+      {
+        id: 'at',
+        title: t('history.at'),
+        width: 160,
+        cell: (one) => <span className="digits">{new Date(one.at).toLocaleString(language)}</span>,
+      },
       { id: 'author', title: t('history.author'), width: 100, cell: (one) => <span>{one.author}</span> },
-      ...(object ? [] : [{ id: 'object', title: t('history.object'), width: 150, cell: (one: Revision) => <span>{one.object_name}</span> }]),
-      { id: 'change', title: t('history.change'), width: 90, cell: (one) => <span>{one.change && t(`change.${one.change as 'created'}`)}</span> },
+      ...(object
+        ? []
+        : [
+            {
+              id: 'object',
+              title: t('history.object'),
+              width: 150,
+              cell: (one: Revision) => <span>{one.object_name}</span>,
+            },
+          ]),
+      {
+        id: 'change',
+        title: t('history.change'),
+        width: 90,
+        cell: (one) => <span>{one.change && t(`change.${one.change as 'created'}`)}</span>,
+      },
       {
         id: 'comment',
         title: t('history.comment'),

@@ -19,7 +19,16 @@ export function BlockPicture({ item, className }: { item: LibraryItem; className
   const y = (row: number) => HEAD + row * ROW + ROW / 2;
   const short = (text: string) => (text.length > 24 ? `${text.slice(0, 23)}…` : text);
   return (
-    <svg className={className} width={width + 2} height={height + 2} viewBox={`-1 -1 ${width + 2} ${height + 2}`} fontFamily="var(--font-code)" fontSize={12} role="img" aria-label={item.name}>
+    <svg
+      className={className}
+      width={width + 2}
+      height={height + 2}
+      viewBox={`-1 -1 ${width + 2} ${height + 2}`}
+      fontFamily="var(--font-code)"
+      fontSize={12}
+      role="img"
+      aria-label={item.name}
+    >
       <rect x={before} y={0} width={inner} height={height} rx={5} fill="var(--bg-raised)" stroke="var(--line-strong)" />
       <text x={before + inner / 2} y={20} textAnchor="middle" fill="var(--fg)" fontWeight={600}>
         {item.name}

@@ -22,7 +22,9 @@ export function ItemDoc({ library, item }: { library: string | null; item: Libra
       </h2>
       {item.summary && <p className={styles.comment}>{item.summary}</p>}
       {drawn && <BlockPicture item={item} className={styles.block} />}
-      {item.returns && <Pins title="libraryDoc.returns" pins={[{ name: item.name, type: item.returns, default: '', comment: '' }]} />}
+      {item.returns && (
+        <Pins title="libraryDoc.returns" pins={[{ name: item.name, type: item.returns, default: '', comment: '' }]} />
+      )}
       <Pins title="libraryDoc.inputs" pins={item.inputs} />
       <Pins title="libraryDoc.inOut" pins={item.in_out} />
       <Pins title="libraryDoc.outputs" pins={item.outputs} />

@@ -31,7 +31,13 @@ export default function LibrariesPanel() {
         />
         {search && <IconButton small icon={X} label={t('tree.clearFilter')} onClick={() => setSearch('')} />}
       </div>
-      <LibraryTree label={t('panel.libraries')} libraries={data} search={search} onChoose={chooseItem} onOpen={() => showPanel('libraryDoc', false)} />
+      <LibraryTree
+        label={t('panel.libraries')}
+        libraries={data}
+        search={search}
+        onChoose={chooseItem}
+        onOpen={() => showPanel('libraryDoc', false)}
+      />
     </div>
   );
 }

@@ -30,14 +30,23 @@ interface LibraryTreeProps {
   onOpen?: (library: string, item: LibraryItem | null) => void;
 }
 
-const MOTIONS: Record<string, Motion> = { ArrowUp: 'up', ArrowDown: 'down', ArrowLeft: 'left', ArrowRight: 'right', Home: 'home', End: 'end' };
+const MOTIONS: Record<string, Motion> = {
+  ArrowUp: 'up',
+  ArrowDown: 'down',
+  ArrowLeft: 'left',
+  ArrowRight: 'right',
+  Home: 'home',
+  End: 'end',
+};
 
 /** Libraries, folders by kind, items. */
 export function LibraryTree({ label, libraries, search = '', flat, onChoose, onOpen }: LibraryTreeProps) {
   const t = useText();
   const id = useId();
   const tree = useRef<HTMLDivElement>(null);
-  const [open, setOpen] = useState<ReadonlySet<string>>(() => new Set(flat ? libraries.map((library) => library.name) : []));
+  const [open, setOpen] = useState<ReadonlySet<string>>(
+    () => new Set(flat ? libraries.map((library) => library.name) : []),
+  );
   const [focused, setFocused] = useState<string | null>(null);
   const searching = search.trim() !== '';
   const wanted = libraries.filter((library) => searching || flat || open.has(library.name));
@@ -49,13 +58,40 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
     const groups = loaded ? groupsOf(loaded, search) : [];
     if (searching && loaded && groups.length === 0) continue;
     const base = flat ? 0 : 1;
-    if (!flat) nodes.push({ id: library.name, level: 1, name: library.name, detail: library.version, kind: 'library', expandable: true, library: library.name });
+    if (!flat)
+      nodes.push({
+        id: library.name,
+        level: 1,
+        name: library.name,
+        detail: library.version,
+        kind: 'library',
+        expandable: true,
+        library: library.name,
+      });
     if (!(searching || flat || open.has(library.name))) continue;
     for (const { group, items } of groups) {
       const groupId = `${library.name}/${group}`;
-      nodes.push({ id: groupId, level: base + 1, name: t(`libraryGroup.${group}`), detail: String(items.length), kind: 'group', expandable: true, library: library.name });
+      nodes.push({
+        id: groupId,
+        level: base + 1,
+        name: t(`libraryGroup.${group}`),
+        detail: String(items.length),
+        kind: 'group',
+        expandable: true,
+        library: library.name,
+      });
       if (!searching && !open.has(groupId)) continue;
-      for (const item of items) nodes.push({ id: `${groupId}/${item.name}`, level: base + 2, name: item.name, detail: item.summary, kind: 'item', expandable: false, library: library.name, item });
+      for (const item of items)
+        nodes.push({
+          id: `${groupId}/${item.name}`,
+          level: base + 2,
+          name: item.name,
+          detail: item.summary,
+          kind: 'item',
+          expandable: false,
+          library: library.name,
+          item,
+        });
     }
   }
   const isOpen = (node: Node) => node.expandable && (searching || open.has(node.id));
@@ -69,11 +105,20 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
     if (!node) return;
     setFocused(node.id);
     onChoose(node.library, node.item ?? null);
-    requestAnimationFrame(() => tree.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: 'nearest' }));
+    requestAnimationFrame(() =>
+      tree.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: 'nearest' }),
+    );
   };
 
   const onKeyDown = (event: KeyboardEvent) => {
-    const rows = nodes.map((node) => ({ object: node, level: node.level, expandable: node.expandable, expanded: isOpen(node), position: 1, siblings: 1 })) as unknown as Row[];
+    const rows = nodes.map((node) => ({
+      object: node,
+      level: node.level,
+      expandable: node.expandable,
+      expanded: isOpen(node),
+      position: 1,
+      siblings: 1,
+    })) as unknown as Row[];
     const motion = MOTIONS[event.key];
     const node = nodes.find((candidate) => candidate.id === focused);
     if (motion && !event.ctrlKey && !event.altKey) {
@@ -93,7 +138,15 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
   };
 
   return (
-    <div ref={tree} className={styles.tree} role="tree" aria-label={label} tabIndex={0} aria-activedescendant={focused ? `${id}-${focused}` : undefined} onKeyDown={onKeyDown}>
+    <div
+      ref={tree}
+      className={styles.tree}
+      role="tree"
+      aria-label={label}
+      tabIndex={0}
+      aria-activedescendant={focused ? `${id}-${focused}` : undefined}
+      onKeyDown={onKeyDown}
+    >
       {nodes.map((node) => (
         <div
           key={node.id}
@@ -106,7 +159,9 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
           style={{ paddingLeft: 4 + (node.level - 1) * 14 }}
           title={node.kind === 'item' ? node.detail : undefined}
           onMouseDown={() => goTo(node)}
-          onDoubleClick={() => (node.expandable ? toggle(node.id, !isOpen(node)) : onOpen?.(node.library, node.item ?? null))}
+          onDoubleClick={() =>
+            node.expandable ? toggle(node.id, !isOpen(node)) : onOpen?.(node.library, node.item ?? null)
+          }
         >
           <span
             className={treeStyles.twist}
@@ -126,6 +181,8 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
 }
 
 function NodeIcon({ node }: { node: Node }) {
-  const { kind, subkind } = node.item ? objectKindOf(node.item) : { kind: node.kind === 'library' ? ('library_manager' as const) : ('folder' as const), subkind: null };
+  const { kind, subkind } = node.item
+    ? objectKindOf(node.item)
+    : { kind: node.kind === 'library' ? ('library_manager' as const) : ('folder' as const), subkind: null };
   return <ObjectIcon kind={kind} subkind={subkind} style={{ flex: 'none' }} />;
 }

@@ -16,11 +16,20 @@ const item = (name: string, kind: string, more: Partial<LibraryItem> = {}): Libr
   ...more,
 });
 const pin = (name: string) => ({ name, type: 'BOOL', default: '', comment: '' });
-const library = (items: LibraryItem[]): Library => ({ name: 'L', version: '1', namespace: 'L', company: '' , description: '', items });
+const library = (items: LibraryItem[]): Library => ({
+  name: 'L',
+  version: '1',
+  namespace: 'L',
+  company: '',
+  description: '',
+  items,
+});
 
 describe('library contents', () => {
   it('stand in folders by kind, by name within', () => {
-    const groups = groupsOf(library([item('Z', 'function_block'), item('E', 'enum'), item('A', 'function_block'), item('S', 'struct')]));
+    const groups = groupsOf(
+      library([item('Z', 'function_block'), item('E', 'enum'), item('A', 'function_block'), item('S', 'struct')]),
+    );
     expect(groups.map((group) => [group.group, group.items.map((one) => one.name)])).toEqual([
       ['function_block', ['A', 'Z']],
       ['data', ['E', 'S']],
@@ -28,7 +37,10 @@ describe('library contents', () => {
   });
 
   it('are found by name and comment', () => {
-    const groups = groupsOf(library([item('TON', 'function_block', { summary: 'on delay' }), item('TOF', 'function_block')]), 'DELAY');
+    const groups = groupsOf(
+      library([item('TON', 'function_block', { summary: 'on delay' }), item('TOF', 'function_block')]),
+      'DELAY',
+    );
     expect(groups.flatMap((group) => group.items.map((one) => one.name))).toEqual(['TON']);
   });
 
@@ -40,7 +52,9 @@ describe('library contents', () => {
 
 describe('pins', () => {
   it('of in/outs stand at both sides, before the others', () => {
-    const pins = blockPins(item('MC_Power', 'function_block', { inputs: [pin('Enable')], outputs: [pin('Status')], in_out: [pin('Axis')] }));
+    const pins = blockPins(
+      item('MC_Power', 'function_block', { inputs: [pin('Enable')], outputs: [pin('Status')], in_out: [pin('Axis')] }),
+    );
     expect(pins.left.map((one) => one.name)).toEqual(['Axis', 'Enable']);
     expect(pins.right.map((one) => one.name)).toEqual(['Axis', 'Status']);
   });

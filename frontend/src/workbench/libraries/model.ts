@@ -32,7 +32,9 @@ export interface ItemGroup {
 /** Items by kind, each folder in the order of names; with a search only what matches by name or comment. */
 export function groupsOf(library: Library, search = ''): ItemGroup[] {
   const wanted = search.trim().toLowerCase();
-  const items = library.items.filter((item) => !wanted || `${item.name} ${item.summary}`.toLowerCase().includes(wanted));
+  const items = library.items.filter(
+    (item) => !wanted || `${item.name} ${item.summary}`.toLowerCase().includes(wanted),
+  );
   return GROUPS.map((group) => ({
     group,
     items: items.filter((item) => groupOf(item.kind) === group).sort((a, b) => a.name.localeCompare(b.name)),

@@ -5,7 +5,11 @@ import type { Library, LibrarySummary } from '@/api/types';
 
 /** The installed libraries. */
 export function useLibraries(): UseQueryResult<LibrarySummary[]> {
-  return useQuery({ queryKey: keys.libraries, queryFn: () => api.get<LibrarySummary[]>('/libraries'), staleTime: Infinity });
+  return useQuery({
+    queryKey: keys.libraries,
+    queryFn: () => api.get<LibrarySummary[]>('/libraries'),
+    staleTime: Infinity,
+  });
 }
 
 const contentsQuery = (name: string) => ({

@@ -11,23 +11,23 @@ import type { Column } from '../ui/table';
 import { Table } from '../ui/Table';
 import { jumpTo } from './jump';
 import styles from './Messages.module.css';
-import { bytesText, clearMessages, countOf, presentMessages, useMessages } from './store';
+import { bytesText, clearMessages, countOf, pathParts, presentMessages, setCurrent, useMessages } from './store';
 
 const ICONS = { error: CircleX, warning: TriangleAlert, info: Info };
 const RANK: Record<Severity, number> = { error: 0, warning: 1, info: 2 };
 const SEVERITIES: readonly Severity[] = ['error', 'warning', 'info'];
 
-interface Line extends Diagnostic {
+interface Line {
+  message: Diagnostic;
   key: string;
 }
 
 /** Compiler messages: filters, the table, the outcome of the last build. Enter or a double click leads to the place. */
 export default function MessagesPanel() {
   const t = useText();
-  const { build, live } = useMessages();
+  const { build, live, current } = useMessages();
   const [hidden, setHidden] = useState<ReadonlySet<Severity>>(new Set());
   const [search, setSearch] = useState('');
-  const [selected, setSelected] = useState<string | null>(null);
   const all = useMemo(() => presentMessages(build, live), [build, live]);
   const count = useMemo(() => countOf(all), [all]);
   const lines = useMemo(() => {
@@ -35,7 +35,7 @@ export default function MessagesPanel() {
     return all
       .filter((one) => !hidden.has(one.severity))
       .filter((one) => !wanted || `${one.code} ${one.message} ${one.object_path}`.toLowerCase().includes(wanted))
-      .map((one, at): Line => ({ ...one, key: `${at}:${one.code}` }));
+      .map((message, at): Line => ({ message, key: String(at) }));
   }, [all, hidden, search]);
 
   const toggle = (severity: Severity) => {
@@ -50,29 +50,55 @@ export default function MessagesPanel() {
         id: 'severity',
         title: '',
         width: 30,
-        sort: (line) => RANK[line.severity],
-        cell: (line) => {
+        sort: ({ message: line }) => RANK[line.severity],
+        cell: ({ message: line }) => {
           const Icon = ICONS[line.severity];
           return <Icon size={15} className={styles[line.severity]} aria-label={t(`severity.${line.severity}`)} />;
         },
       },
-      { id: 'code', title: t('messages.code'), width: 70, sort: (line) => line.code, cell: (line) => <span className={styles.code}>{line.code}</span> },
+      {
+        id: 'code',
+        title: t('messages.code'),
+        width: 70,
+        sort: ({ message: line }) => line.code,
+        cell: ({ message: line }) => <span className={styles.code}>{line.code}</span>,
+      },
       {
         id: 'message',
         title: t('messages.message'),
         width: 260,
         grow: true,
-        sort: (line) => line.message,
-        hint: (line) => [line.message, line.advice].filter(Boolean).join('\n'),
-        cell: (line) => (
+        sort: ({ message: line }) => line.message,
+        hint: ({ message: line }) => [line.message, line.advice].filter(Boolean).join('\n'),
+        cell: ({ message: line }) => (
           <span>
             {line.message}
             {line.advice && <span className={styles.advice}> {line.advice}</span>}
           </span>
         ),
       },
-      { id: 'object', title: t('messages.object'), width: 200, sort: (line) => line.object_path, hint: (line) => line.object_path, cell: (line) => <span>{line.object_path}</span> },
-      { id: 'position', title: t('messages.position'), width: 150, cell: (line) => <span className="digits">{positionText(line, t)}</span> },
+      {
+        id: 'object',
+        title: t('messages.object'),
+        width: 260,
+        sort: ({ message: line }) => line.object_path,
+        hint: ({ message: line }) => line.object_path,
+        cell: ({ message: line }) => {
+          const { name, place } = pathParts(line.object_path);
+          return (
+            <span>
+              {name}
+              {place && <span className={styles.advice}> [{place}]</span>}
+            </span>
+          );
+        },
+      },
+      {
+        id: 'position',
+        title: t('messages.position'),
+        width: 205,
+        cell: ({ message: line }) => <span className="digits">{positionText(line, t)}</span>,
+      },
     ],
     [t],
   );
@@ -83,14 +109,31 @@ export default function MessagesPanel() {
         {SEVERITIES.map((severity) => {
           const Icon = ICONS[severity];
           return (
-            <button key={severity} className={styles.filter} aria-pressed={!hidden.has(severity)} onClick={() => toggle(severity)}>
+            <button
+              key={severity}
+              className={styles.filter}
+              aria-pressed={!hidden.has(severity)}
+              onClick={() => toggle(severity)}
+            >
               <Icon size={14} className={styles[severity]} aria-hidden />
               {t(`messages.${severity}`, { count: count[severity] })}
             </button>
           );
         })}
-        <TextInput className={styles.search} value={search} onValue={setSearch} placeholder={t('messages.search')} aria-label={t('messages.search')} />
-        <IconButton small icon={ListX} label={t('messages.clear')} disabledReason={all.length || build ? null : t('messages.nothingToClear')} onClick={clearMessages} />
+        <TextInput
+          className={styles.search}
+          value={search}
+          onValue={setSearch}
+          placeholder={t('messages.search')}
+          aria-label={t('messages.search')}
+        />
+        <IconButton
+          small
+          icon={ListX}
+          label={t('messages.clear')}
+          disabledReason={all.length || build ? null : t('messages.nothingToClear')}
+          onClick={clearMessages}
+        />
         {build && (
           <span className={styles.summary} data-ok={build.report.ok}>
             {summary(build.applicationName, build.report, t)}
@@ -103,9 +146,9 @@ export default function MessagesPanel() {
           items={lines}
           columns={columns}
           keyOf={(line) => line.key}
-          selected={selected}
-          onSelect={(line) => setSelected(line?.key ?? null)}
-          onOpen={(line) => jumpTo(line)}
+          selected={lines.find((line) => line.message === current)?.key ?? null}
+          onSelect={(line) => setCurrent(line?.message ?? null)}
+          onOpen={(line) => jumpTo(line.message)}
           empty={<NoMessages built={build !== null} filtered={all.length > 0} />}
         />
       </div>
@@ -130,11 +173,22 @@ type Text = ReturnType<typeof useText>;
 function positionText(line: Diagnostic, t: Text): string {
   if (line.line === null) return '';
   const place = t('messages.lineColumn', { line: line.line, column: line.column ?? 1 });
-  return line.part ? `${place} (${t(line.part === 'declaration' ? 'messages.declaration' : 'messages.implementation')})` : place;
+  return line.part
+    ? `${place} (${t(line.part === 'declaration' ? 'messages.declaration' : 'messages.implementation')})`
+    : place;
 }
 
-function summary(name: string, report: { ok: boolean; code_size: number | null; data_size: number | null; seconds: number }, t: Text): string {
+function summary(
+  name: string,
+  report: { ok: boolean; code_size: number | null; data_size: number | null; seconds: number },
+  t: Text,
+): string {
   const seconds = report.seconds.toFixed(report.seconds < 10 ? 2 : 1);
   if (!report.ok) return t('messages.buildFailed', { name, seconds });
-  return t('messages.buildDone', { name, seconds, code: bytesText(report.code_size ?? 0), data: bytesText(report.data_size ?? 0) });
+  return t('messages.buildDone', {
+    name,
+    seconds,
+    code: bytesText(report.code_size ?? 0),
+    data: bytesText(report.data_size ?? 0),
+  });
 }

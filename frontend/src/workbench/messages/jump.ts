@@ -4,7 +4,7 @@ import { t } from '@/i18n';
 import { openObject } from '../docking/dock';
 import { notify } from '../notices';
 import { useProject } from '../project';
-import { presentMessages, useMessages } from './store';
+import { presentMessages, setCurrent, useMessages } from './store';
 
 /** Opens the object a message is about, at its place. Messages about libraries or the application have none. */
 export function jumpTo(message: Diagnostic): void {
@@ -27,13 +27,13 @@ export function jumpTo(message: Diagnostic): void {
   });
 }
 
-let last = -1;
-
 /** F4 and Shift+F4: the next or previous message that has a place, errors and warnings alike, around the end. */
 export function stepMessage(by: 1 | -1): void {
-  const { build, live } = useMessages.getState();
+  const { build, live, current } = useMessages.getState();
   const messages = presentMessages(build, live).filter((message) => message.object_id !== null);
   if (messages.length === 0) return;
-  last = (Math.min(last, messages.length - 1) + by + messages.length) % messages.length;
-  jumpTo(messages[last]!);
+  const at = current ? messages.indexOf(current) : -1;
+  const next = messages[at < 0 ? (by > 0 ? 0 : messages.length - 1) : (at + by + messages.length) % messages.length]!;
+  setCurrent(next);
+  jumpTo(next);
 }

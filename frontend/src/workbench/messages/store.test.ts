@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
-import { bytesText, countOf, presentMessages, type BuildResult } from './store';
+import { bytesText, countOf, pathParts, presentMessages, type BuildResult } from './store';
 
 const message = (object_id: string | null, severity: Diagnostic['severity'], text = 'm'): Diagnostic => ({
   code: 'E0001',
@@ -24,7 +24,10 @@ const build = (...diagnostics: Diagnostic[]): BuildResult => ({
 
 describe('messages', () => {
   it('of an object that its editor has checked since are the newer ones', () => {
-    const shown = presentMessages(build(message('x', 'error', 'old'), message('y', 'warning')), new Map([['x', [message('x', 'info', 'new')]]]));
+    const shown = presentMessages(
+      build(message('x', 'error', 'old'), message('y', 'warning')),
+      new Map([['x', [message('x', 'info', 'new')]]]),
+    );
     expect(shown.map((one) => one.message)).toEqual(['m', 'new']);
   });
 
@@ -33,12 +36,29 @@ describe('messages', () => {
   });
 
   it('are counted by severity', () => {
-    expect(countOf([message('x', 'error'), message('x', 'error'), message('y', 'info')])).toEqual({ error: 2, warning: 0, info: 1 });
+    expect(countOf([message('x', 'error'), message('x', 'error'), message('y', 'info')])).toEqual({
+      error: 2,
+      warning: 0,
+      info: 1,
+    });
+  });
+});
+
+describe('paths', () => {
+  it('name the object first', () => {
+    expect(pathParts('Device/App/FB')).toEqual({ name: 'FB', place: 'Device: App' });
+    expect(pathParts('FB')).toEqual({ name: 'FB', place: '' });
   });
 });
 
 describe('sizes', () => {
   it('are short', () => {
-    expect([0, 999, 38_400, 123_456, 2_100_000].map(bytesText)).toEqual(['0 B', '999 B', '38.4 KB', '123 KB', '2.1 MB']);
+    expect([0, 999, 38_400, 123_456, 2_100_000].map(bytesText)).toEqual([
+      '0 B',
+      '999 B',
+      '38.4 KB',
+      '123 KB',
+      '2.1 MB',
+    ]);
   });
 });

@@ -19,12 +19,18 @@ interface MessagesState {
   build: BuildResult | null;
   /** What editors found, by object, since the last build. */
   live: ReadonlyMap<string, readonly Diagnostic[]>;
+  /** The message last gone to, by F4 or in the table. */
+  current: Diagnostic | null;
 }
 
-export const useMessages = create<MessagesState>(() => ({ build: null, live: new Map() }));
+export const useMessages = create<MessagesState>(() => ({ build: null, live: new Map(), current: null }));
+
+export function setCurrent(current: Diagnostic | null): void {
+  useMessages.setState({ current });
+}
 
 export function buildFinished(build: BuildResult): void {
-  useMessages.setState({ build, live: new Map() });
+  useMessages.setState({ build, live: new Map(), current: null });
 }
 
 export function publishDiagnostics(objectId: string, diagnostics: readonly Diagnostic[]): void {
@@ -34,11 +40,14 @@ export function publishDiagnostics(objectId: string, diagnostics: readonly Diagn
 }
 
 export function clearMessages(): void {
-  useMessages.setState({ build: null, live: new Map() });
+  useMessages.setState({ build: null, live: new Map(), current: null });
 }
 
 /** All messages that hold now. Pure. */
-export function presentMessages(build: BuildResult | null, live: ReadonlyMap<string, readonly Diagnostic[]>): Diagnostic[] {
+export function presentMessages(
+  build: BuildResult | null,
+  live: ReadonlyMap<string, readonly Diagnostic[]>,
+): Diagnostic[] {
   const fromBuild = (build?.report.diagnostics ?? []).filter((one) => !one.object_id || !live.has(one.object_id));
   return [...fromBuild, ...[...live.values()].flat()];
 }
@@ -54,4 +63,10 @@ export function bytesText(bytes: number): string {
   if (bytes < 1000) return `${bytes} B`;
   const [value, unit] = bytes < 1_000_000 ? [bytes / 1000, 'KB'] : [bytes / 1_000_000, 'MB'];
   return `${value.toFixed(value < 100 ? 1 : 0)} ${unit}`;
+}
+
+/** `Device/PLC Logic/App/FB_Motor/Start` as the table shows it: `Start` and, quieter, `Device: PLC Logic: App: FB_Motor`. */
+export function pathParts(path: string): { name: string; place: string } {
+  const parts = path.split('/');
+  return { name: parts.at(-1) ?? '', place: parts.slice(0, -1).join(': ') };
 }

@@ -24,7 +24,10 @@ const LEVELS: readonly LogLevel[] = ['error', 'warning', 'info'];
 export default function LogPanel() {
   const t = useText();
   const session = useActiveSession();
-  if (session) return <RuntimeLog key={session.runtimeId} runtimeId={session.runtimeId} name={session.runtime?.name ?? 'runtime'} />;
+  if (session)
+    return (
+      <RuntimeLog key={session.runtimeId} runtimeId={session.runtimeId} name={session.runtime?.name ?? 'runtime'} />
+    );
   return (
     <Empty icon={ScrollText} title={t('log.offline')} text={t('log.offlineText')}>
       <Button icon={LogIn} onClick={() => void runCommand('online.login')}>
@@ -43,7 +46,10 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
     queryKey: keys.log(runtimeId),
     queryFn: async () => {
       const known = queryClient.getQueryData<LogEntry[]>(keys.log(runtimeId)) ?? [];
-      return merged(known, await api.get<LogEntry[]>(`/runtimes/${runtimeId}/log`, { query: { since: known.at(-1)?.id ?? 0 } }));
+      return merged(
+        known,
+        await api.get<LogEntry[]>(`/runtimes/${runtimeId}/log`, { query: { since: known.at(-1)?.id ?? 0 } }),
+      );
     },
     refetchInterval: POLL_MS,
     retry: false,
@@ -61,8 +67,20 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
           return <Icon size={15} className={messages[level]} aria-label={t(`severity.${level}`)} />;
         },
       },
-      { id: 'at', title: t('log.time'), width: 200, cell: (entry) => <span className="digits">{timeText(entry.at)}</span> },
-      { id: 'message', title: t('log.message'), width: 300, grow: true, hint: (entry) => entry.message, cell: (entry) => <span>{entry.message}</span> },
+      {
+        id: 'at',
+        title: t('log.time'),
+        width: 200,
+        cell: (entry) => <span className="digits">{timeText(entry.at)}</span>,
+      },
+      {
+        id: 'message',
+        title: t('log.message'),
+        width: 300,
+        grow: true,
+        hint: (entry) => entry.message,
+        cell: (entry) => <span>{entry.message}</span>,
+      },
       { id: 'component', title: t('log.component'), width: 140, cell: (entry) => <span>{entry.component}</span> },
     ],
     [t],
@@ -82,13 +100,24 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
         {LEVELS.map((level) => {
           const Icon = ICONS[level];
           return (
-            <button key={level} className={messages.filter} aria-pressed={!hidden.has(level)} onClick={() => toggle(level)}>
+            <button
+              key={level}
+              className={messages.filter}
+              aria-pressed={!hidden.has(level)}
+              onClick={() => toggle(level)}
+            >
               <Icon size={14} className={messages[level]} aria-hidden />
               {t(`messages.${level}`, { count: data.filter((entry) => levelOf(entry.severity) === level).length })}
             </button>
           );
         })}
-        <TextInput className={messages.search} value={search} onValue={setSearch} placeholder={t('messages.search')} aria-label={t('messages.search')} />
+        <TextInput
+          className={messages.search}
+          value={search}
+          onValue={setSearch}
+          placeholder={t('messages.search')}
+          aria-label={t('messages.search')}
+        />
         <IconButton
           small
           icon={Download}
@@ -111,4 +140,3 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
     </div>
   );
 }
-

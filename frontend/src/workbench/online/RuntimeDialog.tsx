@@ -17,7 +17,9 @@ interface RuntimeDialogProps {
 /** Chooses the soft PLC that a device stands for. */
 export function RuntimeDialog({ runtimes, missing, close }: RuntimeDialogProps) {
   const t = useText();
-  const [chosen, setChosen] = useState<RuntimeState | undefined>(runtimes.find((runtime) => runtime.connected) ?? runtimes[0]);
+  const [chosen, setChosen] = useState<RuntimeState | undefined>(
+    runtimes.find((runtime) => runtime.connected) ?? runtimes[0],
+  );
   return (
     <Dialog
       title={t('runtime.choose')}
@@ -36,7 +38,14 @@ export function RuntimeDialog({ runtimes, missing, close }: RuntimeDialogProps) 
       {runtimes.length > 0 && (
         <div role="radiogroup" aria-label={t('runtime.choose')} className={styles.runtimes}>
           {runtimes.map((runtime) => (
-            <button key={runtime.id} type="button" role="radio" aria-checked={runtime.id === chosen?.id} className={styles.runtime} onClick={() => setChosen(runtime)}>
+            <button
+              key={runtime.id}
+              type="button"
+              role="radio"
+              aria-checked={runtime.id === chosen?.id}
+              className={styles.runtime}
+              onClick={() => setChosen(runtime)}
+            >
               <ToneDot tone={toneOfRuntime(runtime)} size={8} />
               <span>
                 <span className={styles.name}>{runtime.name}</span>

@@ -26,7 +26,12 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
   const operator = atLeast(commandContext().role, 'operator') ? null : t('reason.operator');
 
   const columns = useMemo((): Column<TaskState>[] => {
-    const number = (id: string, title: string, value: (task: TaskState) => number | null, width = 84): Column<TaskState> => ({
+    const number = (
+      id: string,
+      title: string,
+      value: (task: TaskState) => number | null,
+      width = 84,
+    ): Column<TaskState> => ({
       id,
       title,
       width,
@@ -35,7 +40,14 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
       cell: (task) => <span>{microsNumber(value(task))}</span>,
     });
     return [
-      { id: 'name', title: t('tasks.task'), width: 140, grow: true, sort: (task) => task.name, cell: (task) => <span>{task.name}</span> },
+      {
+        id: 'name',
+        title: t('tasks.task'),
+        width: 140,
+        grow: true,
+        sort: (task) => task.name,
+        cell: (task) => <span>{task.name}</span>,
+      },
       {
         id: 'status',
         title: t('tasks.status'),
@@ -45,10 +57,38 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
           <span style={{ color: STATUS_COLORS[task.status ?? ''] }}>{statusText(task.status ?? '', t)}</span>
         ),
       },
-      { id: 'priority', title: t('tasks.priority'), width: 70, align: 'right', sort: (task) => task.priority ?? 99, cell: (task) => <span>{task.priority ?? '–'}</span> },
-      { id: 'interval', title: t('tasks.interval'), width: 96, align: 'right', sort: (task) => task.interval_us ?? 0, cell: (task) => <span>{task.interval_us ?? '–'}</span> },
-      { id: 'iecCycles', title: t('tasks.iecCycles'), width: 110, align: 'right', sort: (task) => task.iec_cycles, cell: (task) => <span>{countText(task.iec_cycles)}</span> },
-      { id: 'cycles', title: t('tasks.cycles'), width: 110, align: 'right', sort: (task) => task.cycles, cell: (task) => <span>{countText(task.cycles)}</span> },
+      {
+        id: 'priority',
+        title: t('tasks.priority'),
+        width: 70,
+        align: 'right',
+        sort: (task) => task.priority ?? 99,
+        cell: (task) => <span>{task.priority ?? '–'}</span>,
+      },
+      {
+        id: 'interval',
+        title: t('tasks.interval'),
+        width: 96,
+        align: 'right',
+        sort: (task) => task.interval_us ?? 0,
+        cell: (task) => <span>{task.interval_us ?? '–'}</span>,
+      },
+      {
+        id: 'iecCycles',
+        title: t('tasks.iecCycles'),
+        width: 110,
+        align: 'right',
+        sort: (task) => task.iec_cycles,
+        cell: (task) => <span>{countText(task.iec_cycles)}</span>,
+      },
+      {
+        id: 'cycles',
+        title: t('tasks.cycles'),
+        width: 110,
+        align: 'right',
+        sort: (task) => task.cycles,
+        cell: (task) => <span>{countText(task.cycles)}</span>,
+      },
       number('last', t('tasks.last'), (task) => task.last_us),
       number('mean', t('tasks.mean'), (task) => task.average_us),
       number('max', t('tasks.max'), (task) => task.max_us),
@@ -56,7 +96,14 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
       number('jitter', t('tasks.jitter'), (task) => task.jitter_us),
       number('minJitter', t('tasks.minJitter'), (task) => task.min_jitter_us, 104),
       number('maxJitter', t('tasks.maxJitter'), (task) => task.max_jitter_us, 104),
-      { id: 'overruns', title: t('tasks.overruns'), width: 84, align: 'right', sort: (task) => task.overruns ?? 0, cell: (task) => <span>{task.overruns ?? '–'}</span> },
+      {
+        id: 'overruns',
+        title: t('tasks.overruns'),
+        width: 84,
+        align: 'right',
+        sort: (task) => task.overruns ?? 0,
+        cell: (task) => <span>{task.overruns ?? '–'}</span>,
+      },
     ];
   }, [t]);
 
@@ -66,23 +113,50 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
 
   const reset = (names: readonly string[]) =>
     void guard(async () => {
-      await Promise.all(names.map((name) => api.post(`/runtimes/${runtimeId}/tasks/${encodeURIComponent(name)}/reset`)));
+      await Promise.all(
+        names.map((name) => api.post(`/runtimes/${runtimeId}/tasks/${encodeURIComponent(name)}/reset`)),
+      );
       await queryClient.invalidateQueries({ queryKey: keys.tasks(runtimeId) });
     });
 
   return (
     <div className={styles.view}>
       <div className={styles.bar}>
-        <Button variant="quiet" icon={RotateCcw} disabledReason={operator} onClick={() => reset(data.map((task) => task.name))}>
+        <Button
+          variant="quiet"
+          icon={RotateCcw}
+          disabledReason={operator}
+          onClick={() => reset(data.map((task) => task.name))}
+        >
           {t('tasks.resetAll')}
         </Button>
         <span className={styles.note}>{t('tasks.microseconds')}</span>
       </div>
       <ContextMenu
-        entries={() => (selected ? [{ kind: 'item', key: 'reset', text: t('tasks.reset', { name: selected }), icon: RotateCcw, disabledReason: operator, run: () => reset([selected]) }] : [])}
+        entries={() =>
+          selected
+            ? [
+                {
+                  kind: 'item',
+                  key: 'reset',
+                  text: t('tasks.reset', { name: selected }),
+                  icon: RotateCcw,
+                  disabledReason: operator,
+                  run: () => reset([selected]),
+                },
+              ]
+            : []
+        }
       >
         <div className={styles.table}>
-          <Table label={t('panel.tasks')} items={data} columns={columns} keyOf={(task) => task.name} selected={selected} onSelect={(task) => setSelected(task?.name ?? null)} />
+          <Table
+            label={t('panel.tasks')}
+            items={data}
+            columns={columns}
+            keyOf={(task) => task.name}
+            selected={selected}
+            onSelect={(task) => setSelected(task?.name ?? null)}
+          />
         </div>
       </ContextMenu>
     </div>

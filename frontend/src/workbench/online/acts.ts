@@ -11,6 +11,7 @@ import { buildFinished } from '../messages/store';
 import { notify } from '../notices';
 import { loggedIn, loggedOut, relationChanged, runtimePolled } from '../onlineSession';
 import { useProject } from '../project';
+import { atLeast } from '../rights';
 import { askDownload, askLogin, askRuntime } from './dialogs';
 
 /** The runtime on the server's own machine; devices in simulation run there. */
@@ -72,13 +73,17 @@ async function findRuntime(context: CommandContext): Promise<RuntimeState | null
     queryKey: keys.object(context.projectId!, context.deviceId!),
     queryFn: () => api.get<ProjectObject<DeviceData>>(`/projects/${context.projectId}/objects/${context.deviceId}`),
   });
-  const runtimes = await queryClient.fetchQuery({ queryKey: keys.runtimes, queryFn: () => api.get<RuntimeState[]>('/runtimes'), staleTime: 0 });
+  const runtimes = await queryClient.fetchQuery({
+    queryKey: keys.runtimes,
+    queryFn: () => api.get<RuntimeState[]>('/runtimes'),
+    staleTime: 0,
+  });
   const wanted = device.data.simulated ? LOCAL_RUNTIME : device.data.runtime_id;
   const found = runtimes.find((runtime) => runtime.id === wanted);
   if (found) return found;
   const chosen = runtimes.length === 1 && wanted === null ? runtimes[0]! : await askRuntime(runtimes, wanted);
   if (!chosen) return null;
-  if (!device.data.simulated) {
+  if (!device.data.simulated && atLeast(context.role, 'engineer')) {
     await saveObject(context.projectId!, device.id, device.revision, { ...device.data, runtime_id: chosen.id });
   }
   return chosen;
@@ -88,12 +93,16 @@ async function findRuntime(context: CommandContext): Promise<RuntimeState | null
 export async function login(context: CommandContext): Promise<void> {
   const runtime = await findRuntime(context);
   if (!runtime) return;
-  if (!runtime.connected) throw new Error(t('login.notConnected', { name: runtime.name, problem: runtime.problem ?? '' }).trim());
-  const report = await build(context);
-  if (!report) return;
-  if (!report.ok) {
-    notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
-    return;
+  if (!runtime.connected)
+    throw new Error(t('login.notConnected', { name: runtime.name, problem: runtime.problem ?? '' }).trim());
+  const mayLoad = atLeast(context.role, 'engineer');
+  if (mayLoad) {
+    const report = await build(context);
+    if (!report) return;
+    if (!report.ok) {
+      notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
+      return;
+    }
   }
   const answer = await api.post<LoginAnswer>(loginPath(context), { runtime_id: runtime.id });
   if (answer.relation === 'same') {
@@ -101,7 +110,9 @@ export async function login(context: CommandContext): Promise<void> {
     runtimePolled(runtime.id, runtime);
     return;
   }
-  const choice = await askLogin({ answer, application: nameOf(context), runtime });
+  if (!mayLoad && (answer.relation === 'foreign' || answer.relation === 'empty'))
+    throw new Error(t('login.engineerLoads'));
+  const choice = await askLogin({ answer, application: nameOf(context), runtime, mayLoad });
   if (!choice) return;
   if (choice.how === 'without') {
     loggedIn(context.applicationId!, runtime.id, answer.relation);
@@ -112,10 +123,19 @@ export async function login(context: CommandContext): Promise<void> {
 }
 
 /** Brings the built application into the runtime and shows its values from then on. */
-async function load(context: CommandContext, runtimeId: string, mode: 'download' | 'online_change', start: boolean): Promise<void> {
+async function load(
+  context: CommandContext,
+  runtimeId: string,
+  mode: 'download' | 'online_change',
+  start: boolean,
+): Promise<void> {
   const name = nameOf(context);
   await busy(t(mode === 'download' ? 'busy.download' : 'busy.onlineChange', { name }), () =>
-    api.post(`/projects/${context.projectId}/applications/${context.applicationId}/download`, { runtime_id: runtimeId, mode, start }),
+    api.post(`/projects/${context.projectId}/applications/${context.applicationId}/download`, {
+      runtime_id: runtimeId,
+      mode,
+      start,
+    }),
   );
   if (commandContext().online?.runtimeId === runtimeId) relationChanged(context.applicationId!, 'same');
   else loggedIn(context.applicationId!, runtimeId, 'same');

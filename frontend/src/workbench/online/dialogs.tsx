@@ -19,6 +19,8 @@ interface LoginQuestion {
   answer: LoginAnswer;
   application: string;
   runtime: RuntimeState;
+  /** Whether this user may download; others only look. */
+  mayLoad: boolean;
 }
 
 export function askLogin(question: LoginQuestion): Promise<LoginChoice | undefined> {
@@ -26,20 +28,26 @@ export function askLogin(question: LoginQuestion): Promise<LoginChoice | undefin
 }
 
 export function askDownload(application: string, running: boolean): Promise<{ start: boolean } | undefined> {
-  return openDialog<{ start: boolean }>((close) => <DownloadDialog application={application} running={running} close={close} />);
+  return openDialog<{ start: boolean }>((close) => (
+    <DownloadDialog application={application} running={running} close={close} />
+  ));
 }
 
-export function askRuntime(runtimes: readonly RuntimeState[], missing: string | null): Promise<RuntimeState | undefined> {
+export function askRuntime(
+  runtimes: readonly RuntimeState[],
+  missing: string | null,
+): Promise<RuntimeState | undefined> {
   return openDialog<RuntimeState>((close) => <RuntimeDialog runtimes={runtimes} missing={missing} close={close} />);
 }
 
 type Close<Answer> = (answer?: Answer) => void;
 
 /** The application in the runtime is not the one of the project: what now? One choice per relation, as CODESYS asks. */
-function LoginDialog({ answer, application, runtime, close }: LoginQuestion & { close: Close<LoginChoice> }) {
+function LoginDialog({ answer, application, runtime, mayLoad, close }: LoginQuestion & { close: Close<LoginChoice> }) {
   useText();
-  const choices: LoginChoice['how'][] =
-    answer.relation === 'online_change'
+  const choices: LoginChoice['how'][] = !mayLoad
+    ? ['without']
+    : answer.relation === 'online_change'
       ? ['online_change', 'download', 'without']
       : answer.relation === 'download'
         ? ['download', 'without']
@@ -66,7 +74,14 @@ function LoginDialog({ answer, application, runtime, close }: LoginQuestion & { 
       {choices.length > 1 && (
         <div role="radiogroup" aria-label={t('login.how')} className={styles.choices}>
           {choices.map((choice) => (
-            <button key={choice} type="button" role="radio" aria-checked={choice === how} className={styles.choice} onClick={() => setHow(choice)}>
+            <button
+              key={choice}
+              type="button"
+              role="radio"
+              aria-checked={choice === how}
+              className={styles.choice}
+              onClick={() => setHow(choice)}
+            >
               <span className={styles.radio} />
               <span>
                 <span className={styles.name}>{t(`login.how.${choice}`)}</span>
@@ -102,7 +117,15 @@ function Reasons({ reasons }: { reasons: readonly string[] }) {
   );
 }
 
-function DownloadDialog({ application, running, close }: { application: string; running: boolean; close: Close<{ start: boolean }> }) {
+function DownloadDialog({
+  application,
+  running,
+  close,
+}: {
+  application: string;
+  running: boolean;
+  close: Close<{ start: boolean }>;
+}) {
   const [start, setStart] = useState(running);
   return (
     <Dialog

@@ -2,7 +2,13 @@ import { describe, expect, it } from 'vitest';
 import type { LogEntry } from '@/api/types';
 import { levelOf, logCsv, merged, shownEntries, timeText } from './log';
 
-const entry = (id: number, message = `m${id}`, severity = 'info'): LogEntry => ({ id, at: '2026-01-01T00:00:00Z', severity, component: 'plc', message });
+const entry = (id: number, message = `m${id}`, severity = 'info'): LogEntry => ({
+  id,
+  at: '2026-01-01T00:00:00Z',
+  severity,
+  component: 'plc',
+  message,
+});
 
 describe('log', () => {
   it('keeps every line once', () => {

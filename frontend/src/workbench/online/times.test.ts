@@ -3,7 +3,13 @@ import { countText, microsNumber, microsText } from './times';
 
 describe('times', () => {
   it('take the unit that fits', () => {
-    expect([0.84, 412.4, 1250, 20_000, 2_400_000].map(microsText)).toEqual(['0.8 µs', '412 µs', '1.25 ms', '20.0 ms', '2.4 s']);
+    expect([0.84, 412.4, 1250, 20_000, 2_400_000].map(microsText)).toEqual([
+      '0.8 µs',
+      '412 µs',
+      '1.25 ms',
+      '20.0 ms',
+      '2.4 s',
+    ]);
   });
   it('say when there is none', () => {
     expect(microsText(null)).toBe('–');

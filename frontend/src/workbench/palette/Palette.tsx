@@ -54,7 +54,12 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
     const next = event.key === 'Home' || event.key === 'End' ? null : rowAfterKey(event.key, at, hits.length, 10);
     if (next === null) return;
     event.preventDefault();
-    const wrapped = event.key === 'ArrowDown' && at === hits.length - 1 ? 0 : event.key === 'ArrowUp' && at === 0 ? hits.length - 1 : next;
+    const wrapped =
+      event.key === 'ArrowDown' && at === hits.length - 1
+        ? 0
+        : event.key === 'ArrowUp' && at === 0
+          ? hits.length - 1
+          : next;
     setAt(wrapped);
     list.current?.children[wrapped]?.scrollIntoView({ block: 'nearest' });
   };
@@ -64,7 +69,9 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
       <Radix.Portal>
         <Radix.Overlay className={styles.scrim} />
         <Radix.Content className={styles.palette} aria-describedby="">
-          <Radix.Title className="visually-hidden">{t(commandMode ? 'command.palette' : 'command.quickOpen')}</Radix.Title>
+          <Radix.Title className="visually-hidden">
+            {t(commandMode ? 'command.palette' : 'command.quickOpen')}
+          </Radix.Title>
           <div className={styles.search}>
             {commandMode ? <ChevronRight size={16} aria-hidden /> : <Search size={16} aria-hidden />}
             <input
@@ -86,9 +93,23 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
               }}
             />
           </div>
-          <div ref={list} id={id} role="listbox" aria-label={t(commandMode ? 'command.palette' : 'command.quickOpen')} className={styles.list}>
+          <div
+            ref={list}
+            id={id}
+            role="listbox"
+            aria-label={t(commandMode ? 'command.palette' : 'command.quickOpen')}
+            className={styles.list}
+          >
             {hits.map(({ entry, match }, index) => (
-              <Entry key={entry.id} id={`${id}-${index}`} item={entry} marks={match.at} chosen={index === at} onEnter={() => setAt(index)} onChoose={() => choose(entry)} />
+              <Entry
+                key={entry.id}
+                id={`${id}-${index}`}
+                item={entry}
+                marks={match.at}
+                chosen={index === at}
+                onEnter={() => setAt(index)}
+                onChoose={() => choose(entry)}
+              />
             ))}
             {hits.length === 0 && <div className={styles.none}>{t('palette.none')}</div>}
           </div>
@@ -110,7 +131,15 @@ interface EntryProps {
 function Entry({ id, item, marks, chosen, onEnter, onChoose }: EntryProps) {
   const Icon: IconComponent | undefined = item.icon;
   return (
-    <div id={id} role="option" aria-selected={chosen} aria-disabled={item.disabledReason ? true : undefined} className={styles.entry} onPointerMove={onEnter} onClick={onChoose}>
+    <div
+      id={id}
+      role="option"
+      aria-selected={chosen}
+      aria-disabled={item.disabledReason ? true : undefined}
+      className={styles.entry}
+      onPointerMove={onEnter}
+      onClick={onChoose}
+    >
       {Icon ? <Icon size={16} strokeWidth={1.6} /> : <span style={{ width: 16 }} />}
       <span className={styles.text}>
         {[...item.text].map((letter, index) => (marks.includes(index) ? <b key={index}>{letter}</b> : letter))}

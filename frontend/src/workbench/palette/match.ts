@@ -20,7 +20,10 @@ export function match(query: string, text: string): Match | null {
   const whole = text.toLowerCase().indexOf(query.trim().toLowerCase());
   if (whole >= 0) {
     const at = Array.from({ length: query.trim().length }, (_, index) => whole + index);
-    return { score: wanted.length * RUN + (whole === 0 ? START : isWordStart(text, whole) ? WORD : 0) - text.length * 0.02, at };
+    return {
+      score: wanted.length * RUN + (whole === 0 ? START : isWordStart(text, whole) ? WORD : 0) - text.length * 0.02,
+      at,
+    };
   }
   return scattered(wanted, text);
 }
@@ -58,7 +61,11 @@ function isWordStart(text: string, index: number): boolean {
 }
 
 /** The entries that match, best first; entries equally good keep their order. */
-export function search<Entry>(query: string, entries: readonly Entry[], textOf: (entry: Entry) => string): { entry: Entry; match: Match }[] {
+export function search<Entry>(
+  query: string,
+  entries: readonly Entry[],
+  textOf: (entry: Entry) => string,
+): { entry: Entry; match: Match }[] {
   const found: { entry: Entry; match: Match }[] = [];
   for (const entry of entries) {
     const result = match(query, textOf(entry));

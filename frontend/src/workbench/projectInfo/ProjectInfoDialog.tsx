@@ -17,7 +17,10 @@ import fields from '../ui/Field.module.css';
 /** Name, description and size of the project. */
 export function ProjectInfoDialog({ projectId, close }: { projectId: string; close: () => void }) {
   const t = useText();
-  const { data, error } = useQuery({ queryKey: keys.project(projectId), queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`) });
+  const { data, error } = useQuery({
+    queryKey: keys.project(projectId),
+    queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`),
+  });
   if (error || !data) {
     return (
       <Dialog title={t('command.projectInformation')} onClose={close}>
@@ -40,7 +43,9 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
 
   const save = async () => {
     if (fault) return;
-    const saved = await guard(() => api.patch<ProjectSummary>(`/projects/${project.id}`, { name: name.trim(), description }));
+    const saved = await guard(() =>
+      api.patch<ProjectSummary>(`/projects/${project.id}`, { name: name.trim(), description }),
+    );
     if (!saved) return;
     queryClient.setQueryData(keys.project(project.id), saved);
     void queryClient.invalidateQueries({ queryKey: keys.projects });
@@ -67,10 +72,25 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
       </Field>
       <Field label={t('project.description')}>
         {(attributes) => (
-          <textarea {...attributes} className={fields.input} rows={4} value={description} readOnly={!mayChange} onChange={(event) => setDescription(event.target.value)} />
+          <textarea
+            {...attributes}
+            className={fields.input}
+            rows={4}
+            value={description}
+            readOnly={!mayChange}
+            onChange={(event) => setDescription(event.target.value)}
+          />
         )}
       </Field>
-      <dl style={{ display: 'grid', gridTemplateColumns: 'auto 1fr', gap: '4px 16px', margin: 0, color: 'var(--fg-muted)' }}>
+      <dl
+        style={{
+          display: 'grid',
+          gridTemplateColumns: 'auto 1fr',
+          gap: '4px 16px',
+          margin: 0,
+          color: 'var(--fg-muted)',
+        }}
+      >
         <dt>{t('project.created')}</dt>
         <dd style={{ margin: 0 }}>{date(project.created)}</dd>
         <dt>{t('project.modified')}</dt>

@@ -46,10 +46,25 @@ export function NewUserDialog({ close }: { close: (account?: Account) => void })
         {(attributes) => <TextInput {...attributes} autoComplete="off" value={username} onValue={setUsername} />}
       </Field>
       <Field label={t('signIn.password')}>
-        {(attributes) => <TextInput {...attributes} type="password" autoComplete="new-password" value={password} onValue={setPassword} />}
+        {(attributes) => (
+          <TextInput
+            {...attributes}
+            type="password"
+            autoComplete="new-password"
+            value={password}
+            onValue={setPassword}
+          />
+        )}
       </Field>
       <Field label={t('users.role')} hint={t(`role.${role}Text`)}>
-        {(attributes) => <Select<Role> {...attributes} value={role} choices={ROLES.map((each) => ({ value: each, text: t(`role.${each}`) }))} onValue={setRole} />}
+        {(attributes) => (
+          <Select<Role>
+            {...attributes}
+            value={role}
+            choices={ROLES.map((each) => ({ value: each, text: t(`role.${each}`) }))}
+            onValue={setRole}
+          />
+        )}
       </Field>
     </Dialog>
   );

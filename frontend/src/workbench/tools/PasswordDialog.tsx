@@ -44,13 +44,25 @@ export function PasswordDialog({ close }: { close: () => void }) {
       }
     >
       <Field label={t('password.current')} error={refused}>
-        {(attributes) => <TextInput {...attributes} type="password" autoComplete="current-password" value={current} onValue={setCurrent} />}
+        {(attributes) => (
+          <TextInput
+            {...attributes}
+            type="password"
+            autoComplete="current-password"
+            value={current}
+            onValue={setCurrent}
+          />
+        )}
       </Field>
       <Field label={t('password.new')}>
-        {(attributes) => <TextInput {...attributes} type="password" autoComplete="new-password" value={next} onValue={setNext} />}
+        {(attributes) => (
+          <TextInput {...attributes} type="password" autoComplete="new-password" value={next} onValue={setNext} />
+        )}
       </Field>
       <Field label={t('firstAccount.again')} error={differs}>
-        {(attributes) => <TextInput {...attributes} type="password" autoComplete="new-password" value={again} onValue={setAgain} />}
+        {(attributes) => (
+          <TextInput {...attributes} type="password" autoComplete="new-password" value={again} onValue={setAgain} />
+        )}
       </Field>
     </Dialog>
   );

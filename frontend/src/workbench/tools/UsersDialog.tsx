@@ -34,7 +34,12 @@ export function UsersDialog({ close }: { close: () => void }) {
         await queryClient.invalidateQueries({ queryKey: KEY });
       });
     const remove = async (account: Account) => {
-      const sure = await confirm({ title: t('users.deleteTitle', { name: account.username }), text: t('users.deleteText'), action: t('action.delete'), danger: true });
+      const sure = await confirm({
+        title: t('users.deleteTitle', { name: account.username }),
+        text: t('users.deleteText'),
+        action: t('action.delete'),
+        danger: true,
+      });
       if (!sure) return;
       await guard(async () => {
         await api.delete(`/users/${account.id}`);
@@ -42,7 +47,14 @@ export function UsersDialog({ close }: { close: () => void }) {
       });
     };
     return [
-      { id: 'name', title: t('signIn.username'), width: 160, grow: true, sort: (account) => account.username, cell: (account) => <span>{account.username}</span> },
+      {
+        id: 'name',
+        title: t('signIn.username'),
+        width: 160,
+        grow: true,
+        sort: (account) => account.username,
+        cell: (account) => <span>{account.username}</span>,
+      },
       {
         id: 'role',
         title: t('users.role'),
@@ -63,14 +75,24 @@ export function UsersDialog({ close }: { close: () => void }) {
         title: t('users.lastLogin'),
         width: 170,
         sort: (account) => account.last_login_at ?? '',
-        cell: (account) => <span className="digits">{account.last_login_at ? new Date(account.last_login_at).toLocaleString(language) : t('users.never')}</span>,
+        cell: (account) => (
+          <span className="digits">
+            {account.last_login_at ? new Date(account.last_login_at).toLocaleString(language) : t('users.never')}
+          </span>
+        ),
       },
       {
         id: 'delete',
         title: '',
         width: 40,
         cell: (account) => (
-          <IconButton small icon={Trash2} label={t('users.delete', { name: account.username })} disabledReason={account.id === me ? t('users.ownAccount') : null} onClick={() => void remove(account)} />
+          <IconButton
+            small
+            icon={Trash2}
+            label={t('users.delete', { name: account.username })}
+            disabledReason={account.id === me ? t('users.ownAccount') : null}
+            onClick={() => void remove(account)}
+          />
         ),
       },
     ];
@@ -100,7 +122,14 @@ export function UsersDialog({ close }: { close: () => void }) {
         {error ? (
           <Failed error={error} retry={() => void refetch()} />
         ) : data ? (
-          <Table label={t('command.users')} items={data} columns={columns} keyOf={(account) => account.id} selected={selected} onSelect={(account) => setSelected(account?.id ?? null)} />
+          <Table
+            label={t('command.users')}
+            items={data}
+            columns={columns}
+            keyOf={(account) => account.id}
+            selected={selected}
+            onSelect={(account) => setSelected(account?.id ?? null)}
+          />
         ) : (
           <Loading />
         )}

@@ -12,13 +12,24 @@ import { toneOfApplication } from '../tones';
 import { ContextMenu } from '../ui/Menu';
 import { renameObject } from './acts';
 import { pasteInto, treeHandlers } from './handlers';
-import { findTyped, moveFocus, opensFor, rangeOf, rowsOf, type Forest, type Motion, type Row, type TreeView } from './model';
+import {
+  findTyped,
+  moveFocus,
+  opensFor,
+  rangeOf,
+  rowsOf,
+  type Forest,
+  type Motion,
+  type Row,
+  type TreeView,
+} from './model';
 import { nameFault } from './placement';
 import { indentOf, TreeRow } from './Row';
 import { setExpanded, useTree } from './state';
 import { treeEntries } from './treeMenu';
 import styles from './Tree.module.css';
 import { useDrag } from './useDrag';
+import { useMarks } from './useMarks';
 
 const ROW_HEIGHT = 24;
 const TYPING_MS = 700;
@@ -38,6 +49,7 @@ interface ObjectTreeProps {
   panelId: string;
   projectId: string;
   view: TreeView;
+  objects: readonly ObjectSummary[];
   forest: Forest;
   roots: readonly ObjectSummary[];
   rules: readonly PlacementRule[];
@@ -46,7 +58,17 @@ interface ObjectTreeProps {
 }
 
 /** The tree of one view. One tab stop; the focused row is told by `aria-activedescendant`, so rows can be virtual. */
-export function ObjectTree({ panelId, projectId, view, forest, roots, rules, filter, label }: ObjectTreeProps) {
+export function ObjectTree({
+  panelId,
+  projectId,
+  view,
+  objects,
+  forest,
+  roots,
+  rules,
+  filter,
+  label,
+}: ObjectTreeProps) {
   useText();
   const id = useId();
   const scroll = useRef<HTMLDivElement>(null);
@@ -56,6 +78,7 @@ export function ObjectTree({ panelId, projectId, view, forest, roots, rules, fil
   const applicationId = useProject((state) => state.applicationId);
   const sessions = useOnline((state) => state.sessions);
   const [focused, setFocused] = useState<string | null>(null);
+  const marks = useMarks(objects);
   const anchor = useRef<string | null>(null);
   const rows = useMemo(() => rowsOf(forest, roots, expanded, filter), [forest, roots, expanded, filter]);
   const at = rows.findIndex((row) => row.object.id === focused);
@@ -74,7 +97,10 @@ export function ObjectTree({ panelId, projectId, view, forest, roots, rules, fil
     else {
       anchor.current = objectId;
       if (how === 'one') selectObjects([objectId]);
-      else selectObjects(selected.includes(objectId) ? selected.filter((other) => other !== objectId) : [...selected, objectId]);
+      else
+        selectObjects(
+          selected.includes(objectId) ? selected.filter((other) => other !== objectId) : [...selected, objectId],
+        );
     }
     const index = rows.findIndex((row) => row.object.id === objectId);
     if (index >= 0) virtual.scrollToIndex(index);
@@ -94,7 +120,7 @@ export function ObjectTree({ panelId, projectId, view, forest, roots, rules, fil
     }
     if (!rows.some((row) => row.object.id === reveal.objectId)) return;
     revealed.current = reveal.serial;
-     
+
     goTo(reveal.objectId);
     scroll.current?.focus();
   });
@@ -216,7 +242,12 @@ export function ObjectTree({ panelId, projectId, view, forest, roots, rules, fil
                 data-cut={clipboard?.cut && clipboard.ids.includes(object.id) ? '' : undefined}
                 data-drop={drag.mark?.id === object.id ? drag.mark.where : undefined}
                 className={styles.row}
-                style={{ transform: `translateY(${entry.start}px)`, '--indent': `${indentOf(row.level)}px` } as React.CSSProperties}
+                style={
+                  {
+                    transform: `translateY(${entry.start}px)`,
+                    '--indent': `${indentOf(row.level)}px`,
+                  } as React.CSSProperties
+                }
                 draggable={renaming !== object.id}
                 onMouseDown={(event) => choose(event, row)}
                 onDoubleClick={() => open(object)}
@@ -230,6 +261,8 @@ export function ObjectTree({ panelId, projectId, view, forest, roots, rules, fil
                   filter={filter.trim()}
                   strong={object.id === applicationId}
                   tone={tone}
+                  relation={sessions[object.id]?.relation}
+                  mark={marks.get(object.id)}
                   renaming={renaming === object.id}
                   faultOf={faultOf(object)}
                   onTwist={() => setExpanded([object.id], !row.expanded)}

@@ -1,11 +1,12 @@
-import { ChevronRight } from 'lucide-react';
-import { useState, type KeyboardEvent } from 'react';
-import type { ObjectSummary } from '@/api/types';
+import { ChevronRight, CloudUpload, Zap } from 'lucide-react';
+import { useRef, useState, type KeyboardEvent } from 'react';
+import type { LoginRelation, ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
 import { displayName } from '../objectName';
 import type { OnlineTone } from '../onlineSession';
 import { ToneDot } from '../ui/ToneDot';
+import type { Mark } from './marks';
 import type { Row } from './model';
 import styles from './Tree.module.css';
 
@@ -23,6 +24,9 @@ interface TreeRowProps {
   /** The active application, drawn bold. */
   strong: boolean;
   tone: OnlineTone | undefined;
+  /** Online: the program in the controller is not the present one. */
+  relation: LoginRelation | undefined;
+  mark: Mark | undefined;
   renaming: boolean;
   faultOf: (name: string) => string | null;
   onTwist: () => void;
@@ -30,7 +34,18 @@ interface TreeRowProps {
 }
 
 /** The inside of a tree row: guide lines, twisty, icon, name, what it is, state. */
-export function TreeRow({ row, filter, strong, tone, renaming, faultOf, onTwist, onRenamed }: TreeRowProps) {
+export function TreeRow({
+  row,
+  filter,
+  strong,
+  tone,
+  relation,
+  mark,
+  renaming,
+  faultOf,
+  onTwist,
+  onRenamed,
+}: TreeRowProps) {
   const t = useText();
   const { object } = row;
   return (
@@ -57,10 +72,16 @@ export function TreeRow({ row, filter, strong, tone, renaming, faultOf, onTwist,
         <NameField name={object.name} faultOf={faultOf} onDone={onRenamed} />
       ) : (
         <>
-          <span className={styles.name} data-strong={strong ? '' : undefined}>
+          <span className={styles.name} data-strong={strong ? '' : undefined} data-severity={mark?.severity}>
             <Marked text={displayName(object, t)} filter={filter} />
           </span>
           <Suffix object={object} tone={tone} />
+          {relation && relation !== 'same' && <RelationMark relation={relation} />}
+          {mark?.forced && (
+            <span className={styles.forced} title={t('tree.forced')}>
+              F
+            </span>
+          )}
         </>
       )}
     </>
@@ -84,7 +105,23 @@ function Suffix({ object, tone }: { object: ObjectSummary; tone: OnlineTone | un
   return short ? <span className={styles.suffix}>({short})</span> : null;
 }
 
-const SHORT: Record<string, string> = { program: 'PRG', function_block: 'FB', function: 'FUN', struct: 'STRUCT', enum: 'ENUM', union: 'UNION', alias: 'ALIAS', subrange: 'SUBRANGE' };
+/** Changed since the download: what brings the controller up to date. */
+function RelationMark({ relation }: { relation: LoginRelation }) {
+  const t = useText();
+  const Icon = relation === 'online_change' ? Zap : CloudUpload;
+  return <Icon className={styles.relation} size={13} aria-label={t(`relation.${relation}`)} />;
+}
+
+const SHORT: Record<string, string> = {
+  program: 'PRG',
+  function_block: 'FB',
+  function: 'FUN',
+  struct: 'STRUCT',
+  enum: 'ENUM',
+  union: 'UNION',
+  alias: 'ALIAS',
+  subrange: 'SUBRANGE',
+};
 
 function Marked({ text, filter }: { text: string; filter: string }) {
   const at = filter ? text.toLowerCase().indexOf(filter.toLowerCase()) : -1;
@@ -110,10 +147,17 @@ function NameField({ name, faultOf, onDone }: NameFieldProps) {
   const t = useText();
   const [value, setValue] = useState(name);
   const fault = value === name ? null : faultOf(value);
+  // Taking the name moves the focus away, which must not take it a second time.
+  const done = useRef(false);
+  const finish = (result: string | null) => {
+    if (done.current) return;
+    done.current = true;
+    onDone(result === name ? null : result);
+  };
   const onKeyDown = (event: KeyboardEvent) => {
     event.stopPropagation();
-    if (event.key === 'Enter' && !fault) onDone(value === name ? null : value);
-    else if (event.key === 'Escape') onDone(null);
+    if (event.key === 'Enter' && !fault) finish(value);
+    else if (event.key === 'Escape') finish(null);
   };
   return (
     <span style={{ position: 'relative' }}>
@@ -129,7 +173,7 @@ function NameField({ name, faultOf, onDone }: NameFieldProps) {
         onKeyDown={onKeyDown}
         onPointerDown={(event) => event.stopPropagation()}
         onDoubleClick={(event) => event.stopPropagation()}
-        onBlur={() => onDone(fault || value === name ? null : value)}
+        onBlur={() => finish(fault ? null : value)}
       />
       {fault && <span className={styles.fault}>{fault}</span>}
     </span>

@@ -18,7 +18,11 @@ import styles from './Tree.module.css';
 
 /** The placement rules; they do not change while the server runs. */
 export function usePlacement() {
-  return useQuery({ queryKey: keys.placement, queryFn: () => api.get<PlacementRule[]>('/placement'), staleTime: Infinity });
+  return useQuery({
+    queryKey: keys.placement,
+    queryFn: () => api.get<PlacementRule[]>('/placement'),
+    staleTime: Infinity,
+  });
 }
 
 /** The Devices view or, with `options.view === 'pous'`, the POUs view. */
@@ -59,6 +63,7 @@ export default function TreePanel({ panelId, options }: PanelProps) {
           panelId={panelId}
           projectId={projectId}
           view={view}
+          objects={objects.data}
           forest={forest}
           roots={roots}
           rules={placement.data}
@@ -75,7 +80,11 @@ function NoObjects({ view }: { view: TreeView }) {
   const allowed = mayEdit(useCommandContext());
   const devices = view === 'devices';
   return (
-    <Empty icon={FolderTree} title={t(devices ? 'tree.noDevices' : 'tree.noPous')} text={t(devices ? 'tree.noDevicesText' : 'tree.noPousText')}>
+    <Empty
+      icon={FolderTree}
+      title={t(devices ? 'tree.noDevices' : 'tree.noPous')}
+      text={t(devices ? 'tree.noDevicesText' : 'tree.noPousText')}
+    >
       <Button
         icon={Plus}
         disabledReason={allowed === true ? null : reasonText(allowed)}

@@ -26,8 +26,9 @@ async function optimistic<Answer>(
 }
 
 function put(projectId: string, change: 'created' | 'moved', object: ObjectSummary): void {
-  queryClient.setQueryData<Objects>(keys.objects(projectId), (objects) =>
-    objects && applyChange(objects, { op: 'object', change, object: summaryOf(object), author: '' }),
+  queryClient.setQueryData<Objects>(
+    keys.objects(projectId),
+    (objects) => objects && applyChange(objects, { op: 'object', change, object: summaryOf(object), author: '' }),
   );
 }
 
@@ -53,24 +54,37 @@ export async function renameObject(projectId: string, object: ObjectSummary, nam
   const answer = await optimistic(
     projectId,
     (objects) => renamed(objects, object.id, name),
-    () => api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, { base_revision: object.revision, name }),
+    () =>
+      api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, { base_revision: object.revision, name }),
   );
   patchSummary(projectId, answer);
   // The declaration carries the name, too.
   await queryClient.invalidateQueries({ queryKey: keys.object(projectId, object.id) });
 }
 
-export async function moveObject(projectId: string, object: ObjectSummary, parentId: string | null, index: number): Promise<void> {
+export async function moveObject(
+  projectId: string,
+  object: ObjectSummary,
+  parentId: string | null,
+  index: number,
+): Promise<void> {
   const answer = await optimistic(
     projectId,
     (objects) => moved(objects, object.id, parentId, index),
-    () => api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, { base_revision: object.revision, parent_id: parentId, index }),
+    () =>
+      api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, {
+        base_revision: object.revision,
+        parent_id: parentId,
+        index,
+      }),
   );
   put(projectId, 'moved', answer);
 }
 
 export async function copyObject(projectId: string, objectId: string, parentId: string | null): Promise<ProjectObject> {
-  const copy = await api.post<ProjectObject>(`/projects/${projectId}/objects/${objectId}/copy`, { parent_id: parentId });
+  const copy = await api.post<ProjectObject>(`/projects/${projectId}/objects/${objectId}/copy`, {
+    parent_id: parentId,
+  });
   put(projectId, 'created', copy);
   await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
   return copy;

@@ -12,7 +12,12 @@ const object = (id: string, parent_id: string | null, index: number, revision = 
   revision,
   badges: [],
 });
-const event = (change: ObjectEvent['change'], changed: ObjectSummary): ObjectEvent => ({ op: 'object', change, object: changed, author: 'eva' });
+const event = (change: ObjectEvent['change'], changed: ObjectSummary): ObjectEvent => ({
+  op: 'object',
+  change,
+  object: changed,
+  author: 'eva',
+});
 const order = (objects: readonly ObjectSummary[], parent: string | null) =>
   objects
     .filter((one) => one.parent_id === parent)

@@ -32,7 +32,7 @@ function replaced(objects: readonly ObjectSummary[], changed: ObjectSummary): Ob
 export function without(objects: readonly ObjectSummary[], ids: readonly string[]): ObjectSummary[] {
   const gone = new Set(ids);
   // Parents may come after their children in the list: repeat until nothing more goes.
-  for (let before = -1; before !== gone.size; ) {
+  for (let before = -1; before !== gone.size;) {
     before = gone.size;
     for (const object of objects) if (object.parent_id !== null && gone.has(object.parent_id)) gone.add(object.id);
   }
@@ -47,9 +47,7 @@ function areSiblings(one: ObjectSummary, other: ObjectSummary): boolean {
 
 /** Numbers the siblings of a placed object anew, without gaps, the object itself at its index. */
 function placed(objects: readonly ObjectSummary[], object: ObjectSummary): ObjectSummary[] {
-  const siblings = objects
-    .filter((other) => areSiblings(object, other))
-    .sort((a, b) => a.index - b.index);
+  const siblings = objects.filter((other) => areSiblings(object, other)).sort((a, b) => a.index - b.index);
   siblings.splice(Math.min(object.index, siblings.length), 0, object);
   const index = new Map(siblings.map((sibling, at) => [sibling.id, at]));
   return objects.map((other) => {
@@ -59,7 +57,12 @@ function placed(objects: readonly ObjectSummary[], object: ObjectSummary): Objec
 }
 
 /** Our own move, shown before the server has answered. */
-export function moved(objects: readonly ObjectSummary[], id: string, parentId: string | null, index: number): ObjectSummary[] {
+export function moved(
+  objects: readonly ObjectSummary[],
+  id: string,
+  parentId: string | null,
+  index: number,
+): ObjectSummary[] {
   const object = objects.find((other) => other.id === id);
   if (!object) return [...objects];
   const there = { ...object, parent_id: parentId, index };

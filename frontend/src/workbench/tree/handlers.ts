@@ -16,7 +16,10 @@ function present(projectId: string): Forest {
 }
 
 function chosen(forest: Forest): string[] {
-  return topMost(forest, useSelection.getState().objectIds.filter((id) => forest.byId.has(id)));
+  return topMost(
+    forest,
+    useSelection.getState().objectIds.filter((id) => forest.byId.has(id)),
+  );
 }
 
 export function treeHandlers(projectId: string, view: TreeView, rules: readonly PlacementRule[]): Handlers {
@@ -58,7 +61,8 @@ export async function pasteInto(projectId: string, view: TreeView, rules: readon
   const { clipboard } = useTree.getState();
   const forest = present(projectId);
   const parent = pasteTarget(forest, view, rules);
-  if (!clipboard || parent === undefined) throw new Error(t(clipboard ? 'reason.pasteNotHere' : 'reason.emptyClipboard'));
+  if (!clipboard || parent === undefined)
+    throw new Error(t(clipboard ? 'reason.pasteNotHere' : 'reason.emptyClipboard'));
   let last: string | undefined;
   for (const id of clipboard.ids) {
     const object = forest.byId.get(id);

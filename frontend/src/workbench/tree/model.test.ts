@@ -24,7 +24,8 @@ const objects = [
 ];
 const forest = forestOf(objects);
 const open = new Set(['Device', 'Logic', 'App']);
-const names = (filter = '') => rowsOf(forest, rootsOf(forest, 'devices'), open, filter).map((row) => `${row.level}${row.object.name}`);
+const names = (filter = '') =>
+  rowsOf(forest, rootsOf(forest, 'devices'), open, filter).map((row) => `${row.level}${row.object.name}`);
 
 describe('rows', () => {
   it('follow the order of the siblings, open objects only', () => {

@@ -37,7 +37,11 @@ export function rootsOf(forest: Forest, view: TreeView): readonly ObjectSummary[
 export function lineage(objects: readonly ObjectSummary[] | Forest, id: string | null): ObjectSummary[] {
   const byId = 'byId' in objects ? objects.byId : new Map(objects.map((object) => [object.id, object]));
   const line: ObjectSummary[] = [];
-  for (let at = id ? byId.get(id) : undefined; at && line.length < 100; at = at.parent_id ? byId.get(at.parent_id) : undefined) {
+  for (
+    let at = id ? byId.get(id) : undefined;
+    at && line.length < 100;
+    at = at.parent_id ? byId.get(at.parent_id) : undefined
+  ) {
     line.push(at);
   }
   return line;
@@ -89,7 +93,12 @@ export interface Row {
 }
 
 /** The rows on screen, top to bottom. With a filter, matching objects and their parents only, all open. */
-export function rowsOf(forest: Forest, roots: readonly ObjectSummary[], expanded: ReadonlySet<string>, filter = ''): Row[] {
+export function rowsOf(
+  forest: Forest,
+  roots: readonly ObjectSummary[],
+  expanded: ReadonlySet<string>,
+  filter = '',
+): Row[] {
   const wanted = filter.trim().toLowerCase();
   const kept = wanted ? keptByFilter(forest, wanted) : null;
   const rows: Row[] = [];

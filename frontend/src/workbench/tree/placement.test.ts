@@ -17,16 +17,29 @@ const rule = (kind: ObjectKind, parents: string[], more: Partial<PlacementRule> 
 });
 
 const RULES = [
-  rule('folder', ['application', 'pous_view', 'folder', 'pou'], { naming: 'free', parent_subkinds: ['program', 'function_block'] }),
+  rule('folder', ['application', 'pous_view', 'folder', 'pou'], {
+    naming: 'free',
+    parent_subkinds: ['program', 'function_block'],
+  }),
   rule('device', ['devices_view'], { naming: 'free' }),
   rule('pou', ['application', 'pous_view'], { proposal: 'POU' }),
   rule('method', ['pou', 'interface'], { parent_subkinds: ['program', 'function_block'], proposal: 'Method' }),
   rule('accessor', ['property'], { naming: 'fixed', names: ['Get', 'Set'], in_folders: false }),
-  rule('task_configuration', ['application'], { once: true, in_folders: false, naming: 'fixed', names: ['Task Configuration'] }),
+  rule('task_configuration', ['application'], {
+    once: true,
+    in_folders: false,
+    naming: 'fixed',
+    names: ['Task Configuration'],
+  }),
 ];
 
 let index = 0;
-const object = (id: string, kind: ObjectKind, parent_id: string | null, subkind: string | null = null): ObjectSummary => ({
+const object = (
+  id: string,
+  kind: ObjectKind,
+  parent_id: string | null,
+  subkind: string | null = null,
+): ObjectSummary => ({
   id,
   kind,
   parent_id,
@@ -47,7 +60,8 @@ const forest = forestOf([
   object('Prop', 'property', 'FB'),
   object('Get', 'accessor', 'Prop'),
 ]);
-const kinds = (parent: string | null, view: 'devices' | 'pous') => placeableKinds(RULES, forest, parent, view).map((entry) => entry.kind);
+const kinds = (parent: string | null, view: 'devices' | 'pous') =>
+  placeableKinds(RULES, forest, parent, view).map((entry) => entry.kind);
 
 describe('placement', () => {
   it('offers at the roots what each view takes', () => {

@@ -31,13 +31,20 @@ export function mayPlace(
   const owner = ownerOf(forest, parentId);
   const place = owner ? owner.kind : parentId === null && view === 'devices' ? 'devices_view' : 'pous_view';
   if (!rule.parents.includes(place)) return false;
-  if (owner?.kind === 'pou' && rule.parent_subkinds.length && owner.subkind && !rule.parent_subkinds.includes(owner.subkind)) {
+  if (
+    owner?.kind === 'pou' &&
+    rule.parent_subkinds.length &&
+    owner.subkind &&
+    !rule.parent_subkinds.includes(owner.subkind)
+  ) {
     return false;
   }
   const direct = parentId ? forest.byId.get(parentId) : undefined;
   if (!rule.in_folders && direct?.kind === 'folder') return false;
   if (rule.naming === 'fixed' && freeFixedNames(rule, forest, parentId, present).length === 0) return false;
-  return !rule.once || !scopeOf(forest, owner?.id ?? null).some((item) => item.kind === rule.kind && item.id !== present);
+  return (
+    !rule.once || !scopeOf(forest, owner?.id ?? null).some((item) => item.kind === rule.kind && item.id !== present)
+  );
 }
 
 /** Kinds that Add Object offers here, in the order of the rules, folders last. */
@@ -114,11 +121,7 @@ export interface DropPlace {
 }
 
 /** Where a drag onto a row would go: into it, or before or after it among its siblings. */
-export function dropPlace(
-  forest: Forest,
-  target: ObjectSummary,
-  where: 'before' | 'inside' | 'after',
-): DropPlace {
+export function dropPlace(forest: Forest, target: ObjectSummary, where: 'before' | 'inside' | 'after'): DropPlace {
   if (where === 'inside') return { parentId: target.id, index: childrenOf(forest, target.id).length };
   const siblings = childrenOf(forest, target.parent_id);
   const at = siblings.findIndex((sibling) => sibling.id === target.id);

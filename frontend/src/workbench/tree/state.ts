@@ -12,7 +12,12 @@ interface TreeState {
   reveal: { objectId: string; serial: number } | null;
 }
 
-export const useTree = create<TreeState>(() => ({ expanded: new Set(), renaming: null, clipboard: null, reveal: null }));
+export const useTree = create<TreeState>(() => ({
+  expanded: new Set(),
+  renaming: null,
+  clipboard: null,
+  reveal: null,
+}));
 
 const OPEN_AT_FIRST: ReadonlySet<ObjectKind> = new Set(['device', 'plc_logic', 'application', 'task_configuration']);
 const SAVE_AFTER_MS = 1500;
@@ -24,7 +29,9 @@ let serial = 0;
 /** Reads which objects were open at the last visit; at the first one the device is open down to the tasks. */
 export async function startTree(projectId: string, objects: readonly ObjectSummary[]): Promise<void> {
   const stored = await loadSetting<string[]>(`tree.${projectId}`).catch(() => null);
-  const ids = Array.isArray(stored) ? stored : objects.filter((object) => OPEN_AT_FIRST.has(object.kind)).map((object) => object.id);
+  const ids = Array.isArray(stored)
+    ? stored
+    : objects.filter((object) => OPEN_AT_FIRST.has(object.kind)).map((object) => object.id);
   project = projectId;
   useTree.setState({ expanded: new Set(ids), renaming: null, clipboard: null, reveal: null });
 }
@@ -38,7 +45,10 @@ export function setExpanded(ids: readonly string[], expanded: boolean): void {
   useTree.setState({ expanded: next });
   clearTimeout(timer);
   const projectId = project;
-  timer = setTimeout(() => void saveSetting(`tree.${projectId}`, [...useTree.getState().expanded]).catch(() => undefined), SAVE_AFTER_MS);
+  timer = setTimeout(
+    () => void saveSetting(`tree.${projectId}`, [...useTree.getState().expanded]).catch(() => undefined),
+    SAVE_AFTER_MS,
+  );
 }
 
 export function revealInTree(objectId: string): void {

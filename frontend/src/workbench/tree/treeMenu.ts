@@ -67,5 +67,7 @@ function addEntries(
     icon: objectIcon(rule.kind),
     run: () => void runCommand('project.addObject', { kind: rule.kind, parentId, view }),
   }));
-  return [{ kind: 'sub', key: 'add', text: t('command.addObject'), icon: findCommand('project.addObject')?.icon, entries }];
+  return [
+    { kind: 'sub', key: 'add', text: t('command.addObject'), icon: findCommand('project.addObject')?.icon, entries },
+  ];
 }

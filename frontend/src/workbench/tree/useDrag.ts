@@ -46,7 +46,8 @@ export function useDrag({ projectId, view, forest, rules, taken, onMoved }: Drag
   const over = (event: DragEvent, row: Row) => {
     const box = event.currentTarget.getBoundingClientRect();
     const at = (event.clientY - box.top) / box.height;
-    const wishes: DropMark['where'][] = at < 0.3 ? ['before', 'inside'] : at > 0.7 ? ['after', 'inside'] : ['inside', at < 0.5 ? 'before' : 'after'];
+    const wishes: DropMark['where'][] =
+      at < 0.3 ? ['before', 'inside'] : at > 0.7 ? ['after', 'inside'] : ['inside', at < 0.5 ? 'before' : 'after'];
     const where = wishes.find((wish) => {
       const place = dropPlace(forest, row.object, wish);
       return !dragged.includes(row.object.id) && mayDrop(rules, forest, dragged, place.parentId, view, event.ctrlKey);

@@ -24,7 +24,11 @@ export function Field({ label, hint, error, row, children }: FieldProps) {
         {label}
       </label>
       <div className={styles.body}>
-        {children({ id, 'aria-invalid': error ? true : undefined, 'aria-describedby': note ? `${id}-note` : undefined })}
+        {children({
+          id,
+          'aria-invalid': error ? true : undefined,
+          'aria-describedby': note ? `${id}-note` : undefined,
+        })}
         {note && (
           <div id={`${id}-note`} className={error ? styles.error : styles.hint} role={error ? 'alert' : undefined}>
             {note}
@@ -88,7 +92,12 @@ export function Select<Value extends string>(props: SelectProps<Value>) {
         <RadixSelect.Content className={menu.menu} position="popper" sideOffset={4} collisionPadding={8}>
           <RadixSelect.Viewport style={{ minWidth: 'var(--radix-select-trigger-width)' }}>
             {choices.map((choice) => (
-              <RadixSelect.Item key={choice.value} value={choice.value} disabled={choice.disabled} className={menu.item}>
+              <RadixSelect.Item
+                key={choice.value}
+                value={choice.value}
+                disabled={choice.disabled}
+                className={menu.item}
+              >
                 <span className={menu.slot}>
                   <RadixSelect.ItemIndicator>
                     <Check size={14} />

@@ -90,14 +90,20 @@ function Item({ parts, entry }: { parts: Parts; entry: Extract<MenuEntry, { kind
 
 function Slot({ icon: Icon, checked }: { icon?: IconComponent; checked?: boolean }) {
   return (
-    <span className={styles.slot}>
-      {checked ? <Check size={15} /> : Icon && <Icon size={16} strokeWidth={1.6} />}
-    </span>
+    <span className={styles.slot}>{checked ? <Check size={15} /> : Icon && <Icon size={16} strokeWidth={1.6} />}</span>
   );
 }
 
 /** A button that opens a menu. The entries are made when it opens. */
-export function DropdownMenu({ trigger, entries, align }: { trigger: ReactElement; entries: () => readonly MenuEntry[]; align?: 'start' | 'end' }) {
+export function DropdownMenu({
+  trigger,
+  entries,
+  align,
+}: {
+  trigger: ReactElement;
+  entries: () => readonly MenuEntry[];
+  align?: 'start' | 'end';
+}) {
   const [shown, setShown] = useState<readonly MenuEntry[]>([]);
   return (
     <RadixDropdown.Root modal={false} onOpenChange={(open) => open && setShown(entries())}>

@@ -21,7 +21,11 @@ export interface Sorting {
 }
 
 /** Rows in the order asked for; equal ones keep their order. */
-export function sorted<Item>(items: readonly Item[], columns: readonly Column<Item>[], sorting: Sorting | null): readonly Item[] {
+export function sorted<Item>(
+  items: readonly Item[],
+  columns: readonly Column<Item>[],
+  sorting: Sorting | null,
+): readonly Item[] {
   const value = sorting && columns.find((column) => column.id === sorting.column)?.sort;
   if (!value) return items;
   const factor = sorting.descending ? -1 : 1;
