@@ -191,6 +191,7 @@ class SymbolMap:
             return [
                 Child(r.name, r.name, r.name, r.kind, False)
                 for r in sorted(self.roots.values(), key=lambda r: r.name.upper())
+                if not r.name.startswith("__")
             ]
         key = path.strip().upper()
         if key in self.roots:
@@ -350,6 +351,11 @@ class _Walk:
             self.at = 1
         name = self.next("a name")
         root = symbols.roots.get(name.upper())
+        if root is None and self.tokens[self.at : self.at + 1] == ["."] and self.at + 1 < len(self.tokens):
+            # a list of a library: Namespace.List
+            root = symbols.roots.get(f"{name}.{self.tokens[self.at + 1]}".upper())
+            if root is not None:
+                self.at += 2
         if root is not None:
             self.path, self.offset, self.info = root.name, root.offset, symbols.types[root.type]
             return
