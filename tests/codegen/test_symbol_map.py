@@ -5,9 +5,9 @@ from __future__ import annotations
 import struct
 
 import pytest
+from compiled_programs import build
 from hypothesis import given
 from hypothesis import strategies as st
-from programs import build
 
 from tappet.codegen import literals, values
 from tappet.codegen.symbol_map import SymbolError, SymbolMap, TypeInfo

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from compiled_programs import build, result, running
 from elftools.elf.elffile import ELFFile
-from programs import build, result, running
 
 from tappet.codegen.build import (
     BuildOptions,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from programs import build, change_over, running
+from compiled_programs import build, change_over, running
 
 BASE = """
 FUNCTION_BLOCK FB_Counter
