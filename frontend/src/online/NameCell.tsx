@@ -25,8 +25,10 @@ const INDENT_PX = 16;
 export function NameCell({ row, session, onToggle }: NameCellProps) {
   const t = useText();
   const live = useLiveValue(session?.runtimeId ?? null, row.expression);
-  const error = row.kind === undefined || row.kind === 'error' ? live?.item.error : undefined;
+  const error =
+    row.valueless !== true && (row.kind === undefined || row.kind === 'error') ? live?.item.error : undefined;
   const expandable = isExpandable(row);
+  if (row.expression === '') return <span className={styles.placeholder}>{t('watch.newLine')}</span>;
   const Arrow = row.open === true ? ChevronDown : ChevronRight;
   return (
     <span className={styles.name} style={{ paddingLeft: row.depth * INDENT_PX }}>
@@ -42,7 +44,7 @@ export function NameCell({ row, session, onToggle }: NameCellProps) {
       >
         <Arrow size={14} />
       </button>
-      <SectionIcon section={row.section} flags={row.flags} />
+      <SectionIcon section={row.section ?? live?.item.section} flags={row.flags ?? live?.item.flags} />
       <span className={error ? styles.invalid : undefined} title={error ?? undefined}>
         {row.label}
       </span>

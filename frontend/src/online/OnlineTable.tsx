@@ -35,7 +35,10 @@ export function OnlineTable(props: OnlineTableProps) {
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const [editing, setEditing] = useState<GridEditing | null>(null);
   const [range, setRange] = useState({ first: 0, last: 60 });
-  const expressions = useMemo(() => roots.filter((r) => r.kind === undefined).map((r) => r.expression), [roots]);
+  const expressions = useMemo(
+    () => roots.filter((r) => r.kind === undefined && r.valueless !== true).map((r) => r.expression),
+    [roots],
+  );
   const items = useItems(runtimeId, expressions);
   const typed = useMemo(() => roots.map((root) => ({ ...items.get(root.expression), ...root })), [roots, items]);
   const children = useChildren(session, typed, open);
@@ -91,6 +94,7 @@ export function OnlineTable(props: OnlineTableProps) {
       case 'type':
         return <span className={styles.type}>{row.type}</span>;
       case 'value':
+        if (row.expression === '') return null;
         return row.valueless === true ? (
           <span className={styles.unknown}>???</span>
         ) : (

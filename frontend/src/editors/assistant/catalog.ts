@@ -79,6 +79,15 @@ export function isQualifiedOnly(declaration: string): boolean {
 
 const OBJECT_KINDS: Readonly<Record<string, Category | null>> = { pou: 'pous', dut: 'types', interface: 'types' };
 
+/** Kinds as the tree abbreviates them. */
+const KIND_NAMES: Readonly<Record<string, string>> = {
+  program: 'PRG',
+  function_block: 'FB',
+  function: 'FUN',
+  interface: 'ITF',
+};
+const kindName = (kind: string) => KIND_NAMES[kind] ?? kind.toUpperCase();
+
 /** Types and POUs of the project. A function block is both: it is called, and it is the type of instances. */
 export function objectEntries(objects: readonly ObjectSummary[], group: string): Entry[] {
   return objects.flatMap((object) => {
@@ -87,7 +96,7 @@ export function objectEntries(objects: readonly ObjectSummary[], group: string):
     const entry: Entry = {
       name: object.name,
       insert: object.name,
-      detail: object.subkind ?? object.kind,
+      detail: kindName(object.subkind ?? object.kind),
       comment: '',
       group,
       category,
@@ -101,7 +110,7 @@ export function libraryEntries(library: LibraryDetail): Entry[] {
     const entry = (category: Category): Entry => ({
       name: item.name,
       insert: item.name,
-      detail: item.kind,
+      detail: kindName(item.kind),
       comment: item.summary,
       group: library.name,
       category,
@@ -142,8 +151,16 @@ export function search(entries: readonly Entry[], category: Category | null, typ
     if (name.includes(wanted)) return 1;
     return entry.comment.toUpperCase().includes(wanted) || entry.group.toUpperCase() === wanted ? 2 : -1;
   };
+  const twice = new Set(
+    entries.filter((entry) => entry.category === 'pous').map((entry) => `${entry.group}.${entry.name}`),
+  );
+  // Among all, a function block stands once, although it is POU and type.
+  const shown = (entry: Entry) =>
+    category === null
+      ? entry.category !== 'types' || !twice.has(`${entry.group}.${entry.name}`)
+      : entry.category === category;
   return entries
-    .filter((entry) => category === null || entry.category === category)
+    .filter(shown)
     .map((entry, at) => ({ entry, at, rank: rank(entry) }))
     .filter((found) => found.rank >= 0)
     .sort((a, b) => a.rank - b.rank || a.at - b.at)

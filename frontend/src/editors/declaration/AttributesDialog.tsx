@@ -1,6 +1,5 @@
-import { useEffect, useState } from 'react';
+import { useState } from 'react';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
 import { Button } from '@/workbench/ui/Button';
 import { Dialog } from '@/workbench/ui/Dialog';
 import styles from './Dialogs.module.css';
@@ -53,30 +52,4 @@ export function AttributesDialog({ value, close }: AttributesDialogProps) {
       )}
     </Dialog>
   );
-}
-
-/** The attributes cell has no field of its own: it opens the dialog at once. */
-export function AttributesCell({
-  value,
-  onCommit,
-  onCancel,
-}: {
-  value: string;
-  onCommit: (value: string) => void;
-  onCancel: () => void;
-}) {
-  useEffect(() => {
-    let current = true;
-    void openDialog<string>((close) => <AttributesDialog value={value} close={close} />).then((text) => {
-      if (!current) return;
-      if (text === undefined) onCancel();
-      else onCommit(text);
-    });
-    return () => {
-      current = false;
-    };
-    // The dialog is asked once; what it answers goes to the cell as it was then.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, []);
-  return <span style={{ padding: '0 8px' }}>{value.split('\n')[0]}</span>;
 }

@@ -8,7 +8,6 @@ import { CellInput } from '../grid/CellInput';
 import { ELEMENTARY_TYPES, identifierProblem } from '../st/keywords';
 import type { Monaco } from '../st/monacoLoader';
 import { ArrayWizard } from './ArrayWizard';
-import { AttributesCell } from './AttributesDialog';
 import styles from './DeclarationTable.module.css';
 import { InitialValueDialog } from './InitialValueDialog';
 import type { DeclarationModel } from './model';
@@ -82,8 +81,6 @@ export function CellEditor(props: CellEditorProps) {
   switch (column) {
     case 'scope':
       return <ScopeCell model={model} value={value} onCommit={(text) => commit(text, 'blur')} onCancel={onCancel} />;
-    case 'attributes':
-      return <AttributesCell value={value} onCommit={(text) => commit(text, 'blur')} onCancel={onCancel} />;
     case 'comment':
       return (
         <CellInput

@@ -1,5 +1,5 @@
 import { Table2, TextInitial } from 'lucide-react';
-import { useCallback, useEffect, useState } from 'react';
+import { useCallback, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
@@ -26,15 +26,14 @@ export function DeclarationPane(props: DeclarationPaneProps) {
   const preferred = useEditorSettings((settings) => settings.declarationView);
   // Online the values come first; who looks at the text then has chosen it for this editor only.
   const [onlineView, setOnlineView] = useState<DeclarationView>('table');
-  const [jump, setJump] = useState<number | null>(null);
+  // A jump to a line shows the text until the user chooses again.
+  const [dismissed, setDismissed] = useState<number | null>(null);
   const online = session !== null;
-  const view = reveal?.part === 'declaration' && reveal.serial === jump ? 'text' : online ? onlineView : preferred;
-  useEffect(() => {
-    if (reveal?.part === 'declaration' && reveal.line !== undefined) setJump(reveal.serial);
-  }, [reveal]);
+  const jump = reveal?.part === 'declaration' && reveal.line !== undefined ? reveal.serial : null;
+  const view = jump !== null && jump !== dismissed ? 'text' : online ? onlineView : preferred;
 
   const choose = (next: DeclarationView) => {
-    setJump(null);
+    setDismissed(jump);
     if (online) setOnlineView(next);
     else setEditorSettings({ declarationView: next });
   };

@@ -43,7 +43,7 @@ export function HeaderDialog({ values, close }: HeaderDialogProps) {
       footer={
         <>
           <Button style={{ marginRight: 'auto' }} onClick={() => void editAttributes()}>
-            {t('decl.attributesButton', { count: attributes.length })}
+            {t('decl.attributesButton', { number: attributes.length })}
           </Button>
           <Button onClick={() => close()}>{t('action.cancel')}</Button>
           <Button type="submit" variant="primary" disabledReason={error}>

@@ -5,8 +5,10 @@ import { guard } from '@/workbench/notices';
 import { renameObject } from '@/workbench/tree/acts';
 import type { TextDocument } from '../documents/documents';
 import styles from './DeclarationTable.module.css';
+import { AttributesDialog } from './AttributesDialog';
+import { attributeLines } from './cells';
 import { HeaderDialog } from './HeaderDialog';
-import { headerValues, setHeader, type HeaderValues } from './header';
+import { headerValues, setHeader, setListAttributes, type HeaderValues } from './header';
 import type { DeclarationModel } from './model';
 
 interface HeaderLineProps {
@@ -21,11 +23,7 @@ export function HeaderLine({ object, document, model, locked }: HeaderLineProps)
   const t = useText();
   const values = headerValues(model.text);
   if (values === null || model.header === null) {
-    return (
-      <div className={styles.header} style={{ cursor: 'default' }}>
-        <b>{model.blocks[0]?.scope ?? ''}</b> {object.name}
-      </div>
-    );
+    return <ListHeader object={object} document={document} model={model} locked={locked} />;
   }
   const rest = model.text.slice(model.header.name?.end ?? model.header.range.end, model.header.range.end).trim();
   const edit = async () => {
@@ -46,6 +44,34 @@ export function HeaderLine({ object, document, model, locked }: HeaderLineProps)
       <span>{values.name}</span>
       <i>{rest}</i>
       <i>{values.comment.split('\n')[0]}</i>
+    </button>
+  );
+}
+
+/** A variable list has no header of its own: its frame, its name and its pragmas. */
+function ListHeader({ object, document, model, locked }: HeaderLineProps) {
+  const t = useText();
+  const lines = attributeLines({ attributes: model.listAttributes });
+  const edit = async () => {
+    const text = await openDialog<string>((close) => <AttributesDialog value={lines.join('\n')} close={close} />);
+    if (text === undefined) return;
+    const next = text
+      .split('\n')
+      .map((line) => line.trim())
+      .filter((line) => line !== '');
+    document.replaceText('declaration', setListAttributes(model.text, next));
+  };
+  return (
+    <button
+      type="button"
+      className={styles.header}
+      title={locked ? t('decl.locked') : t('decl.editAttributes')}
+      aria-disabled={locked}
+      onClick={() => !locked && void edit()}
+    >
+      <b>{model.blocks[0]?.scope ?? ''}</b>
+      <span>{object.name}</span>
+      <i>{lines.map((line) => `{${line}}`).join(' ')}</i>
     </button>
   );
 }

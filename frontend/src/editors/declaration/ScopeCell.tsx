@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { Checkbox } from '@/workbench/ui/Field';
 import { useText } from '@/i18n';
+import { Floating } from '../grid/Floating';
 import styles from './DeclarationTable.module.css';
 import { scopesFor, VARIABLE_FLAGS, type DeclarationModel } from './model';
 
@@ -18,6 +19,7 @@ export function ScopeCell({ model, value, onCommit, onCancel }: ScopeCellProps) 
   const [scope = '', ...flags] = value.split(' ');
   const [chosen, setChosen] = useState<readonly string[]>(flags);
   const list = useRef<HTMLDivElement>(null);
+  const [anchor, setAnchor] = useState<HTMLElement | null>(null);
   const scopes = scopesFor(model.header?.keyword.text.toUpperCase() ?? null);
   const choices = scopes.includes(scope) ? scopes : [scope, ...scopes];
 
@@ -46,42 +48,43 @@ export function ScopeCell({ model, value, onCommit, onCancel }: ScopeCellProps) 
   };
   return (
     <>
-      <span className={styles.scope} style={{ padding: '0 8px' }}>
+      <span ref={setAnchor} className={styles.scopeAnchor}>
         {value}
       </span>
-      <div
-        ref={list}
-        className={styles.scopeMenu}
-        role="menu"
-        aria-label={t('decl.column.scope')}
-        tabIndex={-1}
-        onKeyDown={onKeyDown}
-        onBlur={onBlur}
-      >
-        {choices.map((choice) => (
-          <button
-            key={choice}
-            type="button"
-            role="menuitemradio"
-            aria-checked={choice === scope}
-            className={styles.scopeChoice}
-            onClick={() => onCommit(compose(choice, chosen))}
-          >
-            {choice}
-          </button>
-        ))}
-        <div className={styles.scopeFlags}>
-          {VARIABLE_FLAGS.map((flag) => (
-            <Checkbox
-              key={flag}
-              checked={chosen.includes(flag)}
-              onChecked={(on) => setChosen(on ? [...chosen, flag] : chosen.filter((other) => other !== flag))}
+      <Floating anchor={anchor} ref={list}>
+        <div
+          className={styles.scopeMenu}
+          role="menu"
+          aria-label={t('decl.column.scope')}
+          tabIndex={-1}
+          onKeyDown={onKeyDown}
+          onBlur={onBlur}
+        >
+          {choices.map((choice) => (
+            <button
+              key={choice}
+              type="button"
+              role="menuitemradio"
+              aria-checked={choice === scope}
+              className={styles.scopeChoice}
+              onClick={() => onCommit(compose(choice, chosen))}
             >
-              {flag}
-            </Checkbox>
+              {choice}
+            </button>
           ))}
+          <div className={styles.scopeFlags}>
+            {VARIABLE_FLAGS.map((flag) => (
+              <Checkbox
+                key={flag}
+                checked={chosen.includes(flag)}
+                onChecked={(on) => setChosen(on ? [...chosen, flag] : chosen.filter((other) => other !== flag))}
+              >
+                {flag}
+              </Checkbox>
+            ))}
+          </div>
         </div>
-      </div>
+      </Floating>
     </>
   );
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { headerValues, setHeader } from './header';
+import { headerValues, setHeader, setListAttributes } from './header';
 import { composeInitial, formatInitial, givenValues, initialLines, parseInitial } from './initial';
 import { expandShorthand } from './shorthand';
 import { formatArrayType, parseArrayType, shapeOf, type MemberSource } from './types';
@@ -44,6 +44,16 @@ describe('header', () => {
   });
 });
 
+describe('attributes of a variable list', () => {
+  it('stand before its first block', () => {
+    const text = "{attribute 'qualified_only'}\nVAR_GLOBAL\n    x : INT;\nEND_VAR\n";
+    expect(setListAttributes(text, [])).toBe('VAR_GLOBAL\n    x : INT;\nEND_VAR\n');
+    expect(setListAttributes(text, ["attribute 'qualified_only'", "attribute 'linkalways'"])).toBe(
+      "{attribute 'qualified_only'}\n{attribute 'linkalways'}\nVAR_GLOBAL\n    x : INT;\nEND_VAR\n",
+    );
+  });
+});
+
 describe('initial values (DECL-31)', () => {
   const members: MemberSource = (name) =>
     name === 'ST_POINT'
@@ -76,6 +86,16 @@ describe('initial values (DECL-31)', () => {
     expect(composeInitial(shape, given)).toBe('(x := 2.0, tags := [7, 2(8)])');
     const { '.x': _x, '.tags[1]': _one, '.tags[2]': _two, ...rest } = given;
     expect(composeInitial(shape, { ...rest, '.y': '3.0' })).toBe('(y := 3.0, tags := [7])');
+    expect(composeInitial(shape, {})).toBe('');
+  });
+
+  it('keeps what the type gives to array elements', () => {
+    const recipe: MemberSource = (name) =>
+      name === 'ST_R' ? [{ name: 'a', type: 'ARRAY [0..3] OF INT', initial: '[1, 2(5)]' }] : null;
+    const shape = shapeOf('ST_R', recipe);
+    expect(initialLines(shape, 'r', {}).map((l) => l.value)).toEqual([null, null, '1', '5', '5', '0']);
+    expect(composeInitial(shape, { '.a[0]': '9' })).toBe('(a := [9, 2(5)])');
+    expect(composeInitial(shape, { '.a[3]': '7' })).toBe('(a := [1, 2(5), 7])');
     expect(composeInitial(shape, {})).toBe('');
   });
 

@@ -49,6 +49,14 @@ export function setHeader(text: string, values: HeaderValues): string {
   return values.comment === before.comment ? result : setHeaderComment(result, values.comment);
 }
 
+/** Writes the pragmas of a whole variable list, in front of its first block. */
+export function setListAttributes(text: string, lines: readonly string[]): string {
+  const { listAttributes, blocks } = parseDeclaration(text);
+  const first = blocks[0];
+  if (first === undefined) return text;
+  return writeAttributes(text, listAttributes, attributeLines({ attributes: listAttributes }), lines, first.head.start);
+}
+
 function setHeaderComment(text: string, comment: string): string {
   const header = parseDeclaration(text).header;
   if (header === null) return text;

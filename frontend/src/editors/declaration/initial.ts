@@ -174,32 +174,52 @@ export function givenValues(shape: TypeShape, initial: InitialValue | null): Giv
   return given;
 }
 
-export function initialLines(shape: TypeShape, name: string, given: GivenValues): InitialLine[] {
-  const lines: InitialLine[] = [];
-  const walk = (at: TypeShape, path: string, label: string, depth: number, inherited: string | null): void => {
-    const value = given[path];
-    const standard = inherited ?? (at.kind === 'leaf' ? at.default : null);
-    lines.push({
-      path,
-      label,
-      depth,
-      type: at.type,
-      value: value ?? (at.kind === 'leaf' ? standard : null),
-      isDefault: value === undefined,
-    });
-    if (value !== undefined && at.kind !== 'leaf') return;
-    if (at.kind === 'members') {
-      for (const m of at.members) walk(m.shape, `${path}.${m.name}`, m.name, depth + 1, m.initial);
-    } else if (at.kind === 'elements') {
-      at.labels.slice(0, MAX_ELEMENTS).forEach((l) => walk(at.element, `${path}[${l}]`, `[${l}]`, depth + 1, null));
+/** Values that the type itself gives its components, by path: initial values of members, spread over arrays. */
+function typeDefaults(shape: TypeShape): GivenValues {
+  const defaults: Record<string, string> = {};
+  const walk = (at: TypeShape, path: string): void => {
+    if (at.kind === 'leaf') return;
+    const parts =
+      at.kind === 'members'
+        ? at.members.map((m) => ({ shape: m.shape, path: `${path}.${m.name}`, initial: m.initial }))
+        : at.labels
+            .slice(0, MAX_ELEMENTS)
+            .map((l) => ({ shape: at.element, path: `${path}[${l}]`, initial: null as string | null }));
+    for (const part of parts) {
+      walk(part.shape, part.path);
+      if (part.initial === null) continue;
+      const own = givenValues(part.shape, parseInitial(part.initial));
+      for (const [below, value] of Object.entries(own)) defaults[part.path + below] = value;
     }
   };
-  walk(shape, '', name, 0, null);
+  walk(shape, '');
+  return defaults;
+}
+
+export function initialLines(shape: TypeShape, name: string, given: GivenValues): InitialLine[] {
+  const lines: InitialLine[] = [];
+  const defaults = typeDefaults(shape);
+  const walk = (at: TypeShape, path: string, label: string, depth: number): void => {
+    const value = given[path];
+    const standard = defaults[path] ?? (at.kind === 'leaf' ? at.default : null);
+    lines.push({ path, label, depth, type: at.type, value: value ?? standard, isDefault: value === undefined });
+    if (value !== undefined && at.kind !== 'leaf') return;
+    if (at.kind === 'members') {
+      for (const m of at.members) walk(m.shape, `${path}.${m.name}`, m.name, depth + 1);
+    } else if (at.kind === 'elements') {
+      at.labels.slice(0, MAX_ELEMENTS).forEach((l) => walk(at.element, `${path}[${l}]`, `[${l}]`, depth + 1));
+    }
+  };
+  walk(shape, '', name, 0);
   return lines;
 }
 
-/** Composes one initial value; members at their default are left out, equal elements are counted (DECL-31). */
+/**
+ * Composes one initial value; members at their default are left out, equal elements are counted (DECL-31). An
+ * array that is given at all is given whole, since elements left out would lose what its type gives them.
+ */
 export function composeInitial(shape: TypeShape, given: GivenValues): string {
+  const defaults = typeDefaults(shape);
   const compose = (at: TypeShape, path: string): string | null => {
     const own = given[path];
     if (own !== undefined) return own;
@@ -215,15 +235,16 @@ export function composeInitial(shape: TypeShape, given: GivenValues): string {
   };
   const composeElements = (at: Extract<TypeShape, { kind: 'elements' }>, path: string): string | null => {
     const values = at.labels.map((label) => compose(at.element, `${path}[${label}]`));
-    let last = values.length - 1;
-    while (last >= 0 && values[last] === null) last -= 1;
-    if (last < 0) return null;
+    if (values.every((value) => value === null)) return null;
     const standard = defaultText(at.element);
+    const full = values.map((value, i) => value ?? defaults[`${path}[${at.labels[i] ?? ''}]`] ?? standard);
+    let last = full.length - 1;
+    while (last > 0 && values[last] === null && full[last] === standard) last -= 1;
     const parts: string[] = [];
     for (let i = 0; i <= last;) {
-      const value = values[i] ?? standard;
+      const value = full[i] ?? standard;
       let end = i + 1;
-      while (end <= last && (values[end] ?? standard) === value) end += 1;
+      while (end <= last && full[end] === value) end += 1;
       parts.push(end - i === 1 ? value : `${String(end - i)}(${value})`);
       i = end;
     }

@@ -89,6 +89,8 @@ export interface DeclarationProblem extends Range {
 export interface DeclarationModel {
   readonly text: string;
   readonly header: DeclarationHeader | null;
+  /** Pragmas before the first block of a text without header: those of a whole variable list (GVL-06). */
+  readonly listAttributes: readonly Cell[];
   readonly blocks: readonly Block[];
   readonly rows: readonly Row[];
   readonly problems: readonly DeclarationProblem[];

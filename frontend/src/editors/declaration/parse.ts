@@ -28,6 +28,7 @@ class DeclarationParser {
   private readonly rows: Row[] = [];
   private readonly problems: DeclarationProblem[] = [];
   private header: DeclarationHeader | null = null;
+  private listAttributes: Cell[] = [];
   private at = 0;
   private statements = 0;
 
@@ -45,7 +46,7 @@ class DeclarationParser {
         continue;
       }
       const word = this.upper(token);
-      if (token.kind === 'word' && VAR_KEYWORD.test(word)) this.variableBlock();
+      if (token.kind === 'word' && VAR_KEYWORD.test(word)) this.variableBlock(trivia);
       else if (token.kind === 'word' && word === 'TYPE') this.typeDeclaration(trivia);
       else if (token.kind === 'word' && HEADER_KEYWORDS.has(word) && this.header === null) this.pouHeader(trivia);
       else if (token.kind === 'word' && word.startsWith('END_')) this.at += 1;
@@ -60,6 +61,7 @@ class DeclarationParser {
     return {
       text: this.text,
       header: this.header,
+      listAttributes: this.listAttributes,
       blocks: this.blocks,
       rows: this.rows,
       problems: this.problems,
@@ -129,7 +131,10 @@ class DeclarationParser {
     };
   }
 
-  private variableBlock(): void {
+  private variableBlock(trivia: readonly Token[]): void {
+    if (this.header === null && this.blocks.length === 0) {
+      this.listAttributes = trivia.filter((t) => t.kind === 'pragma').map((t) => this.cell(t));
+    }
     const scope = this.peek();
     this.at += 1;
     let headEnd = scope.end;

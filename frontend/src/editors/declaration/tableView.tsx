@@ -3,21 +3,30 @@ import type { t as Text } from '@/i18n';
 import type { GridColumn } from '../grid/Grid';
 import styles from './DeclarationTable.module.css';
 import type { DeclarationModel } from './model';
-import { cellText, columnsFor, DRAFT_KEY, type ColumnId, type Draft } from './tableModel';
+import { cellText, columnsFor, DRAFT_KEY, scopeText, type ColumnId, type Draft } from './tableModel';
 
 const LOOK: Readonly<Record<ColumnId, Omit<GridColumn, 'id' | 'title'>>> = {
   number: { width: 40, align: 'right', sortable: true },
-  scope: { width: 120, sortable: true },
-  name: { width: 170, grow: true, code: true, sortable: true },
-  address: { width: 84, code: true, sortable: true },
-  type: { width: 170, grow: true, code: true, sortable: true },
-  initial: { width: 130, grow: true, code: true, sortable: true },
-  comment: { width: 200, grow: true, sortable: true },
-  attributes: { width: 120, grow: true, sortable: true },
+  scope: { width: 104, sortable: true },
+  name: { width: 150, grow: true, code: true, sortable: true },
+  address: { width: 76, code: true, sortable: true },
+  type: { width: 150, grow: true, code: true, sortable: true },
+  initial: { width: 110, grow: true, code: true, sortable: true },
+  comment: { width: 170, grow: true, sortable: true },
+  attributes: { width: 94, grow: true, sortable: true },
 };
 
+const CODE_CHARACTER_PX = 7.3;
+
 export function tableColumns(t: typeof Text, model: DeclarationModel): readonly GridColumn[] {
-  return columnsFor(model).map((id) => ({ id, title: t(`decl.column.${id}`), ...LOOK[id] }));
+  const longest = Math.max(0, ...model.blocks.map((block) => scopeText(block).length));
+  const scope = Math.max(LOOK.scope.width, Math.min(220, longest * CODE_CHARACTER_PX + 18));
+  return columnsFor(model).map((id) => ({
+    id,
+    title: t(`decl.column.${id}`),
+    ...LOOK[id],
+    ...(id === 'scope' && { width: scope }),
+  }));
 }
 
 /** How a cell looks while it is not edited. */

@@ -1,9 +1,12 @@
+import { createElement } from 'react';
 import { useText } from '@/i18n';
+import { openDialog } from '@/workbench/dialogs';
 import type { TextDocument } from '../documents/documents';
 import type { GridColumn, GridEditing } from '../grid/Grid';
 import type { GridCursor } from '../grid/cursor';
 import type { GridSelection } from '../grid/useGridSelection';
 import { setEditorSettings, useEditorSettings } from '../settings';
+import { AttributesDialog } from './AttributesDialog';
 import type { DeclarationModel } from './model';
 import { deleteRows, moveRow } from './structure';
 import {
@@ -54,12 +57,22 @@ export function useTableActs(input: TableActsInput) {
       columns.findIndex((column) => column.id === id),
     );
 
+  /** This cell has no field of its own: it is a dialog. */
+  const editAttributes = async (index: number) => {
+    const row = model.rows[index];
+    if (row === undefined) return;
+    const value = cellText(model, row, 'attributes');
+    const text = await openDialog<string>((close) => createElement(AttributesDialog, { value, close }));
+    if (text !== undefined && text !== value) replace(withCell(model.text, index, 'attributes', text));
+  };
+
   const open = (cell: GridEditing): void => {
     const index = shown[cell.row] ?? DRAFT_KEY;
     const column = columns[cell.column]?.id;
     if (edit !== null || column === undefined || column === 'number') return;
     if (index !== DRAFT_KEY && model.rows[index]?.special != null) return;
-    setEditing(cell);
+    if (column === 'attributes') void editAttributes(index);
+    else setEditing(cell);
   };
 
   return {

@@ -81,6 +81,11 @@ export class TextDocument {
       const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', LANGUAGE_ID, uri);
       made.setValue(state.text[part]);
       made.setEOL(monaco.editor.EndOfLineSequence.LF);
+      made.updateOptions({
+        tabSize: 4,
+        insertSpaces: true,
+        bracketColorizationOptions: { enabled: false, independentColorPoolPerBracketType: false },
+      });
       made.onDidChangeContent(() => this.typed());
       return made;
     };

@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
+import { Floating } from './Floating';
 import styles from './Grid.module.css';
 
 interface CellInputProps {
@@ -25,6 +26,8 @@ export function CellInput(props: CellInputProps) {
   const field = useRef<HTMLInputElement & HTMLTextAreaElement>(null);
   const frame = useRef<HTMLDivElement>(null);
   const done = useRef(false);
+  const [anchor, setAnchor] = useState<HTMLDivElement | null>(null);
+  const floating = useRef<HTMLDivElement>(null);
 
   useEffect(() => {
     const input = field.current;
@@ -67,7 +70,13 @@ export function CellInput(props: CellInputProps) {
   };
   const onBlur = () => {
     requestAnimationFrame(() => {
-      if (frame.current !== null && !frame.current.contains(document.activeElement) && document.hasFocus()) {
+      const focus = document.activeElement;
+      const inside =
+        frame.current?.contains(focus) ||
+        floating.current?.contains(focus) ||
+        // A menu or dialog of the cell's own button belongs to it, too.
+        focus?.closest('[role="menu"], [role="dialog"]') != null;
+      if (frame.current !== null && !inside && document.hasFocus()) {
         // Leaving an unchanged or refused text gives the cell back as it was.
         if (text === value || (check?.(text) ?? null) !== null) cancel();
         else commit('blur');
@@ -86,14 +95,23 @@ export function CellInput(props: CellInputProps) {
     onBlur,
   };
   return (
-    <div ref={frame} className={styles.edit} onDoubleClick={(event) => event.stopPropagation()}>
+    <div
+      ref={(element) => {
+        frame.current = element;
+        setAnchor(element);
+      }}
+      className={styles.edit}
+      onDoubleClick={(event) => event.stopPropagation()}
+    >
       {props.multiline === true ? (
-        <textarea
-          {...common}
-          className={styles.area}
-          rows={Math.min(8, Math.max(2, text.split('\n').length))}
-          onChange={(event) => setText(event.target.value)}
-        />
+        <Floating ref={floating} anchor={anchor} place="over">
+          <textarea
+            {...common}
+            className={styles.area}
+            rows={Math.min(8, Math.max(2, text.split('\n').length))}
+            onChange={(event) => setText(event.target.value)}
+          />
+        </Floating>
       ) : (
         <input {...common} className={styles.input} list={listId} onChange={(event) => setText(event.target.value)} />
       )}
@@ -106,9 +124,9 @@ export function CellInput(props: CellInputProps) {
       )}
       {props.button?.(text)}
       {refused !== null && (
-        <div className={styles.refused} role="alert">
-          {refused}
-        </div>
+        <Floating anchor={anchor} className={styles.refused}>
+          <span role="alert">{refused}</span>
+        </Floating>
       )}
     </div>
   );

@@ -52,19 +52,29 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
 
   const roots = useMemo((): readonly OnlineRoot[] => {
     const rows = model.rows.filter((row) => row.special === null);
-    const declared = new Map(rows.map((row) => [row.name.text.toUpperCase(), row]));
+    const declared = new Map(rows.map((row, order) => [row.name.text.toUpperCase(), { row, order }]));
     const extra = (name: string) => {
-      const row = declared.get(name.toUpperCase());
-      return row && { address: row.address?.text, comment: joinComments(row.comments.map((cell) => cell.text)) };
+      const row = declared.get(name.toUpperCase())?.row;
+      return (
+        row && {
+          address: row.address?.text,
+          comment: joinComments(row.comments.map((cell) => cell.text)),
+          section: model.blocks[row.block]?.scope,
+        }
+      );
     };
+    // In the order of the text; inherited variables, which it does not name, come first.
+    const order = (child: SymbolChild) => declared.get(child.name.toUpperCase())?.order ?? -1;
     if (members !== null && target.path !== null && !isRoutine(object)) {
-      return members.map((child) => ({
-        ...child,
-        key: child.path,
-        label: child.name,
-        expression: child.path,
-        ...extra(child.name),
-      }));
+      return [...members]
+        .sort((a, b) => order(a) - order(b))
+        .map((child) => ({
+          ...child,
+          key: child.path,
+          label: child.name,
+          expression: child.path,
+          ...extra(child.name),
+        }));
     }
     return rows.map((row) => ({
       key: row.name.text,

@@ -72,7 +72,7 @@ describe('pills', () => {
   it('show value, force and prepared value', () => {
     expect(pillOf(state(42), 4)).toEqual({ text: '\u00a0\u00a042', classes: ['pill'], prepared: null });
     expect(pillOf(state(true, { forced: true, prepared: 'FALSE' }), 5)).toEqual({
-      text: 'F\u00a0\u00a0TRUE',
+      text: 'F\u00a0TRUE\u00a0',
       classes: ['pill', 'true', 'forced'],
       prepared: '<FALSE>',
     });

@@ -37,7 +37,10 @@ export function pillOf(state: PillState, width: number): Pill | null {
   if (state.lost) classes.push('lost');
   else if (live.changedAt > 0 && state.now - live.changedAt < FRESH_MS) classes.push('fresh');
   if (state.stale) classes.push('stale');
-  const padded = plain.padStart(Math.min(width, LONGEST), NO_BREAK);
+  // Numbers keep their point in place, words their beginning.
+  const room = Math.min(width, LONGEST);
+  const word = typeof live.value === 'boolean' || valueKind(live.item) === 'enum';
+  const padded = word ? plain.padEnd(room, NO_BREAK) : plain.padStart(room, NO_BREAK);
   return {
     text: state.forced ? `F${NO_BREAK}${padded}` : padded,
     classes,

@@ -1,4 +1,5 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
+import { flushSync } from 'react-dom';
 import { createRoot, type Root } from 'react-dom/client';
 import { CellInput } from '@/editors/grid/CellInput';
 import { t } from '@/i18n';
@@ -25,7 +26,6 @@ export function openPreparePopup(
 ): void {
   const pill = pillUnder(monaco, event);
   if (pill === null || !event.event.leftButton) return;
-  event.event.preventDefault();
   const { expression } = pill;
   const live = channelOf(runtimeId)?.board.get(expression);
   if (live == null) return;
@@ -65,6 +65,13 @@ function showField(
     getDomNode: () => node,
     getPosition: () => ({ position, preference: [BELOW, ABOVE] }),
     allowEditorOverflow: true,
+    // Before its first placement the widget is hidden and takes no focus.
+    afterRender: () => {
+      if (node.contains(document.activeElement)) return;
+      const field = node.querySelector('input');
+      field?.focus();
+      field?.select();
+    },
   };
   const root: Root = createRoot(node);
   const close = () => {
@@ -80,7 +87,7 @@ function showField(
     const result = checkLiteral(text, item);
     return result.ok ? null : t(result.reason, result.values);
   };
-  root.render(
+  const content = (
     <>
       <div className={styles.title}>
         {item.expression} <i>{item.type}</i>
@@ -100,7 +107,8 @@ function showField(
         />
       </div>
       <div className={styles.hint}>{t('online.prepareHint')}</div>
-    </>,
+    </>
   );
+  flushSync(() => root.render(content));
   target.addContentWidget(widget);
 }

@@ -1,4 +1,4 @@
-import { useEffect, useMemo, useState } from 'react';
+import { useEffect, useMemo, useRef } from 'react';
 import { useStore } from 'zustand';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
@@ -55,22 +55,23 @@ export function useOnlineView({ projectId, object, instance, monaco, document, e
   );
   // Without a chosen instance, names of the block would be taken for globals: better no values than wrong ones.
   const ready = settings !== null && target.needsInstanceOf === null && (target.path === null || members !== null);
-  const [monitor, setMonitor] = useState<InlineMonitor | null>(null);
+  const monitor = useRef<InlineMonitor | null>(null);
 
   useEffect(() => {
     const channel = channelOf(runtimeId);
     if (editor === null || channel === null || !ready) return;
     const made = new InlineMonitor(monaco, editor, channel);
-    const mouse = editor.onMouseDown((event) => openPreparePopup(monaco, editor, runtimeId ?? '', event));
-    setMonitor(made);
+    const mouse = editor.onMouseUp((event) => openPreparePopup(monaco, editor, runtimeId ?? '', event));
+    monitor.current = made;
     return () => {
-      setMonitor(null);
+      monitor.current = null;
       mouse.dispose();
       made.dispose();
     };
   }, [editor, runtimeId, ready, monaco]);
 
+  // After the effect above: a monitor that has just been made gets its settings here.
   useEffect(() => {
-    if (monitor !== null && settings !== null) monitor.set(settings);
-  }, [monitor, settings]);
+    if (settings !== null) monitor.current?.set(settings);
+  }, [settings, editor, runtimeId, ready, monaco]);
 }

@@ -52,6 +52,7 @@ export const EDITOR_OPTIONS: editor.IStandaloneEditorConstructionOptions = {
   padding: { top: 4, bottom: 8 },
   scrollbar: { verticalScrollbarSize: 10, horizontalScrollbarSize: 10, useShadows: false },
   overviewRulerBorder: false,
+  hideCursorInOverviewRuler: true,
   fixedOverflowWidgets: true,
   wordBasedSuggestions: 'off',
   quickSuggestions: { other: true, comments: false, strings: false },
@@ -59,7 +60,8 @@ export const EDITOR_OPTIONS: editor.IStandaloneEditorConstructionOptions = {
   suggestSelection: 'first',
   parameterHints: { enabled: true, cycle: true },
   'semanticHighlighting.enabled': true,
-  bracketPairColorization: { enabled: false },
+  // The flat name is the one the standalone editor hands on to its models.
+  ...({ 'bracketPairColorization.enabled': false } as object),
   matchBrackets: 'always',
   occurrencesHighlight: 'singleFile',
   stickyScroll: { enabled: false },

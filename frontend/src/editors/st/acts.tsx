@@ -23,6 +23,7 @@ import { setEditorSettings, useEditorSettings } from '../settings';
 import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
 import type { CodeEditor } from './CodePane';
 import { typeByName } from './declareTarget';
+import { isKeyword } from './keywords';
 import { RenameDialog } from './RenameDialog';
 import { expressionOf, findVariables } from './variables';
 
@@ -41,7 +42,9 @@ export async function inputAssistant({ projectId, object }: TextPanel, editor: C
   const model = editor.getModel();
   const position = editor.getPosition();
   if (model === null || position === null) return;
-  const word = model.getWordUntilPosition(position);
+  const before = model.getWordUntilPosition(position);
+  // Behind a keyword something new begins.
+  const word = isKeyword(before.word) ? { word: '', startColumn: position.column } : before;
   const chosen = await openDialog<string>((close) => (
     <InputAssistant projectId={projectId} object={object} typed={word.word} close={close} />
   ));
@@ -62,7 +65,8 @@ export async function inputAssistant({ projectId, object }: TextPanel, editor: C
 export async function autoDeclare(panel: TextPanel, editor: CodeEditor, name?: string): Promise<void> {
   const { monaco, projectId, object, document } = panel;
   const position = editor.getPosition();
-  const word = name ?? (position === null ? '' : (editor.getModel()?.getWordAtPosition(position)?.word ?? ''));
+  const found = name ?? (position === null ? '' : (editor.getModel()?.getWordAtPosition(position)?.word ?? ''));
+  const word = isKeyword(found) ? '' : found;
   const objects = objectsOf(projectId);
   // An action declares in its POU.
   const own = object.kind === 'action' ? (owningPou(objects, object) ?? object) : object;

@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
+import { Floating } from '@/editors/grid/Floating';
 import grid from '@/editors/grid/Grid.module.css';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { useSymbols } from '../useLive';
@@ -23,6 +24,7 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
   const [at, setAt] = useState(-1);
   const field = useRef<HTMLInputElement>(null);
   const done = useRef(false);
+  const [anchor, setAnchor] = useState<HTMLDivElement | null>(null);
   const items = found.for === text ? found.items : [];
 
   useEffect(() => {
@@ -74,7 +76,7 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
     }
   };
   return (
-    <div className={grid.edit} onDoubleClick={(event) => event.stopPropagation()}>
+    <div ref={setAnchor} className={grid.edit} onDoubleClick={(event) => event.stopPropagation()}>
       <input
         ref={field}
         className={grid.input}
@@ -90,23 +92,25 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
         onBlur={() => finish(true)}
       />
       {items.length > 0 && (
-        <div className={styles.list} role="listbox">
-          {items.slice(0, 12).map((item, index) => (
-            <div
-              key={item.expression}
-              role="option"
-              aria-selected={index === at}
-              className={styles.option}
-              onPointerDown={(event) => {
-                event.preventDefault();
-                take(item);
-              }}
-            >
-              <span>{item.name}</span>
-              <i>{item.type}</i>
-            </div>
-          ))}
-        </div>
+        <Floating anchor={anchor} className={styles.list}>
+          <div role="listbox">
+            {items.slice(0, 12).map((item, index) => (
+              <div
+                key={item.expression}
+                role="option"
+                aria-selected={index === at}
+                className={styles.option}
+                onPointerDown={(event) => {
+                  event.preventDefault();
+                  take(item);
+                }}
+              >
+                <span>{item.name}</span>
+                <i>{item.type}</i>
+              </div>
+            ))}
+          </div>
+        </Floating>
       )}
     </div>
   );

@@ -50,14 +50,15 @@ let timer: ReturnType<typeof setTimeout> | undefined;
 
 /** Loads the lists of each project that is opened. */
 export function followProject(): void {
+  let latest = 0;
   const load = async (projectId: string | null) => {
     if (projectId === useWatchLists.getState().projectId) return;
     useWatchLists.setState({ projectId, lists: EMPTY });
+    const mine = (latest += 1);
     if (projectId === null) return;
     const stored = await loadSetting<Stored>(keyOf(projectId)).catch(() => null);
-    const now = useWatchLists.getState();
     // What was added while loading is not lost.
-    if (now.projectId === projectId) useWatchLists.setState({ lists: joined(fromStored(stored), now.lists) });
+    if (mine === latest) useWatchLists.setState((now) => ({ lists: joined(fromStored(stored), now.lists) }));
   };
   void load(useProject.getState().projectId);
   useProject.subscribe((state) => void load(state.projectId));
