@@ -1,7 +1,8 @@
 """Jitter: how late a 1 ms task starts, idle and while 1,000 variables are watched and a build runs.
 
 The baseline is a bare native sleep loop that runs in the same process, at the same time and in the same
-scheduling class, so both meet the same machine. Shown is what 99.9 % of the starts kept. Bar: DESIGN section 4.
+scheduling class, so both meet the same machine. Shown is what 99.9 % of the starts kept.
+Bar: DESIGN section 4.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, in
 
 
 def complete(program: Program, data: list[DataObject]) -> None:
-    """Lower what is waiting, then number the virtual methods; may be called again after more code was added."""
+    """Lower what is waiting, then number the virtual methods; may be called again after adding code."""
     work_off(program)
     _dispatch_tables(program)
     _relations(program, data)
