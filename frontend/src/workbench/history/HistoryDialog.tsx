@@ -3,7 +3,8 @@ import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary, Revision } from '@/api/types';
-import { useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
+import { secondText } from '../clock';
 import { confirm } from '../dialogs';
 import { guard, notify } from '../notices';
 import { commandContext } from '../context';
@@ -26,7 +27,6 @@ interface HistoryDialogProps {
 /** All saves, newest first; going back makes a new revision, so nothing is ever lost. */
 export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) {
   const t = useText();
-  const language = useLanguage();
   const path = object ? `/projects/${projectId}/objects/${object.id}` : `/projects/${projectId}`;
   const { data, error, refetch } = useQuery({
     queryKey: ['revisions', path],
@@ -58,7 +58,7 @@ export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) 
         id: 'at',
         title: t('history.at'),
         width: 160,
-        cell: (one) => <span className="digits">{new Date(one.at).toLocaleString(language)}</span>,
+        cell: (one) => <span className="digits">{secondText(one.at)}</span>,
       },
       { id: 'author', title: t('history.author'), width: 100, cell: (one) => <span>{one.author}</span> },
       ...(object
@@ -90,7 +90,7 @@ export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) 
         ),
       },
     ],
-    [t, language, object, newest],
+    [t, object, newest],
   );
 
   const revert = async () => {

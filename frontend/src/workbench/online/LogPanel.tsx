@@ -5,6 +5,7 @@ import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { LogEntry } from '@/api/types';
 import { useText } from '@/i18n';
+import { millisecondText } from '../clock';
 import { saveBlob } from '../downloadFile';
 import messages from '../messages/Messages.module.css';
 import { runCommand } from '../run';
@@ -13,7 +14,7 @@ import { Empty, Failed, Loading } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
-import { levelOf, logCsv, merged, shownEntries, timeText, type LogLevel } from './log';
+import { levelOf, logCsv, merged, shownEntries, type LogLevel } from './log';
 import { useActiveSession } from './session';
 
 const POLL_MS = 2000;
@@ -71,7 +72,7 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
         id: 'at',
         title: t('log.time'),
         width: 200,
-        cell: (entry) => <span className="digits">{timeText(entry.at)}</span>,
+        cell: (entry) => <span className="digits">{millisecondText(entry.at)}</span>,
       },
       {
         id: 'message',

@@ -33,12 +33,3 @@ export function logCsv(entries: readonly LogEntry[]): string {
   const lines = entries.map((entry) => [entry.at, entry.severity, entry.component, entry.message].map(cell).join(','));
   return ['time,severity,component,message', ...lines].join('\r\n') + '\r\n';
 }
-
-/** Local time to the millisecond, in an order that sorts: `2026-03-10 08:15:02.045`. */
-export function timeText(at: string): string {
-  const date = new Date(at);
-  const two = (number: number) => String(number).padStart(2, '0');
-  const day = `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())}`;
-  const time = `${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
-  return `${day} ${time}.${String(date.getMilliseconds()).padStart(3, '0')}`;
-}

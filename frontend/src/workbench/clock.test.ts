@@ -1,0 +1,8 @@
+import { expect, it } from 'vitest';
+import { millisecondText, secondText } from './clock';
+
+it('times are local and sortable', () => {
+  const at = new Date(2026, 2, 10, 8, 5, 2, 45).toISOString();
+  expect(secondText(at)).toBe('2026-03-10 08:05:02');
+  expect(millisecondText(at)).toBe('2026-03-10 08:05:02.045');
+});
