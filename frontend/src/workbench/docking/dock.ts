@@ -15,6 +15,7 @@ import type { Reveal } from '../editors';
 import { defaultLayout, editorPanelId, type EditorParams } from './layout';
 import { allPanels, findPanel, type DockPosition } from '../panels';
 import type { Place } from '../types';
+import { isEditor, withDockSizes } from './docks';
 
 let api: DockviewApi | null = null;
 let serial = 0;
@@ -70,8 +71,7 @@ function groupPosition(group: DockviewGroupPanel | undefined): AddPanelOptions['
 
 /** The group new editors open in: the one used last, else the first that holds editors or is empty. */
 function editorGroup(dock: DockviewApi): DockviewGroupPanel | undefined {
-  const isEditorGroup = (group: DockviewGroupPanel) =>
-    group.panels.length === 0 || group.panels.some((panel) => panel.view.contentComponent === 'editor');
+  const isEditorGroup = (group: DockviewGroupPanel) => group.panels.length === 0 || group.panels.some(isEditor);
   const active = dock.activeGroup;
   if (active && active.panels.length > 0 && isEditorGroup(active)) return active;
   const groups = dock.groups.filter((group) => group.api.location.type === 'grid' && isEditorGroup(group));
@@ -97,15 +97,18 @@ export function showPanel(id: string, focus = true): void {
   }
   const registration = findPanel(id);
   if (!registration) return;
-  const added = api.addPanel({
-    id,
-    component: 'tool',
-    tabComponent: 'tool',
-    title: t(registration.title, registration.titleValues),
-    position: dockSpot(api, registration.position),
-    ...(registration.position === 'bottom' ? { initialHeight: 240 } : { initialWidth: 300 }),
+  const dock = api;
+  withDockSizes(dock, () => {
+    const added = dock.addPanel({
+      id,
+      component: 'tool',
+      tabComponent: 'tool',
+      title: t(registration.title, registration.titleValues),
+      position: dockSpot(dock, registration.position),
+      ...(registration.position === 'bottom' ? { initialHeight: 240 } : { initialWidth: 320 }),
+    });
+    if (focus) focusPanel(added);
   });
-  if (focus) focusPanel(added);
 }
 
 /** Moves the keyboard focus into a panel: to the element marked `data-autofocus`, else to the first that takes it. */
@@ -123,7 +126,10 @@ function dockSpot(dock: DockviewApi, position: DockPosition): AddPanelOptions['p
     (panel) => findPanel(panel.id)?.position === position && panel.group.api.location.type === 'grid',
   );
   if (fellow) return { referenceGroup: fellow.group, direction: 'within' };
-  return { direction: position === 'bottom' ? 'below' : position };
+  // The bottom dock runs below everything, the others stand beside the editors.
+  const editors = editorGroup(dock);
+  if (position === 'bottom' || !editors) return { direction: position === 'bottom' ? 'below' : position };
+  return { referenceGroup: editors, direction: position };
 }
 
 export function closePanel(id: string): void {
@@ -134,7 +140,7 @@ export function closePanel(id: string): void {
 /** Puts every panel back to where it was at the start; open editors stay open. */
 export function resetLayout(): void {
   if (!api) return;
-  const editors = api.panels.filter((panel) => panel.view.contentComponent === 'editor');
+  const editors = api.panels.filter(isEditor);
   const layout = defaultLayout(
     allPanels(),
     (panel) => t(panel.title, panel.titleValues),
@@ -152,7 +158,6 @@ export function applyLayout(layout: SerializedDockview): void {
 export function closePanelsOf(objectIds: readonly string[]): void {
   const gone = new Set(objectIds);
   for (const panel of [...(api?.panels ?? [])]) {
-    if (panel.view.contentComponent === 'editor' && gone.has((panel.params as EditorParams).objectId))
-      panel.api.close();
+    if (isEditor(panel) && gone.has((panel.params as EditorParams).objectId)) panel.api.close();
   }
 }

@@ -1,11 +1,9 @@
 /** Keeps the stores in step with dockview: which editors are open, which is active, and that an editor area remains. */
-import type { DockviewApi, DockviewGroupPanel } from 'dockview-react';
-import { findPanel } from '../panels';
+import type { DockviewApi } from 'dockview-react';
 import { setCursor, setDirty, useSelection } from '../selection';
 import { editorGroupUsed } from './dock';
+import { dockOf, isEditor } from './docks';
 import { EDITORS_GROUP, type EditorParams } from './layout';
-
-const isEditor = (panel: { view: { contentComponent: string } }) => panel.view.contentComponent === 'editor';
 
 /** Id of the dock panel that an element is in. */
 export function panelAround(element: EventTarget | null): string | undefined {
@@ -66,33 +64,4 @@ export function pruneEmptyGroups(api: DockviewApi): void {
     const left = api.groups.find((group) => dockOf(group) === 'left');
     api.addGroup(left ? { referenceGroup: left, direction: 'right' } : { direction: 'right' });
   }
-}
-
-/** Which dock a group is: that of its first tool panel, when it holds tool panels only. */
-function dockOf(group: DockviewGroupPanel): 'left' | 'right' | 'bottom' | undefined {
-  const first = group.panels[0];
-  if (!first || group.panels.some(isEditor) || group.api.location.type !== 'grid') return undefined;
-  return findPanel(first.id)?.position;
-}
-
-/** A wider window gives its room to the editors: trees and lists keep their size. */
-export function keepDockSizes(api: DockviewApi): () => void {
-  const onResize = () => {
-    const sizes = api.groups.map((group) => ({
-      group,
-      dock: dockOf(group),
-      width: group.api.width,
-      height: group.api.height,
-    }));
-    requestAnimationFrame(() =>
-      requestAnimationFrame(() => {
-        for (const { group, dock, width, height } of sizes) {
-          if (dock === 'bottom') group.api.setSize({ height });
-          else if (dock) group.api.setSize({ width });
-        }
-      }),
-    );
-  };
-  window.addEventListener('resize', onResize);
-  return () => window.removeEventListener('resize', onResize);
 }
