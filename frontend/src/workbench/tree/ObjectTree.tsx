@@ -91,7 +91,7 @@ export function ObjectTree({
     paddingEnd: 40,
   });
 
-  const goTo = (objectId: string, how: 'one' | 'range' | 'toggle' = 'one') => {
+  const select = (objectId: string, how: 'one' | 'range' | 'toggle' = 'one') => {
     setFocused(objectId);
     if (how === 'range') selectObjects(rangeOf(rows, anchor.current, objectId));
     else {
@@ -102,6 +102,11 @@ export function ObjectTree({
           selected.includes(objectId) ? selected.filter((other) => other !== objectId) : [...selected, objectId],
         );
     }
+  };
+
+  /** Selects a row and scrolls it into view: for keys and commands. A click leaves the tree under the pointer still. */
+  const goTo = (objectId: string, how?: 'one' | 'range' | 'toggle') => {
+    select(objectId, how);
     const index = rows.findIndex((row) => row.object.id === objectId);
     if (index >= 0) virtual.scrollToIndex(index);
   };
@@ -174,7 +179,7 @@ export function ObjectTree({
     const how = event.shiftKey ? 'range' : event.ctrlKey || event.metaKey ? 'toggle' : 'one';
     // A right click on one of several selected rows keeps the selection: its menu acts on all of them.
     if (event.button === 2 && selected.includes(row.object.id)) setFocused(row.object.id);
-    else goTo(row.object.id, how);
+    else select(row.object.id, how);
   };
 
   const faultOf = (object: ObjectSummary) => (name: string) => {
