@@ -5,7 +5,8 @@ import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
 import type { Account, Role } from '@/api/types';
 import { useSession } from '@/app/session';
-import { useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
+import { secondText } from '../clock';
 import { confirm, openDialog } from '../dialogs';
 import { guard } from '../notices';
 import { Button, IconButton } from '../ui/Button';
@@ -22,7 +23,6 @@ const KEY = ['users'];
 /** Accounts of this server, for administrators. */
 export function UsersDialog({ close }: { close: () => void }) {
   const t = useText();
-  const language = useLanguage();
   const me = useSession((state) => state.user?.id);
   const { data, error, refetch } = useQuery({ queryKey: KEY, queryFn: () => api.get<Account[]>('/users') });
   const [selected, setSelected] = useState<string | null>(null);
@@ -61,7 +61,7 @@ export function UsersDialog({ close }: { close: () => void }) {
         width: 150,
         cell: (account) => (
           <Select<Role>
-            className="users-role"
+            compact
             label={t('users.role')}
             value={account.role}
             disabled={account.id === me}
@@ -76,9 +76,7 @@ export function UsersDialog({ close }: { close: () => void }) {
         width: 170,
         sort: (account) => account.last_login_at ?? '',
         cell: (account) => (
-          <span className="digits">
-            {account.last_login_at ? new Date(account.last_login_at).toLocaleString(language) : t('users.never')}
-          </span>
+          <span className="digits">{account.last_login_at ? secondText(account.last_login_at) : t('users.never')}</span>
         ),
       },
       {
@@ -96,7 +94,7 @@ export function UsersDialog({ close }: { close: () => void }) {
         ),
       },
     ];
-  }, [t, language, me]);
+  }, [t, me]);
 
   const add = async () => {
     const created = await openDialog<Account>((done) => <NewUserDialog close={done} />);

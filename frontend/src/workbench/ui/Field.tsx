@@ -72,16 +72,22 @@ interface SelectProps<Value extends string> {
   placeholder?: string;
   disabled?: boolean;
   label?: string;
+  /** Low and without a frame, for cells of tables. */
+  compact?: boolean;
   className?: string;
 }
 
 export function Select<Value extends string>(props: SelectProps<Value>) {
-  const { id, value, choices, onValue, placeholder, disabled, label, className } = props;
+  const { id, value, choices, onValue, placeholder, disabled, label, compact, className } = props;
   const chosen = choices.find((choice) => choice.value === value);
   const Icon = chosen?.icon;
   return (
     <RadixSelect.Root value={value ?? ''} onValueChange={(next) => onValue(next as Value)} disabled={disabled}>
-      <RadixSelect.Trigger id={id} aria-label={label} className={`${styles.select} ${className ?? ''}`}>
+      <RadixSelect.Trigger
+        id={id}
+        aria-label={label}
+        className={`${styles.select} ${compact ? styles.compact : ''} ${className ?? ''}`}
+      >
         <span style={{ display: 'inline-flex', alignItems: 'center', gap: 6, minWidth: 0 }}>
           {Icon && <Icon size={16} aria-hidden />}
           <RadixSelect.Value placeholder={placeholder}>{chosen?.text}</RadixSelect.Value>
