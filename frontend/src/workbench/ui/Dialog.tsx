@@ -22,7 +22,8 @@ export function Dialog({ title, description, width, onClose, onSubmit, footer, c
   const content = (
     <>
       <div className={styles.head}>
-        <Radix.Title className={styles.title}>{title}</Radix.Title>
+        {/* Menu entries that open a dialog end in an ellipsis; the dialog itself does not. */}
+        <Radix.Title className={styles.title}>{title.replace(/…$/, '')}</Radix.Title>
         <IconButton icon={X} label={t('action.close')} small onClick={onClose} />
       </div>
       {description && <Radix.Description className={styles.description}>{description}</Radix.Description>}
@@ -63,8 +64,9 @@ function focusFirstField(event: Event): void {
   const dialog = event.currentTarget as HTMLElement | null;
   const target =
     dialog?.querySelector<HTMLElement>('[data-autofocus]') ??
-    dialog?.querySelector<HTMLElement>(`.${styles.body} input, .${styles.body} [role="combobox"]`) ??
-    dialog?.querySelector<HTMLElement>(`.${styles.foot} button:last-child`);
+    dialog?.querySelector<HTMLElement>(`.${styles.body} :is(input, [role="combobox"], [role="grid"], textarea)`) ??
+    dialog?.querySelector<HTMLElement>(`.${styles.foot} button:not([aria-disabled]):last-of-type`) ??
+    dialog;
   if (!target) return;
   event.preventDefault();
   target.focus();
