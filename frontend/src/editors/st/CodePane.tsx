@@ -106,7 +106,7 @@ export function CodePane({ monaco, model, label, readOnly, onEditor }: CodePaneP
   }, [monaco, model]);
 
   useEffect(() => {
-    instance.current?.updateOptions({ readOnly, domReadOnly: readOnly });
+    instance.current?.updateOptions({ readOnly });
   }, [readOnly, monaco, model]);
 
   return <div ref={host} className={styles.pane} />;
