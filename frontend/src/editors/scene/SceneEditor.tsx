@@ -19,14 +19,23 @@ export default function SceneEditor({ projectId, objectId, visible }: EditorProp
   const revision = object.data?.revision;
   const view = useQuery({
     queryKey: ['scene', projectId, objectId, revision, runtimeId, dark],
-    queryFn: () => api.post<{ path: string }>(`/projects/${projectId}/objects/${objectId}/view`, { runtime_id: runtimeId, dark }),
+    queryFn: () =>
+      api.post<{ path: string }>(`/projects/${projectId}/objects/${objectId}/view`, { runtime_id: runtimeId, dark }),
     enabled: visible && revision !== undefined,
     staleTime: Infinity,
     retry: false,
   });
   const error = object.error ?? view.error;
   if (error) return <Failed error={error} retry={() => void view.refetch()} />;
-  if (object.data?.data.elements.length === 0) return <Empty icon={objectIcon('scene')} title={t('scene.empty')} text={t('scene.emptyText')} />;
+  if (object.data?.data.elements.length === 0)
+    return <Empty icon={objectIcon('scene')} title={t('scene.empty')} text={t('scene.emptyText')} />;
   if (!view.data) return <Loading />;
-  return <iframe className={styles.view} src={view.data.path} title={object.data?.name ?? t('scene.title')} data-testid="scene-view" />;
+  return (
+    <iframe
+      className={styles.view}
+      src={view.data.path}
+      title={object.data?.name ?? t('scene.title')}
+      data-testid="scene-view"
+    />
+  );
 }

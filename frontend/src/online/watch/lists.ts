@@ -40,9 +40,7 @@ export function fromStored(stored: Stored | null): Lists {
 }
 
 export function toStored(lists: Lists): Stored {
-  return Object.fromEntries(
-    WATCH_LISTS.map((number) => [number, lists[number].map((entry) => entry.expression)]),
-  );
+  return Object.fromEntries(WATCH_LISTS.map((number) => [number, lists[number].map((entry) => entry.expression)]));
 }
 
 const keyOf = (projectId: string) => `watch.${projectId}`;
