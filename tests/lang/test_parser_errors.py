@@ -87,6 +87,12 @@ def test_message_names_what_is_open_and_what_was_found() -> None:
     )
 
 
+def test_a_line_named_in_a_message_is_the_one_the_editor_shows() -> None:
+    text = "PROGRAM PLC_PRG\nVAR\nEND_VAR\n\nIF TRUE THEN\n\nEND_PROGRAM"
+    (message,) = parse(Source("PLC_PRG", text, body_line=3)).diagnostics
+    assert message.message == "END_IF expected for the IF of line 2 before END_PROGRAM"
+
+
 def test_mistakes_of_several_statements_are_all_told() -> None:
     text = "PROGRAM p\na := ;\nb := 1 2;\nIF THEN END_IF\nc( ;\nEND_PROGRAM"
     assert codes(parse(Source("p", text)).diagnostics) == ["2:6 E0104", "3:8 E0101", "4:4 E0104", "5:4 E0104"]

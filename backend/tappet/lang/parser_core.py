@@ -160,6 +160,11 @@ class Core:
         self.expected(what or (kind if kind[0].isalpha() else f"'{kind}'"), hint)
         return False
 
+    def shown_line(self, line: int) -> int:
+        """The number that an editor shows for a 0-based line: the implementation counts from 1 again."""
+        body = self.source.body_line
+        return (line - body if line >= body else line) + 1
+
     def close(self, opener: Opener) -> None:
         """Take the end keyword of `opener`. Another one that closes nothing else counts as a slip of it."""
         begin, line = opener
@@ -170,7 +175,7 @@ class Core:
             return
         stray = kind.startswith("END_") and all(ENDS[other] != kind for other, _ in self.open)
         code = "E0110" if stray else "E0103"
-        self.error(code, end=end, begin=begin, line=line + 1, found=self.found())
+        self.error(code, end=end, begin=begin, line=self.shown_line(line), found=self.found())
         if stray and kind != "END_VAR":
             self.i += 1
 

@@ -43,7 +43,7 @@ class VariableParser(TypeParser):
             if self.kinds[self.i] == ";":
                 self.i += 1
         else:
-            self.error("E0103", end="END_VAR", begin=section, line=opener[1] + 1, found=self.found())
+            self.error("E0103", end="END_VAR", begin=section, line=self.shown_line(opener[1]), found=self.found())
         return ast.VarBlock(
             span=self.span_from(start),
             section=section,
