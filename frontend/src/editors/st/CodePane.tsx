@@ -58,6 +58,8 @@ export const EDITOR_OPTIONS: editor.IStandaloneEditorConstructionOptions = {
   quickSuggestions: { other: true, comments: false, strings: false },
   suggest: { showStatusBar: false, preview: false, showIcons: true },
   suggestSelection: 'first',
+  // After a word typed in full (THEN, END_IF) Enter begins a new line.
+  acceptSuggestionOnEnter: 'smart',
   parameterHints: { enabled: true, cycle: true },
   'semanticHighlighting.enabled': true,
   // The flat name is the one the standalone editor hands on to its models.

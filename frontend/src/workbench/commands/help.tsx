@@ -9,7 +9,7 @@ const commands: Command[] = [
     id: 'help.shortcuts',
     title: 'command.shortcuts',
     icon: Keyboard,
-    keys: ['Ctrl+Shift+K'],
+    keys: ['Ctrl+Alt+K'],
     menu: { menu: 'help', group: '1_help' },
     run: async () => {
       await openDialog((close) => <ShortcutsDialog close={() => close()} />);
