@@ -6,7 +6,8 @@ import type { CodeEditor } from './CodePane';
 import { panelEditor, panelHistory } from './focus';
 import { partsShown } from './parts';
 
-const ACTIONS: Readonly<Record<string, string>> = {
+/** Monaco's own command behind each of ours. */
+export const ACTIONS: Readonly<Record<string, string>> = {
   'edit.find': 'actions.find',
   'edit.replace': 'editor.action.startFindReplaceAction',
   'edit.selectAll': 'editor.action.selectAll',
@@ -38,7 +39,8 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
     run: () => {
       const editor = panelEditor(panelId);
       editor?.focus();
-      return editor?.getAction(id)?.run();
+      // Not every command of Monaco is an action of the editor; `trigger` finds all of them.
+      editor?.trigger('command', id, null);
     },
   });
   const history = (command: 'undo' | 'redo') => ({
