@@ -49,11 +49,15 @@ import 'monaco-editor/features/wordPartOperations/register';
 // The feature modules of this Monaco leave out the heart of two features: completion and semantic colours.
 import 'monaco-editor/editor/contrib/semanticTokens/browser/documentSemanticTokens';
 import 'monaco-editor/editor/contrib/suggest/browser/suggestController';
+import { StandaloneServices } from 'monaco-editor/editor/standalone/browser/standaloneServices';
+import { partLabels } from './labels';
 import { languageConfiguration, LANGUAGE_ID, monarchLanguage } from './language';
 import { followTheme } from './theme';
 
 self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
 
+// Only before anything else asks for a service.
+StandaloneServices.initialize({ labelService: partLabels });
 monaco.languages.register({ id: LANGUAGE_ID, extensions: ['.st'], aliases: ['Structured Text', 'ST'] });
 monaco.languages.setLanguageConfiguration(LANGUAGE_ID, languageConfiguration);
 monaco.languages.setMonarchTokensProvider(LANGUAGE_ID, monarchLanguage);
