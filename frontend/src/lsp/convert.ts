@@ -166,3 +166,18 @@ export function parsePartUri(uri: string): PartAddress | null {
   const [, projectId = '', objectId = '', part] = match;
   return { projectId, objectId, part: part as PartAddress['part'] };
 }
+
+export interface LibraryAddress {
+  readonly library: string;
+  /** Name of the item, not of a method in it. */
+  readonly item: string;
+}
+
+const LIBRARY_URI = /^tappet-library:\/+([^/]+)\/([^/.#?]+)/;
+
+/** Takes `tappet-library:/<library>/<item>` apart; null for any other address. */
+export function parseLibraryUri(uri: string): LibraryAddress | null {
+  const [, library, item] = LIBRARY_URI.exec(uri) ?? [];
+  if (library === undefined || item === undefined) return null;
+  return { library: decodeURIComponent(library), item: decodeURIComponent(item) };
+}

@@ -1,5 +1,13 @@
 import { describe, expect, it } from 'vitest';
-import { applyTextEdits, fromCompletion, fromDiagnostic, fromMarkup, parsePartUri, toRange } from './convert';
+import {
+  applyTextEdits,
+  fromCompletion,
+  fromDiagnostic,
+  fromMarkup,
+  parseLibraryUri,
+  parsePartUri,
+  toRange,
+} from './convert';
 import { RpcConnection, RpcError, type RpcSocket } from './rpc';
 
 class FakeSocket implements RpcSocket {
@@ -99,5 +107,13 @@ describe('conversions', () => {
   it('read addresses', () => {
     expect(parsePartUri('tappet:/p1/o1/declaration')).toEqual({ projectId: 'p1', objectId: 'o1', part: 'declaration' });
     expect(parsePartUri('file:///x.st')).toBeNull();
+  });
+});
+
+describe('addresses of library texts', () => {
+  it('name the library and the item, also for a method of it', () => {
+    expect(parseLibraryUri('tappet-library:/Standard/TON')).toEqual({ library: 'Standard', item: 'TON' });
+    expect(parseLibraryUri('tappet-library:/My%20Lib/FB_A.Start')).toEqual({ library: 'My Lib', item: 'FB_A' });
+    expect(parseLibraryUri('tappet:/p/o/declaration')).toBeNull();
   });
 });

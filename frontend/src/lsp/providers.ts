@@ -10,6 +10,7 @@ import {
   fromSignatureHelp,
   fromSymbol,
   fromTextEdit,
+  parseLibraryUri,
   parsePartUri,
   toPosition,
 } from './convert';
@@ -49,9 +50,12 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
     const found = list.map((place) =>
       'targetUri' in place ? { uri: place.targetUri, range: place.targetSelectionRange } : place,
     );
-    const shown = found.filter((place) => parsePartUri(place.uri) !== null);
+    const inProject = found.filter((place) => parsePartUri(place.uri) !== null);
+    // A place in a library leads to its documentation; it has no text that could stand in a list of references.
+    const inLibrary = found.filter((place) => parseLibraryUri(place.uri) !== null);
+    const shown = inProject.length > 0 ? inProject : inLibrary.slice(0, 1);
     const own = model.uri.toString();
-    await source([...new Set(shown.map((place) => place.uri))].filter((uri) => uri !== own));
+    await source([...new Set(inProject.map((place) => place.uri))].filter((uri) => uri !== own));
     return shown.map((place) => ({ uri: monaco.Uri.parse(place.uri), range: fromRange(place.range) }));
   };
 

@@ -5,10 +5,11 @@ import type { Diagnostic, ObjectSummary } from '@/api/types';
 import { openDocument, type TextDocument } from '@/editors/documents/documents';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import { openObject } from '@/workbench/docking/dock';
+import { showDocumentation } from '@/workbench/libraries/show';
 import { publishDiagnostics } from '@/workbench/messages/store';
 import { objectPath } from '@/workbench/tree/model';
 import { LanguageClient } from './client';
-import { adviceOf, parsePartUri, type PartAddress } from './convert';
+import { adviceOf, parseLibraryUri, parsePartUri, type PartAddress } from './convert';
 import type { Diagnostic as ServerDiagnostic } from './protocol';
 import { registerProviders } from './providers';
 
@@ -39,6 +40,11 @@ export function languageClient(monaco: Monaco, projectId: string): LanguageClien
   });
   opener ??= monaco.editor.registerEditorOpener({
     openCodeEditor: (_editor, resource, selection) => {
+      const library = parseLibraryUri(resource.toString());
+      if (library !== null) {
+        void showDocumentation(library.library, library.item);
+        return true;
+      }
       const address = parsePartUri(resource.toString());
       if (address === null) return false;
       const start = selection === undefined ? undefined : 'lineNumber' in selection ? selection : null;

@@ -12,7 +12,8 @@ export function useLibraries(): UseQueryResult<LibrarySummary[]> {
   });
 }
 
-const contentsQuery = (name: string) => ({
+/** How a library with all its items is fetched. */
+export const contentsQuery = (name: string) => ({
   queryKey: keys.library(name),
   queryFn: () => api.get<Library>(`/libraries/${encodeURIComponent(name)}`),
   staleTime: Infinity,
