@@ -2,7 +2,7 @@
 import type { DockviewApi } from 'dockview-react';
 import { setCursor, setDirty, useSelection } from '../selection';
 import { editorGroupUsed } from './dock';
-import { dockOf, isEditor } from './docks';
+import { dockOf, isEditor, withDockSizes } from './docks';
 import { EDITORS_GROUP, type EditorParams } from './layout';
 
 /** Id of the dock panel that an element is in. */
@@ -59,7 +59,8 @@ export function pruneEmptyGroups(api: DockviewApi): void {
   const hasEditors = inGrid.some((group) => group.panels.some(isEditor));
   const emptyInGrid = inGrid.filter((group) => group.panels.length === 0);
   const kept = hasEditors ? undefined : (emptyInGrid.find((group) => group.id === EDITORS_GROUP) ?? emptyInGrid[0]);
-  for (const group of empty) if (group !== kept) api.removeGroup(group);
+  const gone = empty.filter((group) => group !== kept);
+  if (gone.length > 0) withDockSizes(api, () => gone.forEach((group) => api.removeGroup(group)));
   if (!hasEditors && !kept) {
     const left = api.groups.find((group) => dockOf(group) === 'left');
     api.addGroup(left ? { referenceGroup: left, direction: 'right' } : { direction: 'right' });
