@@ -66,6 +66,8 @@ export function belongsToField(event: KeyPress): boolean {
  */
 export function shieldedFromBrowser(event: KeyPress): boolean {
   const key = event.key.toLowerCase();
+  // Shift+F10 opens the context menu of what has the focus.
+  if (key === 'f10' && event.shiftKey) return false;
   if (/^f([1-9]|1[01])$/.test(key)) return true;
   const ctrl = (event.ctrlKey || event.metaKey) && !event.altKey;
   return ctrl && !event.shiftKey && ['s', 'p', 'f', 'g', 'h', 'd', 'o', 'e', 'k', 'u'].includes(key);

@@ -12,6 +12,7 @@ import {
   type Ref,
 } from 'react';
 import { Grip } from './Grip';
+import { isMenuKey, openMenuAt } from '@/workbench/ui/menuKey';
 import { cursorAfterKey, type GridCursor } from './cursor';
 import styles from './Grid.module.css';
 
@@ -111,6 +112,13 @@ export function Grid(props: GridProps) {
 
   const onKeyDown = (event: KeyboardEvent) => {
     if (event.target !== scroll.current || onKey?.(event) === true) return;
+    if (isMenuKey(event)) {
+      event.preventDefault();
+      openMenuAt(
+        (cursor && document.getElementById(`${id}-${String(cursor.row)}-${String(cursor.column)}`)) ?? scroll.current,
+      );
+      return;
+    }
     const page = Math.max(1, Math.floor((scroll.current.clientHeight ?? 260) / ROW_HEIGHT) - 2);
     const next = event.altKey ? null : cursorAfterKey(event.key, event.ctrlKey, cursor, count, columns.length, page);
     if (next !== null) {

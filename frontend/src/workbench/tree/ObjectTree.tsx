@@ -27,6 +27,7 @@ import { nameFault } from './placement';
 import { indentOf, TreeRow } from './Row';
 import { setExpanded, useTree } from './state';
 import { treeEntries } from './treeMenu';
+import { isMenuKey, openMenuAt } from '../ui/menuKey';
 import styles from './Tree.module.css';
 import { useDrag } from './useDrag';
 import { useMarks } from './useMarks';
@@ -156,9 +157,9 @@ export function ObjectTree({
         rows.filter((other) => other.expandable && other.level === row.level).map((other) => other.object.id),
         true,
       );
-    } else if ((event.key === 'F10' && event.shiftKey) || event.key === 'ContextMenu') {
+    } else if (isMenuKey(event)) {
       event.preventDefault();
-      openContextMenu(event.currentTarget.querySelector('[data-focused]') ?? event.currentTarget);
+      openMenuAt(event.currentTarget.querySelector('[data-focused]') ?? event.currentTarget);
     } else if (event.key.length === 1 && !event.ctrlKey && !event.altKey && !event.metaKey && event.key !== ' ') {
       const now = event.timeStamp;
       const text = now - typed.current.at < TYPING_MS ? typed.current.text + event.key : event.key;
@@ -283,9 +284,3 @@ export function ObjectTree({
 }
 
 /** The context menu by key, at the focused row. */
-function openContextMenu(element: Element): void {
-  const box = element.getBoundingClientRect();
-  element.dispatchEvent(
-    new MouseEvent('contextmenu', { bubbles: true, cancelable: true, clientX: box.left + 40, clientY: box.bottom - 2 }),
-  );
-}

@@ -2,6 +2,7 @@ import { useVirtualizer } from '@tanstack/react-virtual';
 import { ArrowDown, ArrowUp } from 'lucide-react';
 import { useId, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent, type ReactNode } from 'react';
 import { nextSorting, rowAfterKey, sorted, type Column, type Sorting } from './table';
+import { isMenuKey, openMenuAt } from './menuKey';
 import styles from './Table.module.css';
 
 const ROW_HEIGHT = 26;
@@ -52,6 +53,9 @@ export function Table<Item>(props: TableProps<Item>) {
     } else if (event.key === 'Enter' && item && onOpen) {
       event.preventDefault();
       onOpen(item);
+    } else if (isMenuKey(event)) {
+      event.preventDefault();
+      openMenuAt(document.getElementById(`${id}-${at}`) ?? event.currentTarget);
     } else onKey?.(event, item);
   };
 
