@@ -1,4 +1,4 @@
-import { useMemo, useState, type DragEvent, type KeyboardEvent, type ReactNode } from 'react';
+import { useEffect, useMemo, useRef, useState, type DragEvent, type KeyboardEvent, type ReactNode } from 'react';
 import { useText } from '@/i18n';
 import { Grid, type GridColumn, type GridEditing } from '@/editors/grid/Grid';
 import { useGridSelection, type GridSelection } from '@/editors/grid/useGridSelection';
@@ -25,6 +25,8 @@ export interface OnlineTableProps {
   onKey?: (event: KeyboardEvent, rows: readonly OnlineRow[]) => boolean;
   menu?: (rows: readonly OnlineRow[]) => readonly MenuEntry[];
   empty?: ReactNode;
+  /** Told when the table gets the focus, with a way to ask for the selected expressions. */
+  onFocus?: (chosen: () => readonly string[]) => void;
 }
 
 /** Variables with type, value and prepared value; structured ones open. The table of watch lists and declarations. */
@@ -45,6 +47,10 @@ export function OnlineTable(props: OnlineTableProps) {
   const rows = useMemo(() => flatten(typed, open, children), [typed, open, children]);
   const selection = useGridSelection(rows.length);
   const chosen = [...selection.selected].flatMap((index) => rows[index] ?? []);
+  const chosenNow = useRef(chosen);
+  useEffect(() => {
+    chosenNow.current = chosen;
+  });
   useWatched(
     runtimeId,
     useMemo(() => watchedExpressions(rows, range.first - 20, range.last + 20), [rows, range]),
@@ -118,7 +124,11 @@ export function OnlineTable(props: OnlineTableProps) {
   };
   return (
     <ContextMenu entries={() => props.menu?.(chosen) ?? []}>
-      <div className={styles.table} data-lost={lost || undefined}>
+      <div
+        className={styles.table}
+        data-lost={lost || undefined}
+        onFocus={() => props.onFocus?.(() => chosenNow.current.map((row) => row.expression))}
+      >
         <Grid
           label={props.label}
           columns={columns}

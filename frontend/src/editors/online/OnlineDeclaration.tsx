@@ -19,6 +19,7 @@ import type { OpenText } from '../documents/useTextDocument';
 import { joinComments } from '../declaration/comments';
 import { parseDeclaration } from '../declaration/parse';
 import type { GridColumn } from '../grid/Grid';
+import { setPanelChosen } from '../st/focus';
 import { chooseInstance } from './chooseInstance';
 import { monitorTarget } from './monitorScope';
 
@@ -49,6 +50,8 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
       session,
     });
   }, [visible, target.needsInstanceOf, tree, panelId, object, session]);
+
+  useEffect(() => () => setPanelChosen(panelId, null), [panelId]);
 
   const roots = useMemo((): readonly OnlineRoot[] => {
     const rows = model.rows.filter((row) => row.special === null);
@@ -127,6 +130,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
           roots={roots}
           columns={columns}
           menu={(rows) => commonEntries(t, session, rows)}
+          onFocus={(chosen) => setPanelChosen(panelId, chosen)}
           empty={<Empty title={t('decl.empty')} />}
         />
       </div>

@@ -144,12 +144,17 @@ export function addToWatch({ projectId, object, instance, document }: TextPanel,
     : findVariables(model.getValue())
         .filter((use) => use.end >= from && use.start <= to)
         .map((use) => expressionOf(use.path, scope, () => null));
-  const expressions = found.filter((expression) => expression !== null && expression !== '');
+  addExpressionsToWatch(found.flatMap((expression) => expression ?? []));
+}
+
+/** To the watch list shown last, which comes to the front. */
+export function addExpressionsToWatch(found: readonly string[]): void {
+  const expressions = found.filter((expression) => expression !== '');
   const list = useWatchLists.getState().current;
   if (expressions.length === 0) {
     notify({ tone: 'info', title: t('watch.nothingHere') });
     return;
   }
-  addToList(list, expressions as string[]);
+  addToList(list, expressions);
   showPanel(`watch${String(list)}`, false);
 }

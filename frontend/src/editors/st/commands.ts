@@ -134,7 +134,8 @@ const commands: Command[] = [
     id: 'watch.add',
     title: 'watch.addCommand',
     icon: Eye,
-    keys: ['Ctrl+Shift+W'],
+    // Ctrl+Shift+W would close the browser's window.
+    keys: ['Shift+F9'],
     delegated: true,
     menu: { menu: 'online', group: '5_values', order: 9 },
   },

@@ -13,12 +13,13 @@ interface PanelEditors {
   editors: Partial<Record<Part, CodeEditor>>;
   active: Part;
   history: PanelHistory | null;
+  chosen: (() => readonly string[]) | null;
 }
 
 const panels = new Map<string, PanelEditors>();
 
 function panelOf(panelId: string): PanelEditors {
-  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const, history: null };
+  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const, history: null, chosen: null };
   panels.set(panelId, known);
   return known;
 }
@@ -38,6 +39,7 @@ export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor):
   editor.onDidFocusEditorText(() => {
     panel.active = part;
     panel.history = null;
+    panel.chosen = null;
     tell();
   });
   editor.onDidChangeCursorSelection(() => {
@@ -73,4 +75,14 @@ export function setPanelHistory(panelId: string, history: PanelHistory | null): 
 
 export function panelHistory(panelId: string): PanelHistory | null {
   return panels.get(panelId)?.history ?? null;
+}
+
+/** A table of values has the focus: its selected expressions are meant until a text editor is entered. */
+export function setPanelChosen(panelId: string, chosen: (() => readonly string[]) | null): void {
+  panelOf(panelId).chosen = chosen;
+}
+
+/** The expressions selected in the table that has the focus; null when none has. */
+export function panelChosen(panelId: string): readonly string[] | null {
+  return panels.get(panelId)?.chosen?.() ?? null;
 }

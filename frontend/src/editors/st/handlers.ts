@@ -1,9 +1,17 @@
 /** What the delegated commands do in a text editor. */
 import type { Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
-import { addToWatch, autoDeclare, inputAssistant, rename, revisions, type TextPanel } from './acts';
+import {
+  addExpressionsToWatch,
+  addToWatch,
+  autoDeclare,
+  inputAssistant,
+  rename,
+  revisions,
+  type TextPanel,
+} from './acts';
 import type { CodeEditor } from './CodePane';
-import { panelEditor, panelHistory } from './focus';
+import { panelChosen, panelEditor, panelHistory } from './focus';
 import { partsShown } from './parts';
 
 /** Monaco's own command behind each of ours. */
@@ -63,7 +71,14 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
     'st.inputAssistant': onEditor((editor) => inputAssistant(panel, editor)),
     'st.autoDeclare': onEditor((editor) => autoDeclare(panel, editor)),
     'st.renameSymbol': onEditor((editor) => rename(panel, editor)),
-    'watch.add': onEditor((editor) => addToWatch(panel, editor)),
+    'watch.add': {
+      run: () => {
+        const chosen = panelChosen(panelId);
+        const editor = panelEditor(panelId);
+        if (chosen !== null) addExpressionsToWatch(chosen);
+        else if (editor !== null) addToWatch(panel, editor);
+      },
+    },
     'st.revisions': { run: () => revisions(panel, partsShown(object.kind)) },
     'file.save': {
       run: async () => {
