@@ -63,7 +63,8 @@ const commands: Command[] = [
     id: 'window.close',
     title: 'command.closeEditor',
     icon: X,
-    keys: ['Ctrl+F4', 'Alt+W'],
+    // In a tab of a browser Ctrl+F4 belongs to the browser; in a window of its own it comes through.
+    keys: ['Alt+W', 'Ctrl+F4'],
     menu: { menu: 'window', group: '2_close', order: 1 },
     enabled: someEditor,
     run: async (context) => {
