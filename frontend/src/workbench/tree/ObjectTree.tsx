@@ -282,5 +282,3 @@ export function ObjectTree({
     </ContextMenu>
   );
 }
-
-/** The context menu by key, at the focused row. */
