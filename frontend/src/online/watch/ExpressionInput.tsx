@@ -4,7 +4,7 @@ import { Floating } from '@/editors/grid/Floating';
 import grid from '@/editors/grid/Grid.module.css';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { useSymbols } from '../useLive';
-import { completionsFor, type ExpressionCompletion } from './completion';
+import { completionsFor, isComplete, preselected, type ExpressionCompletion } from './completion';
 import styles from './ExpressionInput.module.css';
 
 interface ExpressionInputProps {
@@ -14,6 +14,9 @@ interface ExpressionInputProps {
   onCommit: (text: string) => void;
   onCancel: () => void;
 }
+
+const MOST_SHOWN = 200;
+const intoView = (option: HTMLElement | null) => option?.scrollIntoView({ block: 'nearest' });
 
 /** Types an expression with the variables of the loaded application as suggestions. */
 export function ExpressionInput({ session, value, initial, onCommit, onCancel }: ExpressionInputProps) {
@@ -25,7 +28,7 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
   const field = useRef<HTMLInputElement>(null);
   const done = useRef(false);
   const [anchor, setAnchor] = useState<HTMLDivElement | null>(null);
-  const items = found.for === text ? found.items : [];
+  const items = found.for === text ? found.items.slice(0, MOST_SHOWN) : [];
 
   useEffect(() => {
     field.current?.focus();
@@ -34,11 +37,11 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
   useEffect(() => {
     if (tree === null) return;
     let current = true;
-    completionsFor(tree, text).then(
-      (next) => {
+    Promise.all([completionsFor(tree, text), isComplete(tree, text)]).then(
+      ([next, complete]) => {
         if (!current) return;
         setFound({ for: text, items: next });
-        setAt(-1);
+        setAt(preselected(next, text, complete));
       },
       () => undefined,
     );
@@ -47,14 +50,20 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
     };
   }, [tree, text]);
 
-  const finish = (commit: boolean) => {
+  const finish = (commit: boolean, typed = text) => {
     if (done.current) return;
     done.current = true;
-    if (commit && text.trim() !== value.trim()) onCommit(text);
+    const expression = typed.trim().replace(/\.$/, '');
+    if (commit && expression !== value.trim()) onCommit(expression);
     else onCancel();
   };
-  const take = (item: ExpressionCompletion) => {
-    setText(item.expression + (item.leaf ? '' : '.'));
+  /** A variable without components is the end of the path; behind others more may follow. */
+  const take = (item: ExpressionCompletion, more: string) => {
+    if (item.leaf) {
+      finish(true, item.expression);
+      return;
+    }
+    setText(item.expression + more);
     field.current?.focus();
   };
   const onKeyDown = (event: KeyboardEvent) => {
@@ -66,7 +75,7 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
       if (items.length > 0) setAt((at + (event.key === 'ArrowDown' ? 1 : items.length)) % items.length);
     } else if ((event.key === 'Enter' || event.key === 'Tab') && chosen !== undefined) {
       event.preventDefault();
-      take(chosen);
+      take(chosen, '');
     } else if (event.key === 'Enter' || event.key === 'Tab') {
       event.preventDefault();
       finish(true);
@@ -94,15 +103,16 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
       {items.length > 0 && (
         <Floating anchor={anchor} className={styles.list}>
           <div role="listbox">
-            {items.slice(0, 12).map((item, index) => (
+            {items.map((item, index) => (
               <div
                 key={item.expression}
                 role="option"
                 aria-selected={index === at}
+                ref={index === at ? intoView : undefined}
                 className={styles.option}
                 onPointerDown={(event) => {
                   event.preventDefault();
-                  take(item);
+                  take(item, '.');
                 }}
               >
                 <span>{item.name}</span>

@@ -30,3 +30,16 @@ export async function completionsFor(tree: SymbolTree, text: string): Promise<re
     .map(({ name, path: expression, type, leaf }) => ({ name, expression, type, leaf }));
   return fits.slice(0, 200);
 }
+
+/** Whether the text is the full path of a variable; Enter then takes it as it is. */
+export async function isComplete(tree: SymbolTree, text: string): Promise<boolean> {
+  const typed = text.trim().toUpperCase();
+  const children = await tree.children(splitExpression(text.trim()).path);
+  return children.some((child) => child.path.toUpperCase() === typed);
+}
+
+/** Which suggestion Enter takes at once: the first, unless nothing is typed of the name or all of it is. */
+export function preselected(items: readonly ExpressionCompletion[], text: string, complete: boolean): number {
+  const typed = text.trim();
+  return typed === '' || typed.endsWith('.') || complete || items.length === 0 ? -1 : 0;
+}

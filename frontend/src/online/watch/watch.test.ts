@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { ObjectSummary } from '@/api/types';
 import { SymbolTree, type SymbolChild } from '../symbols';
 import { flatten, watchedExpressions, type OnlineRoot } from '../treeRows';
-import { completionsFor, splitExpression } from './completion';
+import { completionsFor, isComplete, preselected, splitExpression } from './completion';
 import {
   addToList,
   moveInList,
@@ -67,6 +67,16 @@ describe('expression completion', () => {
     expect(await names('PLC_PRG.f')).toEqual(['PLC_PRG.fbFill']);
     expect(await names('PLC_PRG.aFill[1')).toEqual(['PLC_PRG.aFill[1]']);
     expect(await names('PLC_PRG.n')).toEqual([]);
+  });
+  it('is taken by Enter, unless the typed text is a variable itself or nothing is typed of its name', async () => {
+    const { tree } = plant();
+    const first = async (text: string) =>
+      preselected(await completionsFor(tree, text), text, await isComplete(tree, text));
+    expect(await first('PLC_PRG.f')).toBe(0);
+    expect(await first('PLC_PRG.')).toBe(-1);
+    expect(await first('')).toBe(-1);
+    expect(await first('PLC_PRG.FBFILL')).toBe(-1);
+    expect(preselected(await completionsFor(tree, 'PLC_PRG.f'), 'PLC_PRG.f', true)).toBe(-1);
   });
   it('knows where the name begins', () => {
     expect(splitExpression('a.b[1].c')).toEqual({ path: 'a.b[1]', start: 'c' });
