@@ -47,6 +47,13 @@ def test_bits_and_addresses() -> None:
         assert path_at(symbols, Place(ref.offset, ref.size, ref.bit)) == path
 
 
+def test_a_variable_at_an_address_goes_by_its_name() -> None:
+    symbols = build(TEXT).symbols
+    for address, path in (("%QW4", "PLC_PRG.out"), ("%MX3.5", "PLC_PRG.flag"), ("%QB8", "%QB8")):
+        ref = symbols.resolve(address)
+        assert path_at(symbols, Place(ref.offset, ref.size, ref.bit)) == path
+
+
 def test_variables_are_found_again_after_a_change() -> None:
     old, new = build(TEXT).symbols, build(MOVED).symbols
     for path in ("PLC_PRG.a", "PLC_PRG.fb.points[2, 1].y", "PLC_PRG.w.3", "%QW4"):

@@ -151,7 +151,9 @@ def test_states_and_forces_are_told(admin: TestClient, runtime_id: str) -> None:
         body = {"values": [{"expression": "PLC_PRG.nCount", "value": 1}]}
         admin.post(f"/api/v1/runtimes/{runtime_id}/values/force", json=body)
         message = next_message(socket)
-        assert message == {"op": "forces", "expressions": ["PLC_PRG.nCount"]}
+        assert message["expressions"] == ["PLC_PRG.nCount"]
+        item = subscribe(socket, "PLC_PRG.nCount")["items"][0]
+        assert message["places"] == [item["place"]]
 
 
 def test_lost_runtime_is_told_and_subscriptions_come_back(

@@ -21,7 +21,13 @@ class Place:
 
 
 def path_at(symbols: SymbolMap, place: Place) -> str | None:
-    """Path of the variable that is exactly `place`, the outermost of several; None when there is none."""
+    """Path of the variable that is exactly `place`, the outermost of several; None when there is none.
+
+    In the areas of %I, %Q and %M a declared variable goes before the bare address.
+    """
+    name = _located(symbols, place)
+    if name is not None:
+        return name
     found = _locate(symbols, place)
     return found[0] if found is not None and found[1] == 0 else None
 
@@ -58,6 +64,20 @@ def _locate(symbols: SymbolMap, place: Place) -> tuple[str, int] | None:
             found = _descend(symbols, root.name, info, root.offset, place)
             if found is not None:
                 return found
+    return None
+
+
+def _located(symbols: SymbolMap, place: Place) -> str | None:
+    """The first global or program variable declared AT an address that is exactly `place`."""
+    if not any(start <= place.offset < start + length for start, length in symbols.areas.values()):
+        return None
+    for root in symbols.roots.values():
+        for member in symbols.types[root.type].members:
+            if not member.absolute:
+                continue
+            size = 1 if member.bit is not None else symbols.types[member.type].size
+            if (member.offset, size, member.bit) == (place.offset, place.size, place.bit):
+                return f"{root.name}.{member.name}"
     return None
 
 

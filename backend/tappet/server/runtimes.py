@@ -66,6 +66,8 @@ class RuntimeLink:
         """Where the lines of the loaded application come from, if this server has downloaded it."""
         self.forced: dict[tuple[int, int | None], str] = {}
         """Paths of the forced variables by (offset, bit)."""
+        self.forced_sizes: dict[tuple[int, int | None], int] = {}
+        """Bytes that each force holds."""
         self.since = datetime.now(UTC)
         self.problem: str | None = None
         self._token = token
@@ -222,6 +224,7 @@ class RuntimeLink:
         forces = await client.forces() if symbols is not None else []
         self.info, self.exception, self.symbols = info, exception, symbols
         self.forced = {(force.offset, force.bit): path_of(force) for force in forces}
+        self.forced_sizes = {(force.offset, force.bit): len(force.data) for force in forces}
         if connecting:
             self._client = client
             self.since = datetime.now(UTC)

@@ -1934,6 +1934,8 @@ export interface components {
              * @enum {string}
              */
             op: "forces";
+            /** Places */
+            places: components["schemas"]["ImagePlace"][];
         };
         /**
          * FreezeOrder
@@ -1995,6 +1997,21 @@ export interface components {
             status: string;
             /** Version */
             version: string;
+        };
+        /**
+         * ImagePlace
+         * @description Bytes of the memory image, or one bit of the byte at `offset`.
+         */
+        ImagePlace: {
+            /**
+             * Bit
+             * @default null
+             */
+            bit: number | null;
+            /** Offset */
+            offset: number;
+            /** Size */
+            size: number;
         };
         /**
          * InterfaceObject
@@ -2123,6 +2140,11 @@ export interface components {
              * @description Bytes from the end of the frame's header.
              */
             offset: number;
+            /**
+             * @description Where it lies: two names of one place, or parts of it, share a force.
+             * @default null
+             */
+            place: components["schemas"]["ImagePlace"] | null;
             /**
              * Section
              * @default

@@ -45,6 +45,7 @@ export type Severity = Schemas['Severity'];
 export type Diagnostic = Schemas['Diagnostic'];
 export type BuildReport = Schemas['BuildReport'];
 
+export type ImagePlace = Schemas['ImagePlace'];
 export type RuntimeState = Schemas['RuntimeState'];
 export type RuntimeActivity = NonNullable<RuntimeState['state']>;
 export type RuntimeException = Schemas['RuntimeException'];

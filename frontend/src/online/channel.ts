@@ -5,7 +5,7 @@
  * A changed group is subscribed anew under a new number, and the old subscription ends when the answer is there:
  * values never flicker while the user scrolls.
  */
-import type { RuntimeState } from '@/api/types';
+import type { ImagePlace, RuntimeState } from '@/api/types';
 import type { ValueBoard } from './board';
 import { readFrame } from './frame';
 import { expressionKey, type SubscribedItem } from './item';
@@ -23,7 +23,7 @@ export interface ChannelSocket {
 
 export interface ChannelEvents {
   state: (state: RuntimeState) => void;
-  forces: (expressions: readonly string[]) => void;
+  forces: (expressions: readonly string[], places: readonly ImagePlace[]) => void;
   lost: () => void;
   restored: () => void;
   /** A subscription has been answered: errors of expressions are known now. */
@@ -139,7 +139,8 @@ export class OnlineChannel {
     if (typeof data !== 'string') return;
     const message = JSON.parse(data) as { op?: string; [field: string]: unknown };
     if (message.op === 'subscribed') this.subscribed(message.id as number, message.items as readonly SubscribedItem[]);
-    else if (message.op === 'forces') this.events.forces(message.expressions as readonly string[]);
+    else if (message.op === 'forces')
+      this.events.forces(message.expressions as readonly string[], message.places as readonly ImagePlace[]);
     else if (message.op === 'state') this.state(message);
   }
 

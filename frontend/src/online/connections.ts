@@ -12,7 +12,7 @@ function openChannel(runtimeId: string): OnlineChannel {
     () => new WebSocket(socketUrl('/online', { runtime: runtimeId })) as unknown as ChannelSocket,
     {
       state: (state) => runtimeStateReceived(runtimeId, state),
-      forces: (expressions) => forcesReceived(runtimeId, expressions),
+      forces: (expressions, places) => forcesReceived(runtimeId, expressions, places),
       lost: () => connectionLost(runtimeId),
       restored: () => undefined,
       answered: () => undefined,

@@ -1,5 +1,7 @@
 /** What the server says about one subscribed expression, and what kind of value its bytes hold. */
 
+import type { ImagePlace } from '@/api/types';
+
 /** An entry of the server's `subscribed` answer. */
 export interface SubscribedItem {
   readonly expression: string;
@@ -16,6 +18,14 @@ export interface SubscribedItem {
   readonly section?: string;
   /** Integer kind below an enumeration. */
   readonly base?: string;
+  /** Where the variable lies in the controller's memory. */
+  readonly place?: ImagePlace | null;
+}
+
+/** Whether two places share memory: the same variable under two names, or a part of it. */
+export function overlaps(a: ImagePlace, b: ImagePlace): boolean {
+  if (a.offset >= b.offset + b.size || b.offset >= a.offset + a.size) return false;
+  return a.bit == null || b.bit == null || a.bit === b.bit;
 }
 
 export type ValueKind =

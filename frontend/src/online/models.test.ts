@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { ValueBoard, type BoardClock } from './board';
 import { decodeValue, FrameError, readFrame } from './frame';
 import { formatAll, formatLiteral, formatShort } from './format';
-import { expressionKey, valueKind, type SubscribedItem } from './item';
+import { expressionKey, overlaps, valueKind, type SubscribedItem } from './item';
 import { checkLiteral, wholeNumber } from './literal';
 import { clearPrepared, prepare, preparedLiteral, preparedValues, toggledLiteral } from './prepared';
 
@@ -31,6 +31,18 @@ function frameBytes(id: number, cycle: bigint, values: Uint8Array): ArrayBuffer 
   data.set(values, 24);
   return data.buffer;
 }
+
+describe('places', () => {
+  it('overlap when they share a byte, and bits when they are the same', () => {
+    const word = { offset: 4, size: 2, bit: null };
+    expect(overlaps(word, { offset: 5, size: 1, bit: null })).toBe(true);
+    expect(overlaps(word, { offset: 5, size: 1, bit: 3 })).toBe(true);
+    expect(overlaps(word, { offset: 6, size: 1, bit: null })).toBe(false);
+    expect(overlaps(word, { offset: 3, size: 1, bit: null })).toBe(false);
+    expect(overlaps({ offset: 5, size: 1, bit: 2 }, { offset: 5, size: 1, bit: 3 })).toBe(false);
+    expect(overlaps({ offset: 5, size: 1, bit: 3 }, { offset: 5, size: 1, bit: 3 })).toBe(true);
+  });
+});
 
 describe('frames', () => {
   it('have a header of 24 bytes', () => {

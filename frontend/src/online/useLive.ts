@@ -1,9 +1,10 @@
 import { useCallback, useEffect, useRef, useState, useSyncExternalStore } from 'react';
+import type { ImagePlace } from '@/api/types';
 import { useOnline, type OnlineSession } from '@/workbench/onlineSession';
 import type { LiveValue } from './board';
 import type { GroupHandle } from './channel';
 import { channelOf } from './connections';
-import { expressionKey } from './item';
+import { overlaps, type SubscribedItem } from './item';
 import { symbolTree, type SymbolTree } from './symbols';
 
 /** The latest value of one expression; draws again only when it changes. Somebody must watch it. */
@@ -35,22 +36,15 @@ export function useWatched(runtimeId: string | null, expressions: readonly strin
   }, [runtimeId, intervalMs]);
 }
 
-const forceSets = new WeakMap<readonly string[], ReadonlySet<string>>();
-const NO_FORCES: readonly string[] = [];
-
-/** Keys of all forced variables of a runtime. */
-export function forcedKeys(paths: readonly string[]): ReadonlySet<string> {
-  let keys = forceSets.get(paths);
-  if (keys === undefined) {
-    keys = new Set(paths.map(expressionKey));
-    forceSets.set(paths, keys);
-  }
-  return keys;
+/** Whether a force holds the variable that an item shows, or a part of it. */
+export function isForced(item: SubscribedItem | undefined, forces: readonly ImagePlace[] | undefined): boolean {
+  const place = item?.place;
+  return place != null && forces !== undefined && forces.some((force) => overlaps(place, force));
 }
 
 export function useForced(runtimeId: string | null, expression: string): boolean {
-  const key = expressionKey(expression);
-  return useOnline((state) => runtimeId !== null && forcedKeys(state.forces[runtimeId] ?? NO_FORCES).has(key));
+  const item = useLiveValue(runtimeId, expression)?.item;
+  return useOnline((state) => runtimeId !== null && isForced(item, state.forcedPlaces[runtimeId]));
 }
 
 /** The variables of the application that is loaded in the session's runtime. */

@@ -5,7 +5,7 @@
  * reports what it hears through `runtimeStateReceived`, `connectionLost` and `forcesReceived`.
  */
 import { create } from 'zustand';
-import type { LoginRelation, RuntimeState } from '@/api/types';
+import type { ImagePlace, LoginRelation, RuntimeState } from '@/api/types';
 
 export interface OnlineSession {
   applicationId: string;
@@ -22,9 +22,11 @@ interface OnlineState {
   sessions: Readonly<Record<string, OnlineSession>>;
   /** Paths of forced variables, by runtime. */
   forces: Readonly<Record<string, readonly string[]>>;
+  /** Where they lie, by runtime: a variable is forced under each of its names. */
+  forcedPlaces: Readonly<Record<string, readonly ImagePlace[]>>;
 }
 
-export const useOnline = create<OnlineState>(() => ({ sessions: {}, forces: {} }));
+export const useOnline = create<OnlineState>(() => ({ sessions: {}, forces: {}, forcedPlaces: {} }));
 
 export function loggedIn(applicationId: string, runtimeId: string, relation: LoginRelation): void {
   const session: OnlineSession = { applicationId, runtimeId, relation, runtime: null, lostSince: null };
@@ -57,8 +59,11 @@ export function connectionLost(runtimeId: string, since: number = Date.now()): v
   change((session) => session.runtimeId === runtimeId && session.lostSince === null, { lostSince: since });
 }
 
-export function forcesReceived(runtimeId: string, paths: readonly string[]): void {
-  useOnline.setState((state) => ({ forces: { ...state.forces, [runtimeId]: paths } }));
+export function forcesReceived(runtimeId: string, paths: readonly string[], places: readonly ImagePlace[]): void {
+  useOnline.setState((state) => ({
+    forces: { ...state.forces, [runtimeId]: paths },
+    forcedPlaces: { ...state.forcedPlaces, [runtimeId]: places },
+  }));
 }
 
 function change(where: (session: OnlineSession) => boolean, values: Partial<OnlineSession>): void {

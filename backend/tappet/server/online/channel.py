@@ -16,6 +16,7 @@ from tappet.server.online.outbox import Outbox
 from tappet.server.online.sampler import SamplerPool, Sink
 from tappet.server.runtimes import Change, RuntimeLink
 from tappet.server.schemas.online import (
+    ImagePlace,
     ClientMessage,
     ForcesChanged,
     OnlineError,
@@ -61,7 +62,7 @@ class OnlineChannel:
         """Accepts the socket and serves it. Never raises for what the browser sends or how it leaves."""
         await self._socket.accept()
         self._tell(StateChanged(**self._link.state().model_dump()))
-        self._tell(ForcesChanged(expressions=sorted(self._link.forced.values())))
+        self._tell(self._forces())
         ignore = self._link.listen(self._on_change)
         try:
             async with anyio.create_task_group() as group:
@@ -135,11 +136,16 @@ class OnlineChannel:
 
     # -- out -----------------------------------------------------------------------------------------
 
+    def _forces(self) -> ForcesChanged:
+        sizes = sorted(self._link.forced_sizes.items(), key=lambda entry: (entry[0][0], entry[0][1] or 0))
+        places = [ImagePlace(offset=offset, size=size, bit=bit) for (offset, bit), size in sizes]
+        return ForcesChanged(expressions=sorted(self._link.forced.values()), places=places)
+
     def _on_change(self, change: Change) -> None:
         if change is Change.STATE:
             self._tell(StateChanged(**self._link.state().model_dump()))
         elif change is Change.FORCES:
-            self._tell(ForcesChanged(expressions=sorted(self._link.forced.values())))
+            self._tell(self._forces())
         elif change is Change.APPLICATION:
             for subscription in list(self._subscriptions.values()):
                 self._subscribe(subscription.order, renewed=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from tappet.codegen.symbol_map import SymbolMap, VarRef
 from tappet.runtime.recorder import LARGEST_FRAME
-from tappet.server.schemas.online import Item
+from tappet.server.schemas.online import ImagePlace, Item
 from tappet.server.values import resolve_all
 
 HEADER = struct.Struct("<IIQq")
@@ -66,4 +66,5 @@ def _item(expression: str, ref: VarRef, at: int, size: int) -> Item:
         bit=ref.bit,
         flags=ref.flags,
         section=ref.section,
+        place=ImagePlace(offset=ref.offset, size=ref.size, bit=ref.bit),
     )

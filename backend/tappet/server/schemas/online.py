@@ -38,6 +38,14 @@ class Unsubscribe(Request):
 ClientMessage = Annotated[Subscribe | Unsubscribe, Field(discriminator="op")]
 
 
+class ImagePlace(Reply):
+    """Bytes of the memory image, or one bit of the byte at `offset`."""
+
+    offset: int
+    size: int
+    bit: int | None = None
+
+
 class Item(Reply):
     """How to read one value of the frames. `kind` is `error` when there is none; structures and arrays have
     no bytes of their own (size 0)."""
@@ -52,6 +60,9 @@ class Item(Reply):
     bit: int | None = Field(default=None, description="Bit of the byte, counted from 0.")
     flags: str = Field(default="", description="Space separated of CONSTANT, RETAIN, PERSISTENT.")
     section: str = ""
+    place: ImagePlace | None = Field(
+        default=None, description="Where it lies: two names of one place, or parts of it, share a force."
+    )
     error: str | None = None
 
 
@@ -75,6 +86,7 @@ class ForcesChanged(Reply):
 
     op: Literal["forces"] = "forces"
     expressions: list[str]
+    places: list[ImagePlace]
 
 
 class OnlineError(Reply):

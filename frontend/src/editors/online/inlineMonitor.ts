@@ -8,7 +8,7 @@ import type { GroupHandle, OnlineChannel } from '@/online/channel';
 import type { NumberFormat } from '@/online/format';
 import { expressionKey } from '@/online/item';
 import { usePrepared } from '@/online/prepared';
-import { forcedKeys } from '@/online/useLive';
+import { isForced } from '@/online/useLive';
 import { useOnline } from '@/workbench/onlineSession';
 import type { CodeEditor } from '../st/CodePane';
 import type { Monaco } from '../st/monacoLoader';
@@ -164,7 +164,7 @@ export class InlineMonitor {
     if (this.settings === null) return;
     const { runtimeId, format, lost, running } = this.settings;
     const prepared = usePrepared.getState().values[runtimeId] ?? {};
-    const forced = forcedKeys(useOnline.getState().forces[runtimeId] ?? []);
+    const forces = useOnline.getState().forcedPlaces[runtimeId];
     const now = performance.now();
     let freshUntil = 0;
     const next: editor.IModelDeltaDecoration[] = [];
@@ -176,7 +176,7 @@ export class InlineMonitor {
       const pill = pillOf(
         {
           live,
-          forced: forced.has(key),
+          forced: isForced(live.item, forces),
           prepared: prepared[key]?.literal ?? null,
           lost,
           stale: running !== null && running[line - 1] === false,
