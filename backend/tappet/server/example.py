@@ -50,16 +50,20 @@ def find_example(name: str) -> Path:
     return found[name]
 
 
-async def provide_example(services: Services, name: str) -> None:
-    """Loads the example unless it is there already, and downloads it if the local runtime is empty."""
-    project_id = await run_in_threadpool(_load_once, services, find_example(name))
+async def load_example(services: Services, name: str) -> str:
+    """Project of the example, brought into the store unless it is there already."""
+    return await run_in_threadpool(_load_once, services, find_example(name))
+
+
+async def run_example(services: Services, project_id: str) -> None:
+    """Downloads an example and starts it if the local runtime is empty."""
     link = services.runtimes.find(LOCAL_RUNTIME)
     if link is None or not await _connected(link) or link.info is None or link.info.state != "empty":
         return
     project = await run_in_threadpool(services.store.load, project_id)
     for application in project.applications()[:1]:
         await services.commissioning.download(project_id, application.id, link, "download", start=True)
-        log.info("the example '%s' runs on the local runtime", name)
+        log.info("the example '%s' runs on the local runtime", project.name)
 
 
 def _load_once(services: Services, path: Path) -> str:

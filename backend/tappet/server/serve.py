@@ -21,7 +21,7 @@ from tappet.project.errors import ProjectError
 from tappet.project.store import Store
 from tappet.server.app import create_app
 from tappet.server.auth.login import LOCAL_LINK
-from tappet.server.example import find_example, provide_example
+from tappet.server.example import find_example, load_example, run_example
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 
@@ -110,25 +110,35 @@ async def _serve(options: ServeOptions, listener: socket.socket) -> int:
         await running
         raise ServeError("the server did not start; the messages above say why")
     services: Services = app.state.services
+    example = None if options.example is None else await _loaded(services, options.example)
     console = Console(services, _address(settings, listener))
     console.greet(local_link=options.local_link)
     if options.local_link:
         console.offer_links()
     await services.commissioning.builder.warm()
-    example = asyncio.create_task(_example(services, options.example)) if options.example else None
+    machine = None if example is None else asyncio.create_task(_run(services, example))
     try:
         await running
     finally:
-        if example is not None:
-            example.cancel()
+        if machine is not None:
+            machine.cancel()
     return 0
 
 
-async def _example(services: Services, name: str) -> None:
+async def _loaded(services: Services, name: str) -> str | None:
+    """Project of the example, before anybody can open the start page; a broken example stops no server."""
     try:
-        await provide_example(services, name)
+        return await load_example(services, name)
     except Exception:
-        log.exception("the example '%s' could not be provided", name)
+        log.exception("the example '%s' could not be loaded", name)
+        return None
+
+
+async def _run(services: Services, project_id: str) -> None:
+    try:
+        await run_example(services, project_id)
+    except Exception:
+        log.exception("the example could not be started")
 
 
 class Console:
