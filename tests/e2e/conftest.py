@@ -28,6 +28,8 @@ AS_DELIVERED = """async () => {
     for (const project of await (await fetch('/api/v1/projects')).json())
         if (project.revision > 1) await send(`/projects/${project.id}/revert`, {revision: 1});
     await send('/runtimes/local/values/unforce', {expressions: null});
+    await send('/runtimes/local/reset', {kind: 'cold'});
+    await send('/runtimes/local/start', {});
 }"""
 """Undoes what an earlier test did to the example and to the machine."""
 CHROMIUM_FLAGS = [
@@ -97,7 +99,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
             command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT, text=True, env=environment
         )
         deadline = time.monotonic() + START_LIMIT_S
-        while not _links(log.read_text()):
+        while "runs on the local runtime" not in log.read_text():
             if process.poll() is not None or time.monotonic() > deadline:
                 process.kill()
                 pytest.fail(f"tappet serve did not start:\n{log.read_text()}")

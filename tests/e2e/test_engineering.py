@@ -13,7 +13,7 @@ from .workbench import (
     add_line,
     delete_line,
     implementation,
-    login,
+    log_in,
     message_rows,
     open_object,
     open_project,
@@ -43,34 +43,13 @@ def test_a_build_error_is_listed_leads_to_its_place_and_is_mended(page: Page) ->
     expect(page.get_by_text(re.compile(r"built in [\d.]+ s"))).to_be_visible()
 
 
-def test_values_are_watched_forced_released_and_reset(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    login(page)
-    editor = implementation(page)
-    expect(editor).to_contain_text("Execute")
-
-    # force the emergency stop through the REST API of the same session, as a script of the page would see it
-    page.evaluate(
-        """() => fetch('/api/v1/runtimes/local/values/force', {method: 'POST',
-            headers: {'X-Tappet-Client': '1', 'Content-Type': 'application/json'},
-            body: JSON.stringify({values: [{expression: 'GVL_IO.xEmergencyStop', value: 'TRUE'}]})})"""
-    )
-    expect(editor).to_contain_text("Aborted")
-    page.locator(".dv-tab").filter(has_text="Forces").click()
-    expect(page.get_by_text("GVL_IO.xEmergencyStop").locator("visible=true").first).to_be_visible()
-    editor.click()
-    page.keyboard.press("Alt+F7")
-    expect(page.get_by_role("row").filter(has_text="xEmergencyStop").locator("visible=true")).to_have_count(0)
-
-
 def test_an_edit_of_one_line_runs_after_an_online_change(page: Page) -> None:
     open_project(page)
     open_object(page, "PLC_PRG")
     editor = implementation(page)
     expect(editor).to_contain_text("xSafe")
     add_line(page, editor, "GVL_Line.stRecipe.lrBelt := 123.0;")
-    login(page)
+    log_in(page)
     expect(editor).to_contain_text("123")
 
 
@@ -94,11 +73,15 @@ def browser_two(context: BrowserContext, server: Server) -> Page:
     return opened
 
 
-PICTURE = """() => new Promise(done => requestAnimationFrame(() => {
-    const small = Object.assign(document.createElement('canvas'), {width: 320, height: 200});
-    small.getContext('2d').drawImage(document.querySelector('canvas'), 0, 0, 320, 200);
-    done(small.toDataURL());
-}))"""
+PICTURE = """() => new Promise((done, fail) => {
+    setTimeout(() => fail(new Error('no frame was drawn')), 20000);
+    requestAnimationFrame(() => {
+        const [scene] = [...document.querySelectorAll('canvas')].sort((a, b) => b.width - a.width);
+        const small = Object.assign(document.createElement('canvas'), {width: 320, height: 200});
+        small.getContext('2d').drawImage(scene, 0, 0, 320, 200);
+        done(small.toDataURL());
+    });
+})"""
 """The scene as it is drawn in this moment, small."""
 
 
@@ -122,7 +105,7 @@ def test_the_3d_view_shows_the_plant_behind_the_login(page: Page, server: Server
     frame = page.frame_locator("[data-testid=scene-view]")
     expect(frame.locator("canvas").first).to_be_visible(timeout=30_000)
     wait_for_pictures(page, moving=True)
-    login(page)
+    log_in(page)
     page.keyboard.press("Shift+F8")
     expect(status_bar(page).get_by_text("stopped")).to_be_visible()
     wait_for_pictures(page, moving=False)

@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser, ConsoleMessage, expect
 
 from .conftest import AS_DELIVERED, Server
-from .workbench import implementation, login, open_object, open_project
+from .workbench import implementation, log_in, open_object, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
 
@@ -46,7 +46,7 @@ def test_workbench_and_plant(browser: Browser, server: Server, theme: str, langu
     open_project(page)
     open_object(page, "PLC_PRG")
     if language == "en":
-        login(page)
+        log_in(page)
         expect(implementation(page)).to_contain_text("Execute")
     page.wait_for_timeout(1500)
     page.screenshot(path=folder / f"workbench-{suffix}.png")

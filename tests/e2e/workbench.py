@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 
 from playwright.sync_api import Locator, Page, expect
 
@@ -55,11 +56,11 @@ def status_bar(page: Page) -> Locator:
     return page.locator("footer[role=status]")
 
 
-def login(page: Page) -> None:
+def log_in(page: Page, expected: str = "running") -> None:
     """Alt+F8; agrees to what the dialog proposes first, if the runtime holds something else."""
     page.keyboard.press("Alt+F8")
     dialog = page.get_by_role("dialog")
-    online = status_bar(page).get_by_text("running")
+    online = status_bar(page).get_by_text(expected)
     expect(dialog.or_(online).first).to_be_visible()
     if dialog.count():
         page.keyboard.press("Enter")
@@ -69,3 +70,41 @@ def login(page: Page) -> None:
 
 def message_rows(page: Page) -> Locator:
     return page.get_by_role("row").filter(has_text=re.compile(r"[EW]\d{4}"))
+
+
+def open_panel(page: Page, title: str) -> Locator:
+    """A tool panel that has a tab, brought to the front."""
+    page.locator(".dv-tab").filter(has_text=re.compile(rf"^{re.escape(title)}\s*\d*$")).click()
+    return page.get_by_role("tabpanel", name=title)
+
+
+def choose_menu(page: Page, menu: str, *entries: str) -> None:
+    page.get_by_role("menuitem", name=menu, exact=True).click()
+    for entry in entries:
+        page.get_by_role("menuitem", name=re.compile(f"^{re.escape(entry)}", re.IGNORECASE)).last.click()
+
+
+def watch(page: Page, expression: str) -> Locator:
+    """The row of a variable in the first watch list; typed into the empty line when it is not there."""
+    table = open_panel(page, "Watch 1").get_by_role("treegrid")
+    expect(table).to_be_visible()
+    row = table.get_by_role("row").filter(has_text=expression)
+    if row.count() == 0:
+        table.get_by_role("row").last.get_by_role("gridcell").first.dblclick()
+        page.keyboard.type(expression)
+        page.keyboard.press("Escape" if page.get_by_role("listbox").count() else "Shift")
+        page.keyboard.press("Enter")
+    expect(row).to_be_visible()
+    return row
+
+
+def watch_value(row: Locator, *, at_least: int) -> str:
+    """The number in the value column, once it is that large."""
+    cell = row.get_by_role("gridcell").nth(2)
+    deadline = time.monotonic() + 30.0
+    while time.monotonic() < deadline:
+        text = cell.inner_text().strip()
+        if text.isdigit() and int(text) >= at_least:
+            return text
+        cell.page.wait_for_timeout(100)
+    raise AssertionError(f"{row.inner_text()!r} does not reach {at_least}")
