@@ -16,9 +16,9 @@ from tappet.server.online.outbox import Outbox
 from tappet.server.online.sampler import SamplerPool, Sink
 from tappet.server.runtimes import Change, RuntimeLink
 from tappet.server.schemas.online import (
-    ImagePlace,
     ClientMessage,
     ForcesChanged,
+    ImagePlace,
     OnlineError,
     StateChanged,
     Subscribe,
