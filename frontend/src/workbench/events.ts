@@ -31,7 +31,7 @@ export interface ProjectEvents {
 }
 
 /** Connects and keeps connecting; after a gap the tree is read anew, since changes may have been missed. */
-export function openEvents(projectId: string): ProjectEvents {
+export function openEvents(projectId: string, objectChanged: () => void): ProjectEvents {
   let socket: WebSocket | null = null;
   let closed = false;
   let pause = FIRST_PAUSE_MS;
@@ -49,7 +49,11 @@ export function openEvents(projectId: string): ProjectEvents {
       if (again) void queryClient.invalidateQueries({ queryKey: keys.project(projectId) });
       send();
     };
-    socket.onmessage = (event) => receive(projectId, JSON.parse(String(event.data)) as EventMessage);
+    socket.onmessage = (event) => {
+      const message = JSON.parse(String(event.data)) as EventMessage;
+      receive(projectId, message);
+      if (message.op === 'object') objectChanged();
+    };
     socket.onclose = () => {
       usePresence.setState({ connected: false, users: [] });
       if (closed) return;

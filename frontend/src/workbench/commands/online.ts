@@ -31,7 +31,7 @@ const notRunning = (context: CommandContext): Enablement => {
 };
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
 const changed = (context: CommandContext): Enablement =>
-  context.online?.relation === 'same' ? 'reason.nothingChanged' : true;
+  context.online?.relation === 'same' && context.dirtyPanels.length === 0 ? 'reason.nothingChanged' : true;
 
 async function askedReset(context: CommandContext, kind: 'warm' | 'cold' | 'origin'): Promise<void> {
   const sure = await confirm({

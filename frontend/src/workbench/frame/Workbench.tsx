@@ -12,6 +12,7 @@ import { DockArea } from '../docking/DockArea';
 import { restoreLayout } from '../docking/layout';
 import { openEvents, type ProjectEvents } from '../events';
 import { clearMessages } from '../messages/store';
+import { compareLogin, followRelation } from '../online/relation';
 import { useOnline } from '../onlineSession';
 import { Palette } from '../palette/Palette';
 import { findPanel } from '../panels';
@@ -105,8 +106,14 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
 
   const events = useRef<ProjectEvents | null>(null);
   useEffect(() => {
-    events.current = openEvents(projectId);
-    return () => events.current?.close();
+    const relation = followRelation(({ applicationId, runtimeId }) =>
+      compareLogin(projectId, applicationId, runtimeId),
+    );
+    events.current = openEvents(projectId, relation.projectChanged);
+    return () => {
+      events.current?.close();
+      relation.close();
+    };
   }, [projectId]);
   useEffect(() => events.current?.look(activeEditor), [activeEditor]);
 

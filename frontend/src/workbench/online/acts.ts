@@ -13,6 +13,7 @@ import { loggedIn, loggedOut, relationChanged, runtimePolled } from '../onlineSe
 import { useProject } from '../project';
 import { atLeast } from '../rights';
 import { askDownload, askLogin, askRuntime } from './dialogs';
+import { compareLogin } from './relation';
 
 /** The runtime on the server's own machine; devices in simulation run there. */
 export const LOCAL_RUNTIME = 'local';
@@ -59,12 +60,12 @@ export async function build(context: CommandContext): Promise<BuildReport | null
 
 /** While logged in: how the runtime's application relates to the one just built. */
 async function refreshRelation(context: CommandContext): Promise<void> {
-  const answer = await api.post<LoginAnswer>(loginPath(context), { runtime_id: context.online!.runtimeId });
+  const answer = await compare(context, context.online!.runtimeId);
   relationChanged(context.applicationId!, answer.relation);
 }
 
-function loginPath(context: CommandContext): string {
-  return `/projects/${context.projectId}/applications/${context.applicationId}/login`;
+function compare(context: CommandContext, runtimeId: string): Promise<LoginAnswer> {
+  return compareLogin(context.projectId!, context.applicationId!, runtimeId);
 }
 
 /** The runtime that the active application's device leads to; asks when none has been chosen. Null when cancelled. */
@@ -104,7 +105,7 @@ export async function login(context: CommandContext): Promise<void> {
       return;
     }
   }
-  const answer = await api.post<LoginAnswer>(loginPath(context), { runtime_id: runtime.id });
+  const answer = await compare(context, runtime.id);
   if (answer.relation === 'same') {
     loggedIn(context.applicationId!, runtime.id, 'same');
     runtimePolled(runtime.id, runtime);
@@ -165,7 +166,17 @@ export async function download(context: CommandContext): Promise<void> {
 /** Online change while logged in: the machine keeps running and its variables keep their values. */
 export async function onlineChange(context: CommandContext): Promise<void> {
   const report = await build(context);
-  if (report?.ok) await load(context, context.online!.runtimeId, 'online_change', false);
+  const session = context.online!;
+  if (!report?.ok || session.runtime === null) return;
+  const answer = await compare(context, session.runtimeId);
+  if (answer.relation === 'same') notify({ tone: 'info', title: t('reason.nothingChanged') });
+  else if (answer.relation === 'online_change') await load(context, session.runtimeId, 'online_change', false);
+  else {
+    // Only a download can load this change; the dialog says what stands in the way.
+    const question = { answer, application: nameOf(context), runtime: session.runtime, mayLoad: true };
+    const choice = await askLogin(question);
+    if (choice && choice.how !== 'without') await load(context, session.runtimeId, choice.how, choice.start);
+  }
 }
 
 export async function runtimeAct(context: CommandContext, act: 'start' | 'stop'): Promise<void> {
