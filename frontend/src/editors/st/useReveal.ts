@@ -26,9 +26,16 @@ export function useReveal(panelId: string, reveal: Reveal | null): void {
         });
         editor.revealLineInCenterIfOutsideViewport(line);
       }
-      if (reveal.focus) editor.focus();
+      if (reveal.focus && focusIsFree(panelId)) editor.focus();
     };
     frame = requestAnimationFrame(jump);
     return () => cancelAnimationFrame(frame);
   }, [panelId, reveal]);
+}
+
+/** Whoever has gone on to another panel while the editor was loading keeps the focus there. */
+function focusIsFree(panelId: string): boolean {
+  const active = document.activeElement;
+  if (active === null || active === document.body) return true;
+  return active.closest<HTMLElement>('[data-panel-id]')?.dataset.panelId === panelId;
 }
