@@ -151,6 +151,7 @@ def test_values_both_ways(symbols: SymbolMap, path: str, given: values.Value, li
         ("PLC_PRG.m", "Maybe", "no value of E_Mode; it has Off, On"),
         ("PLC_PRG.sub", 6, "outside -5..5"),
         ("PLC_PRG.t", "1s", "is no TIME"),
+        ("PLC_PRG.t", "5", "is no TIME; write for example T#1s500ms"),
         ("PLC_PRG.t", "T#1s1m", "units must come in the order"),
         ("PLC_PRG.f.a[1, 0].x", 40000, "outside -32768..32767"),
         ("PLC_PRG.f.a[1, 0].x", "four", "is no INT; write for example 12"),

@@ -59,7 +59,7 @@ def _token(token_file: Path | None) -> str:
         try:
             return token_file.read_text(encoding="utf-8").strip()
         except OSError as error:
-            raise UsageError(f"--token-file: {error}") from error
+            raise UsageError(f"--token-file: {token_file}: {error.strerror or error}") from error
     token = os.environ.get(TOKEN_VARIABLE)
     if not token:
         raise UsageError(f"the runtime asks for a token: give --token-file, or set {TOKEN_VARIABLE}")

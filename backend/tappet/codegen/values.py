@@ -183,6 +183,8 @@ def _integer(info: TypeInfo, value: Value) -> int:
             if known.upper() == name:
                 return number
     try:
+        if info.kind in _TIMES:  # a bare number has no unit
+            raise ValueError
         return _parse_int(text)
     except ValueError:
         if info.kind == "enum":
