@@ -56,6 +56,8 @@ class CompilePool:
         try:
             while (job := self._jobs.get()) is not None:
                 text, options, future = job
+                if not future.set_running_or_notify_cancel():
+                    continue
                 try:
                     future.set_result(_compile(process, text, options))
                 except LlvmError as error:
@@ -103,6 +105,11 @@ class _Shared:
     lock = threading.Lock()
 
 
+def is_warm() -> bool:
+    """Whether the pool of this process has been started."""
+    return _Shared.pool is not None
+
+
 def shared_pool() -> CompilePool:
     """The pool of this process, started at the first call."""
     with _Shared.lock:
@@ -121,9 +128,13 @@ class Compilation:
         self.parallel = parallel
         self._results: list[tuple[str, bytes | Future[bytes]]] = []
 
-    def add(self, text: str) -> None:
-        """Take a module: from the cache, or compiled here or in another process."""
+    def add(self, text: str) -> str:
+        """Take a module: from the cache, or compiled here or in another process. Its key in the cache."""
         name = self.cache.key(text, self.options)
+        self._add(name, text)
+        return name
+
+    def _add(self, name: str, text: str) -> None:
         if not self.parallel:
             self._results.append((name, self.cache.compile(text, self.options)))
             return
@@ -137,13 +148,23 @@ class Compilation:
 
     def objects(self) -> list[bytes]:
         """All objects in the order of their modules; raises LlvmError or WorkerLostError."""
-        found = []
+        try:
+            return [self._take(name, result) for name, result in self._results]
+        except BaseException:
+            self._give_up()
+            raise
+
+    def _take(self, name: str, result: bytes | Future[bytes]) -> bytes:
+        if isinstance(result, bytes):
+            return result
+        data = result.result()
+        self.cache.write(name, data)
+        return data
+
+    def _give_up(self) -> None:
+        """Keep what is done, and leave out what has not begun."""
         for name, result in self._results:
-            if isinstance(result, bytes):
-                found.append(result)
-            else:
-                data = result.result()
-                self.cache.write(name, data)
-                found.append(data)
-        self.cache.forget(name for name, _ in self._results)
-        return found
+            if isinstance(result, bytes) or result.cancel() or not result.done():
+                continue
+            if result.exception() is None:
+                self.cache.write(name, result.result())

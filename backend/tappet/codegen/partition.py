@@ -11,12 +11,14 @@ from dataclasses import dataclass, field
 from tappet.core import ir
 from tappet.core.walk import visit
 
-WHOLE = 8_000
+WHOLE = 3_000
 """Up to this weight an application is one module, and everything in it can be inlined."""
-PART = 3_000
-"""Weight of the modules of larger applications."""
+PART = 600
+"""Weight of the modules of larger applications: what is compiled again after an edit."""
 SMALL = 60
-"""Weight of bodies that are copied into the modules that call them."""
+"""Weight of bodies that are copied into the modules that call them; LLVM inlines nothing larger."""
+COPIES = 1_500
+"""Weight of all copies in one module; the smallest come first."""
 
 
 @dataclass(slots=True)
@@ -36,19 +38,20 @@ def partition(module: ir.Module) -> list[Part]:
     weight = PART
     for name in sorted(functions):
         owner = name.partition(".")[0]
-        whole = parts and parts[-1].names and parts[-1].names[-1].partition(".")[0] == owner
-        if weight >= PART and not (whole and weight < 2 * PART):
+        family = parts and parts[-1].names[-1].partition(".")[0] == owner
+        full = PART if not family else 2 * PART
+        if weight >= full or (weight and not family and weight + functions[name].weight > 2 * PART):
             parts.append(Part([]))
             weight = 0
         parts[-1].names.append(name)
         weight += functions[name].weight
     for part in parts:
-        part.copies = _copies(module, part.names)
+        part.copies = copies_for(module, part.names)
     return parts
 
 
-def _copies(module: ir.Module, names: list[str]) -> list[str]:
-    """Small functions of other modules that these call, and what those call."""
+def copies_for(module: ir.Module, names: list[str]) -> list[str]:
+    """Small functions of other modules that these call, and what those call, as many as fit."""
     own = set(names)
     found: dict[str, None] = {}
     todo = list(names)
@@ -60,7 +63,13 @@ def _copies(module: ir.Module, names: list[str]) -> list[str]:
             if function.weight <= SMALL and not function.returns_twice and not function.cold:
                 found[callee] = None
                 todo.append(callee)
-    return sorted(found)
+    chosen, room = [], COPIES
+    for name in sorted(found, key=lambda name: (module.functions[name].weight, name)):
+        room -= module.functions[name].weight
+        if room < 0:
+            break
+        chosen.append(name)
+    return sorted(chosen)
 
 
 def _callees(function: ir.Function) -> set[str]:

@@ -171,7 +171,9 @@ def _adr(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     target = getattr(operand, "symbol", None)
     if isinstance(target, PouSymbol):
         if target.kind == "PROGRAM":
-            return ir.Address(ir.PTR, places.program_data(target))
+            place = places.program_data(target)
+            b.program.expose(place, target.instance)
+            return ir.Address(ir.PTR, place)
         return ir.FunctionAddress(ir.PTR, b.program.function(target))
     place = b.place(operand)
     b.program.expose(place, operand.type)

@@ -15,10 +15,45 @@ class Effects:
     data: set[str] = field(default_factory=set)
     """Data objects, by symbol."""
     pointers: bool = False
-    """Anything whose address is known (pointers, VAR_IN_OUT)."""
+    """Anything whose address is known (pointers, VAR_IN_OUT, methods called through them)."""
     unknown: bool = False
     """Anything at all: code that is not part of the module."""
     calls: set[str] = field(default_factory=set)
+
+
+class Instances:
+    """Whether functions are called on instances that only a pointer or a reference tells."""
+
+    def __init__(self, module: ir.Module) -> None:
+        self.module = module
+        self.addresses: dict[ir.Local, bool] = {}
+        self.arguments: list[ir.Expr] = []
+
+    def note(self, node: ir.Expr | ir.Stmt) -> None:
+        """Take in one node."""
+        if isinstance(node, ir.Call):
+            function = self.module.functions.get(node.function)
+            if function is not None and function.self_type and node.args:
+                self.arguments.append(node.args[0])
+        elif (
+            isinstance(node, ir.Store) and node.value.type is ir.PTR and isinstance(node.place.base, ir.Local)
+        ):
+            local = node.place.base
+            self.addresses[local] = self.addresses.get(local, True) and _is_named(node.value)
+
+    @property
+    def unknown(self) -> bool:
+        """Whether there is such a call among the nodes."""
+        return not all(_is_named(e) or self._is_kept(e) for e in self.arguments)
+
+    def _is_kept(self, e: ir.Expr) -> bool:
+        base = e.place.base if isinstance(e, ir.Load) else None
+        return isinstance(base, ir.Local) and self.addresses.get(base, False)
+
+
+def _is_named(e: ir.Expr) -> bool:
+    """Whether an address says which variable it is of."""
+    return isinstance(e, ir.Address) and not isinstance(e.place.base, ir.Indirect)
 
 
 class EffectsTable:
@@ -35,6 +70,13 @@ class EffectsTable:
         if found is None:
             found = self.closed[name] = self._close(name)
         return found
+
+    def forget(self, names: set[str]) -> None:
+        """The bodies of some functions are new."""
+        for name in names:
+            self.own.pop(name, None)
+        if names:
+            self.closed.clear()
 
     def _close(self, name: str) -> Effects:
         total = Effects()
@@ -61,6 +103,7 @@ class EffectsTable:
 
 def _own(module: ir.Module, function: ir.Function) -> Effects:
     effects = Effects()
+    instances = Instances(module)
     fields = {
         ir.Load: ("place",), ir.Store: ("place",), ir.Copy: ("target", "source"), ir.Fill: ("target",),
         ir.For: ("counter",),
@@ -68,6 +111,7 @@ def _own(module: ir.Module, function: ir.Function) -> Effects:
 
     def note(node: ir.Expr | ir.Stmt) -> None:
         kind = type(node)
+        instances.note(node)
         if kind in fields:
             for name in fields[kind]:
                 base = getattr(node, name).base
@@ -75,6 +119,10 @@ def _own(module: ir.Module, function: ir.Function) -> Effects:
                     effects.data.add(base.symbol)
                 elif isinstance(base, ir.Indirect) and not base.own:
                     effects.pointers = True
+        elif isinstance(node, ir.Promoted):
+            for home, _, _, _ in node.variables:
+                if isinstance(home.base, ir.Data):
+                    effects.data.add(home.base.symbol)
         elif isinstance(node, ir.Call):
             if node.function in module.functions:
                 effects.calls.add(node.function)
@@ -88,6 +136,7 @@ def _own(module: ir.Module, function: ir.Function) -> Effects:
             effects.unknown = True
 
     visit(function.body, note)
+    effects.pointers |= instances.unknown
     return effects
 
 

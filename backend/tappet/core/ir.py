@@ -509,6 +509,10 @@ class Function:
     """Whether the body contains a loop."""
     callees: set[str] | None = None
     """Functions it calls, once somebody has looked."""
+    assumed: dict[str, object] = field(default_factory=dict)
+    """Effects of called functions that register variables of this one rest on."""
+    promoted_bases: set[str] = field(default_factory=set)
+    """Data objects and block types whose exposure touches variables that this function keeps in registers."""
     subscripted: dict[Base, set[int]] = field(default_factory=dict)
     """Roots of places with subscripts, by base: what needs alias scopes."""
     aliases: dict[Local, int] = field(default_factory=dict)
@@ -562,5 +566,7 @@ class Module:
     """Function block types that share bases, by each of their names."""
     containers: dict[str, set[str]] = field(default_factory=dict)
     """Data objects with instances of a function block type, by its name."""
+    nested: dict[tuple[str, int], frozenset[str]] = field(default_factory=dict)
+    """Function block types with instances in a variable: (data symbol or type name, root offset)."""
     exposed: set[tuple[str, int]] = field(default_factory=set)
     """Variables reachable through pointers: (data symbol or type name, root offset); offset -1 = all."""

@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tappet.core import ir
-from tappet.core.effects import EffectsTable
+from tappet.core.effects import EffectsTable, Instances
+from tappet.core.exposure import Exposure
 from tappet.core.walk import blocks_of, places_of, visit
 
 _LOOPS = (ir.For, ir.While, ir.Repeat)
@@ -53,6 +54,7 @@ class Promotion:
     def __init__(self, module: ir.Module, effects: EffectsTable) -> None:
         self.module = module
         self.effects = effects
+        self.exposure = Exposure(module)
 
     def run(self, function: ir.Function) -> None:
         """Promote in all loops of a function."""
@@ -86,6 +88,10 @@ class Promotion:
             variables.append((ir.Place(base, offset, root=use.root), local, use.type, use.written))
             for holder, name in use.holders:
                 setattr(holder, name, ir.Place(local))
+        for name in survey.calls:
+            function.assumed[name] = self.effects.of(name)
+        for (base, _), use in chosen:
+            function.promoted_bases |= self.exposure.concerns(self._names(function, base), use.root)
         return ir.Promoted(variables, loop, frozenset(survey.calls))
 
     def _calls_are_known(self, survey: _Survey) -> bool:
@@ -108,16 +114,17 @@ class Promotion:
         if isinstance(base, ir.Self):
             if survey.data & holders:
                 return False
-            names = family
-        else:
-            assert isinstance(base, ir.Data)
-            if base.symbol in self._called_data(survey) or base.symbol in holders:
-                return False
-            names = frozenset({base.symbol})
-        if not survey.pointers:
-            return True
-        exposed = self.module.exposed
-        return not any((name, root) in exposed or (name, -1) in exposed for name in names)
+        elif isinstance(base, ir.Data) and (
+            base.symbol in self._called_data(survey) or base.symbol in holders
+        ):
+            return False
+        return not survey.pointers or not self.exposure.reaches(self._names(function, base), root)
+
+    def _names(self, function: ir.Function, base: ir.Base) -> frozenset[str]:
+        """Data object of a variable, or the block types that have it."""
+        if isinstance(base, ir.Data):
+            return frozenset({base.symbol})
+        return self.module.families.get(function.self_type, frozenset({function.self_type}))
 
     def _called_data(self, survey: _Survey) -> set[str]:
         """Data objects that called functions touch."""
@@ -126,9 +133,11 @@ class Promotion:
 
 def _survey(module: ir.Module, loop: ir.Stmt) -> _Survey:
     found = _Survey()
+    instances = Instances(module)
 
     def note(node: ir.Expr | ir.Stmt) -> None:
         kind = type(node)
+        instances.note(node)
         if kind is ir.Goto or kind is ir.Label or kind is ir.CallPointer or kind is ir.Promoted:
             found.refused = True
         elif isinstance(node, ir.Call):
@@ -143,6 +152,7 @@ def _survey(module: ir.Module, loop: ir.Stmt) -> _Survey:
             _note_place(found, node, name, place)
 
     visit([loop], note)
+    found.pointers |= instances.unknown
     return found
 
 

@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 
 from tappet.core import assign, builtins, calls, conversions, initial, ir, places
 from tappet.core.body import Body
+from tappet.core.method_tables import number_methods
 from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_value, data_symbol, export_name
+from tappet.core.relations import relate
 from tappet.core.scalars import scalar_of
 from tappet.core.statements import lower_statements
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.conversion import implements
 from tappet.lang.analysis.result import Analysis, ConfiguredAddress
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
@@ -75,9 +76,14 @@ def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, in
 
 def complete(program: Program, data: list[DataObject]) -> None:
     """Lower what is waiting, then number the virtual methods; may be called again after adding code."""
+    complete_bodies(program)
+    relate(program, [(item.symbol, item.owner) for item in data])
+
+
+def complete_bodies(program: Program) -> None:
+    """The same where types and data have not changed."""
     work_off(program)
-    _dispatch_tables(program)
-    _relations(program, data)
+    number_methods(program)
 
 
 def work_off(program: Program) -> None:
@@ -249,6 +255,7 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
     copies = _input_copies(b)
     function.body = [*copies, *b.entry, *b.out]
     program.module.functions[function.name] = function
+    program.bodies[function.name] = pou
 
 
 def unchecked(pou: PouSymbol) -> bool:
@@ -387,98 +394,6 @@ def _initialise(
     else:
         initialiser.fill(template, 0, type_, init)
     initial.write_template(b, place, template, type_.align)
-
-
-def _relations(program: Program, data: list[DataObject]) -> None:
-    """Which block types share bases, and which data objects hold instances of which."""
-    groups: dict[str, set[str]] = {}
-    for pou in program.analysis.pous:
-        if pou.kind == "FUNCTION_BLOCK" and pou.instance is not None:
-            root = pou
-            while root.base is not None:
-                root = root.base
-            if root.instance is not None:
-                name = program.block_name(root.instance)
-                groups.setdefault(name, {name}).add(program.block_name(pou.instance))
-    for group in groups.values():
-        for name in group:
-            program.module.families[name] = frozenset(group)
-    nested: dict[int, set[str]] = {}
-    for item in data:
-        types = (
-            [item.owner.instance]
-            if isinstance(item.owner, PouSymbol)
-            else [m.type for m in item.owner.members.values()]
-        )
-        for type_ in types:
-            for name in _blocks_in(program, type_, nested):
-                program.module.containers.setdefault(name, set()).add(item.symbol)
-
-
-def _blocks_in(program: Program, type_: t.Type | None, nested: dict[int, set[str]]) -> set[str]:
-    """Names of the block types that have instances inside a type."""
-    if isinstance(type_, t.Array):
-        return _blocks_in(program, type_.element, nested)
-    if not isinstance(type_, t.FunctionBlock | t.Struct):
-        return set()
-    found = nested.get(id(type_))
-    if found is None:
-        found = nested[id(type_)] = set()
-        if isinstance(type_, t.FunctionBlock) and not type_.program:
-            found.add(program.block_name(type_))
-        for member in type_.members.values():
-            if member.section != "VAR_IN_OUT":
-                found |= _blocks_in(program, member.type, nested)
-    return found
-
-
-# -- virtual calls ----------------------------------------------------------------------------------
-
-
-def _dispatch_tables(program: Program) -> None:
-    """Slots for the names that are called virtually, and a table per block type with instances.
-
-    Two names share a slot when no block type has both.
-    """
-    program.module.dispatch.clear()
-    slots: dict[str, int] = {}
-    taken: dict[str, set[int]] = {name: set() for name in program.blocks}
-    users: dict[str, list[str]] = {}
-    for block_name, block in program.blocks.items():
-        symbol = block.pou.symbol if block.pou is not None else None
-        if isinstance(symbol, PouSymbol):
-            for name in symbol.vtable:
-                if name in program.dispatched:
-                    users.setdefault(name, []).append(block_name)
-    for name in program.dispatched:
-        having = users.get(name, [])
-        slot = 0
-        while any(slot in taken[owner] for owner in having):
-            slot += 1
-        slots[name] = slot
-        for owner in having:
-            taken[owner].add(slot)
-    for code, name in program.pending_slots:
-        code.args[1] = ir.Const(ir.I64, slots.get(name, 0))
-    for block_name, block in program.blocks.items():
-        symbol = block.pou.symbol if block.pou is not None else None
-        methods = {}
-        if isinstance(symbol, PouSymbol):
-            for name, method in symbol.vtable.items():
-                if name in slots:
-                    methods[slots[name]] = program.functions[id(method)]
-        program.module.dispatch.append(ir.DispatchTable(program.type_ids[block_name], methods))
-    _fill_queries(program)
-
-
-def _fill_queries(program: Program) -> None:
-    highest = max(program.type_ids.values(), default=0)
-    for symbol, interface in program.queried.items():
-        table = bytearray(highest + 1)
-        for name, block in program.blocks.items():
-            if implements(block, interface):
-                table[program.type_ids[name]] = 1
-        program.module.constants[symbol].data = bytes(table)
 
 
 OPERATORS = (builtins, conversions)

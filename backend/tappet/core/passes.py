@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from tappet.core import ir
 from tappet.core.effects import EffectsTable
 from tappet.core.loops import Promotion, mark_fixed_counters, mark_pointer_walks
 from tappet.core.ranges import Ranges
 
 
-def run(module: ir.Module) -> None:
+def run(module: ir.Module) -> EffectsTable:
     """Keep loop variables in locals, then drop the checks that can never fire."""
-    promotion = Promotion(module, EffectsTable(module))
-    for function in module.functions.values():
+    effects = EffectsTable(module)
+    run_on(module, effects, module.functions)
+    return effects
+
+
+def run_on(module: ir.Module, effects: EffectsTable, names: Iterable[str]) -> None:
+    """The passes over some functions of a module."""
+    promotion = Promotion(module, effects)
+    for name in names:
+        function = module.functions[name]
         if function.loops:
             promotion.run(function)
             mark_fixed_counters(function)

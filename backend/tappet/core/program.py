@@ -41,6 +41,10 @@ class Program:
     functions: dict[int, str] = field(default_factory=dict)
     """id(PouSymbol) to linkage name, for everything reached so far."""
     taken: set[str] = field(default_factory=set)
+    bodies: dict[str, PouSymbol] = field(default_factory=dict)
+    """Linkage name to what is lowered under it, without initialisers and task entries."""
+    slots: dict[str, int] = field(default_factory=dict)
+    """Places of virtual methods in the method tables, by upper-case name."""
     queue: list[Callable[[], None]] = field(default_factory=list)
     """Bodies still to be lowered."""
     homes: dict[int, str] = field(default_factory=dict)

@@ -221,6 +221,7 @@ def _external_types(session: Session, found: Collected, declarations: Declaratio
 def _configured_addresses(session: Session, found: Collected, declarations: Declarations) -> None:
     """Connects incomplete addresses `%I*` with the lines of VAR_CONFIG (LDEC-93, LDEC-94)."""
     incomplete = _incomplete_paths(session, found)
+    session.analysis.configured = []
     seen: set[str] = set()
     for decl, source in found.configured:
         body = plain_body(session, source)

@@ -1,0 +1,51 @@
+"""The code id: equal for equal programs, however they were built.
+
+It is taken from the texts, not from the objects: a build after an edit splits and orders code differently
+than a build of everything, and that is no difference to the machine. Comments do not count, lines do.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterable
+
+from tappet import __version__
+from tappet.codegen.package import CodePackage
+from tappet.lang.source import Source
+
+_PARTS = re.compile(
+    r"""
+    (?P<kept> '(?:[^'$\n]|\$.)*' | "(?:[^"$\n]|\$.)*" | \{[^}]*\} )
+    | [ \t]* (?: //[^\n]* | \(\*.*?\*\) )
+    | [ \t]+ (?= \r?\n )
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+
+
+def text_digest(source: Source) -> bytes:
+    """Digest of what a text tells the compiler: comments left out, line by line."""
+    text = _PARTS.sub(lambda m: m["kept"] or "\n" * m[0].count("\n"), source.text)
+    if "*)" in text:  # nested comments: count all of it
+        text = source.text
+    place = (source.uri, source.scope, source.owner, source.name, source.library, source.namespace)
+    head = repr((*place, source.body_line))
+    return hashlib.blake2b(f"{head}\n{text}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
+
+
+def program_digest(texts: Iterable[bytes], settings: object) -> bytes:
+    """Digest of a program: its texts by `text_digest`, and what else its code depends on."""
+    digest = hashlib.blake2b(f"{__version__}|{settings!r}|".encode(), digest_size=16)
+    for text in texts:
+        digest.update(text)
+    return digest.digest()
+
+
+def code_id(package: CodePackage, program: bytes) -> str:
+    """Identity of the code in `package`, made from the program with this digest."""
+    digest = hashlib.blake2b(program + package.data_id.encode(), digest_size=12)
+    for task in package.tasks:
+        digest.update(repr(task).encode())
+    digest.update(package.initial_image)
+    return digest.hexdigest()

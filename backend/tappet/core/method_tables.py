@@ -1,0 +1,55 @@
+"""Numbers of the methods that are called virtually, and a table of methods per block type."""
+
+from __future__ import annotations
+
+from tappet.core import ir
+from tappet.core.program import Program
+from tappet.lang.analysis.conversion import implements
+from tappet.lang.symbols import PouSymbol
+
+
+def number_methods(program: Program) -> None:
+    """Slots for the names that are called virtually, and a table per block type with instances.
+
+    Two names share a slot when no block type has both.
+    """
+    program.module.dispatch.clear()
+    slots: dict[str, int] = {}
+    taken: dict[str, set[int]] = {name: set() for name in program.blocks}
+    users: dict[str, list[str]] = {}
+    for block_name, block in program.blocks.items():
+        symbol = block.pou.symbol if block.pou is not None else None
+        if isinstance(symbol, PouSymbol):
+            for name in symbol.vtable:
+                if name in program.dispatched:
+                    users.setdefault(name, []).append(block_name)
+    for name in program.dispatched:
+        having = users.get(name, [])
+        slot = 0
+        while any(slot in taken[owner] for owner in having):
+            slot += 1
+        slots[name] = slot
+        for owner in having:
+            taken[owner].add(slot)
+    program.slots = slots
+    for code, name in program.pending_slots:
+        code.args[1] = ir.Const(ir.I64, slots.get(name, 0))
+    for block_name, block in program.blocks.items():
+        symbol = block.pou.symbol if block.pou is not None else None
+        methods = {}
+        if isinstance(symbol, PouSymbol):
+            for name, method in symbol.vtable.items():
+                if name in slots:
+                    methods[slots[name]] = program.functions[id(method)]
+        program.module.dispatch.append(ir.DispatchTable(program.type_ids[block_name], methods))
+    _fill_queries(program)
+
+
+def _fill_queries(program: Program) -> None:
+    highest = max(program.type_ids.values(), default=0)
+    for symbol, interface in program.queried.items():
+        table = bytearray(highest + 1)
+        for name, block in program.blocks.items():
+            if implements(block, interface):
+                table[program.type_ids[name]] = 1
+        program.module.constants[symbol].data = bytes(table)

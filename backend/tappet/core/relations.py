@@ -1,0 +1,66 @@
+"""Where instances of function blocks lie, and which block types share bases: what alias questions need."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from tappet.core.program import Program
+from tappet.lang import types as t
+from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
+
+
+def relate(program: Program, data: Sequence[tuple[str, GvlSymbol | PouSymbol]]) -> None:
+    """Which block types share bases, and which data objects hold instances of which."""
+    groups: dict[str, set[str]] = {}
+    for pou in program.analysis.pous:
+        if pou.kind == "FUNCTION_BLOCK" and pou.instance is not None:
+            root = pou
+            while root.base is not None:
+                root = root.base
+            if root.instance is not None:
+                name = program.block_name(root.instance)
+                groups.setdefault(name, {name}).add(program.block_name(pou.instance))
+    for group in groups.values():
+        for name in group:
+            program.module.families[name] = frozenset(group)
+    nested: dict[int, set[str]] = {}
+    for symbol, owner in data:
+        holder = owner.instance if isinstance(owner, PouSymbol) else owner
+        members = holder.members.values() if holder is not None else ()
+        for name in _nested_blocks(program, symbol, members, nested):
+            program.module.containers.setdefault(name, set()).add(symbol)
+    for pou in program.analysis.pous:
+        if pou.kind == "FUNCTION_BLOCK" and pou.instance is not None:
+            name = program.block_name(pou.instance)
+            _nested_blocks(program, name, pou.instance.members.values(), nested)
+
+
+def _nested_blocks(
+    program: Program, owner: str, members: Iterable[VarSymbol | t.Member], nested: dict[int, set[str]]
+) -> set[str]:
+    """Note the block types inside each member; all of them together."""
+    every: set[str] = set()
+    for member in members:
+        found = _blocks_in(program, member.type, nested) if member.section != "VAR_IN_OUT" else None
+        if found:
+            key = (owner, member.offset)
+            program.module.nested[key] = program.module.nested.get(key, frozenset()) | found
+            every |= found
+    return every
+
+
+def _blocks_in(program: Program, type_: t.Type | None, nested: dict[int, set[str]]) -> set[str]:
+    """Names of the block types that have instances inside a type."""
+    if isinstance(type_, t.Array):
+        return _blocks_in(program, type_.element, nested)
+    if not isinstance(type_, t.FunctionBlock | t.Struct):
+        return set()
+    found = nested.get(id(type_))
+    if found is None:
+        found = nested[id(type_)] = set()
+        if isinstance(type_, t.FunctionBlock) and not type_.program:
+            found.add(program.block_name(type_))
+        for member in type_.members.values():
+            if member.section != "VAR_IN_OUT":
+                found |= _blocks_in(program, member.type, nested)
+    return found
