@@ -49,6 +49,7 @@ export type ImagePlace = Schemas['ImagePlace'];
 export type RuntimeState = Schemas['RuntimeState'];
 export type RuntimeActivity = NonNullable<RuntimeState['state']>;
 export type RuntimeException = Schemas['RuntimeException'];
+export type CallFrame = Schemas['CallFrame'];
 export type TaskState = Schemas['TaskState'];
 export type LogEntry = Schemas['LogEntry'];
 export type LoginRelation = Schemas['Relation'];

@@ -1,5 +1,5 @@
 /** What the workbench itself brings: its tool panels and the commands of the menus. */
-import { FileText, FolderTree, Library, ListChecks, ScrollText, SquareFunction, Timer } from 'lucide-react';
+import { FileText, FolderTree, Layers, Library, ListChecks, ScrollText, SquareFunction, Timer } from 'lucide-react';
 import { lazy } from 'react';
 import { registerEditCommands } from './commands/edit';
 import { registerFileCommands } from './commands/file';
@@ -11,6 +11,7 @@ import { registerViewCommands } from './commands/view';
 import { registerWindowCommands } from './commands/window';
 import { useMessageBadge } from './messages/badge';
 import MessagesPanel from './messages/MessagesPanel';
+import { followExceptions } from './online/exception';
 import { registerPanel } from './panels';
 import TreePanel from './tree/TreePanel';
 
@@ -64,6 +65,14 @@ export function registerWorkbench(): void {
     initial: true,
   });
   registerPanel({
+    id: 'callStack',
+    title: 'panel.callStack',
+    icon: Layers,
+    component: lazy(() => import('./online/CallStackPanel')),
+    position: 'bottom',
+    order: 50,
+  });
+  registerPanel({
     id: 'log',
     title: 'panel.log',
     icon: ScrollText,
@@ -87,6 +96,7 @@ export function registerWorkbench(): void {
   registerToolsCommands();
   registerWindowCommands();
   registerHelpCommands();
+  followExceptions();
 }
 
 /** The entries of the View menu; after all rooms have registered their panels. */

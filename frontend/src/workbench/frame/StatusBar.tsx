@@ -59,11 +59,15 @@ function RuntimeItem({ session }: { session: OnlineSession }) {
         : t('state.loading');
   return (
     <Tooltip text={`${runtime?.name ?? ''} · ${state}`} detail={detail} side="top">
-      <span className={`${styles.item} ${styles.runtime}`} data-tone={tone}>
+      <button
+        className={`${styles.item} ${styles.runtime}`}
+        data-tone={tone}
+        onClick={() => showPanel(runtime?.exception ? 'callStack' : 'log')}
+      >
         <ToneDot tone={tone} size={8} />
         {runtime?.name}
         <span>{state}</span>
-      </span>
+      </button>
     </Tooltip>
   );
 }

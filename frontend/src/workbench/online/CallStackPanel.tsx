@@ -1,0 +1,138 @@
+import { Layers, LogIn, OctagonAlert } from 'lucide-react';
+import { useMemo, useState } from 'react';
+import type { CallFrame, RuntimeException } from '@/api/types';
+import { useText } from '@/i18n';
+import { runCommand } from '../run';
+import { Button } from '../ui/Button';
+import { Empty } from '../ui/Empty';
+import { Table } from '../ui/Table';
+import type { Column } from '../ui/table';
+import styles from './CallStackPanel.module.css';
+import { exceptionPlace, exceptionTitle, framePath, jumpToFrame } from './exception';
+import { useActiveSession } from './session';
+
+/** Where the application stopped with an exception: what happened, who called whom, and the variables of the programs. */
+export default function CallStackPanel() {
+  const t = useText();
+  const session = useActiveSession();
+  if (!session)
+    return (
+      <Empty icon={Layers} title={t('exception.offline')} text={t('exception.offlineText')}>
+        <Button icon={LogIn} onClick={() => void runCommand('online.login')}>
+          {t('command.login')}
+        </Button>
+      </Empty>
+    );
+  const exception = session.runtime?.exception;
+  if (!exception) return <Empty icon={Layers} title={t('exception.none')} text={t('exception.noneText')} />;
+  return <Report exception={exception} />;
+}
+
+interface Line {
+  key: string;
+  frame: CallFrame;
+}
+
+interface Value {
+  name: string;
+  value: string;
+}
+
+function Report({ exception }: { exception: RuntimeException }) {
+  const t = useText();
+  const [selected, setSelected] = useState<string | null>('0');
+  const [chosen, setChosen] = useState<string | null>(null);
+  const lines = useMemo(
+    () => exception.call_stack.map((frame, at): Line => ({ key: String(at), frame })),
+    [exception.call_stack],
+  );
+  const values = useMemo(
+    () => Object.entries(exception.values).map(([name, value]): Value => ({ name, value })),
+    [exception.values],
+  );
+  const columns = useMemo(
+    (): Column<Line>[] => [
+      {
+        id: 'pou',
+        title: t('exception.pou'),
+        width: 160,
+        grow: true,
+        cell: ({ frame }) => <span className={styles.code}>{frame.pou ?? '?'}</span>,
+      },
+      {
+        id: 'line',
+        title: t('exception.lineHead'),
+        width: 60,
+        align: 'right',
+        cell: ({ frame }) => <span className="digits">{frame.line}</span>,
+      },
+      {
+        id: 'object',
+        title: t('messages.object'),
+        width: 200,
+        grow: true,
+        hint: ({ frame }) => framePath(frame),
+        cell: ({ frame }) => <span>{framePath(frame)}</span>,
+      },
+    ],
+    [t],
+  );
+  const valueColumns = useMemo(
+    (): Column<Value>[] => [
+      {
+        id: 'name',
+        title: t('online.column.expression'),
+        width: 180,
+        grow: true,
+        cell: ({ name }) => <span className={styles.code}>{name}</span>,
+      },
+      {
+        id: 'value',
+        title: t('exception.valueThen'),
+        width: 140,
+        grow: true,
+        hint: ({ value }) => value,
+        cell: ({ value }) => <span className={styles.code}>{value}</span>,
+      },
+    ],
+    [t],
+  );
+  const title = exceptionTitle(exception);
+  return (
+    <div className={styles.view}>
+      <div className={styles.head}>
+        <OctagonAlert size={16} aria-hidden />
+        <strong>{title}</strong>
+        {exception.message.toLowerCase() !== title.toLowerCase() && <span>{exception.message}</span>}
+        <span className={styles.place}>{exceptionPlace(exception)}</span>
+        <Button variant="quiet" onClick={() => jumpToFrame(exception)}>
+          {t('exception.goTo')}
+        </Button>
+        <Button variant="quiet" onClick={() => void runCommand('online.reset.warm')}>
+          {t('command.reset.warm')}
+        </Button>
+      </div>
+      <div className={styles.tables}>
+        <Table
+          label={t('panel.callStack')}
+          items={lines}
+          columns={columns}
+          keyOf={(line) => line.key}
+          selected={selected}
+          onSelect={(line) => setSelected(line?.key ?? null)}
+          onOpen={({ frame }) => jumpToFrame(frame)}
+          empty={<Empty title={t('exception.noStack')} />}
+        />
+        <Table
+          label={t('exception.values')}
+          items={values}
+          columns={valueColumns}
+          keyOf={({ name }) => name}
+          selected={chosen}
+          onSelect={(value) => setChosen(value?.name ?? null)}
+          empty={<Empty title={t('exception.noValues')} />}
+        />
+      </div>
+    </div>
+  );
+}

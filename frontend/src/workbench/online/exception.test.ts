@@ -1,0 +1,48 @@
+import { describe, expect, it } from 'vitest';
+import type { RuntimeException, RuntimeState } from '@/api/types';
+import type { OnlineSession } from '../onlineSession';
+import { exceptionPlace, exceptionTitle, newExceptions } from './exception';
+
+const exception = (name: string, line: number | null = 2): RuntimeException => ({
+  name,
+  line,
+  code: 1,
+  message: 'as the runtime says it',
+  task: 'MainTask',
+  pou: 'PLC_PRG',
+  uri: 'PLC_PRG',
+  object_id: null,
+  object_path: null,
+  part: 'implementation',
+  call_stack: [],
+  values: {},
+});
+
+const session = (applicationId: string, raised: RuntimeException | null): OnlineSession => ({
+  applicationId,
+  runtimeId: 'local',
+  relation: 'same',
+  runtime: { exception: raised } as RuntimeState,
+  lostSince: null,
+});
+
+describe('exceptions', () => {
+  it('are told by their kind, unknown ones in the words of the runtime', () => {
+    expect(exceptionTitle(exception('DIV_ZERO'))).toBe('Division by zero');
+    expect(exceptionTitle(exception('USER'))).toBe('as the runtime says it');
+  });
+
+  it('name the place as far as it is known', () => {
+    expect(exceptionPlace(exception('DIV_ZERO'))).toBe('PLC_PRG, line 2, task MainTask');
+    expect(exceptionPlace(exception('DIV_ZERO', null))).toBe('PLC_PRG, task MainTask');
+  });
+
+  it('are new once: not at the next state, again after a reset', () => {
+    const fine = { a: session('a', null), b: session('b', null) };
+    const failed = { ...fine, a: session('a', exception('DIV_ZERO')) };
+    expect(newExceptions(failed, fine).map((one) => one.applicationId)).toEqual(['a']);
+    expect(newExceptions({ ...failed, a: session('a', exception('DIV_ZERO')) }, failed)).toEqual([]);
+    expect(newExceptions(fine, failed)).toEqual([]);
+    expect(newExceptions(failed, {}).map((one) => one.applicationId)).toEqual(['a']);
+  });
+});

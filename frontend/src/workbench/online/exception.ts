@@ -1,0 +1,85 @@
+/** The exception of an application: noticed once when it happens, and the ways to its place. */
+import { keys, queryClient } from '@/api/queries';
+import type { CallFrame, ObjectSummary, RuntimeException } from '@/api/types';
+import { t, type TextKey } from '@/i18n';
+import { openObject, showPanel } from '../docking/dock';
+import { notify } from '../notices';
+import { useOnline, type OnlineSession } from '../onlineSession';
+import { useProject } from '../project';
+import { objectPath } from '../tree/model';
+
+const KINDS: Readonly<Record<string, TextKey>> = {
+  DIV_ZERO: 'exception.divisionByZero',
+  ARRAY_BOUNDS: 'exception.arrayBounds',
+  NULL_REFERENCE: 'exception.nullReference',
+  ACCESS_VIOLATION: 'exception.accessViolation',
+  STACK_OVERFLOW: 'exception.stackOverflow',
+  WATCHDOG: 'exception.watchdog',
+  ASSERT: 'exception.assertion',
+  ILLEGAL_CONVERSION: 'exception.conversion',
+};
+
+/** What happened, in the user's language where the kind is known. */
+export function exceptionTitle(exception: RuntimeException): string {
+  const kind = KINDS[exception.name];
+  return kind === undefined ? exception.message : t(kind);
+}
+
+/** `PLC_PRG, line 2, task MainTask` */
+export function exceptionPlace(exception: RuntimeException): string {
+  return [placeText(exception), t('exception.inTask', { task: exception.task })].filter(Boolean).join(', ');
+}
+
+export function placeText({ pou, line }: Pick<CallFrame, 'pou' | 'line'>): string {
+  return [pou, line === null ? '' : t('exception.line', { line })].filter(Boolean).join(', ');
+}
+
+/** The exceptions of these sessions that the sessions before did not have. */
+export function newExceptions(
+  now: Readonly<Record<string, OnlineSession>>,
+  before: Readonly<Record<string, OnlineSession>>,
+): OnlineSession[] {
+  return Object.values(now).filter((session) => {
+    const exception = session.runtime?.exception;
+    return exception != null && before[session.applicationId]?.runtime?.exception == null;
+  });
+}
+
+/** The path of the object a frame is in, as everywhere else; of a library only what the runtime says. */
+export function framePath(frame: CallFrame): string {
+  return frame.object_id === null
+    ? (frame.uri ?? frame.pou ?? '')
+    : objectPath(objectsNow(), frame.object_id) || (frame.object_path ?? '');
+}
+
+/** Opens the object of a frame at its line; a place in a library or in the system has none. */
+export function jumpToFrame(frame: CallFrame): void {
+  const object = objectsNow().find((candidate) => candidate.id === frame.object_id);
+  if (object === undefined) {
+    notify({ tone: 'info', title: t('messages.noPlace'), text: framePath(frame) });
+    return;
+  }
+  const place = { part: frame.part ?? undefined, line: frame.line ?? undefined };
+  openObject(object.id, object.name, { place });
+}
+
+function objectsNow(): readonly ObjectSummary[] {
+  const { projectId } = useProject.getState();
+  return (projectId && queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId))) || [];
+}
+
+/** Says when an application stops with an exception, and shows where. */
+export function followExceptions(): () => void {
+  return useOnline.subscribe(({ sessions }, before) => {
+    for (const { runtime } of newExceptions(sessions, before.sessions)) {
+      const exception = runtime!.exception!;
+      showPanel('callStack', false);
+      notify({
+        tone: 'error',
+        title: t('exception.happened', { what: exceptionTitle(exception) }),
+        text: exceptionPlace(exception),
+        action: { text: t('exception.goTo'), run: () => jumpToFrame(exception) },
+      });
+    }
+  });
+}
