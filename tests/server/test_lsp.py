@@ -401,6 +401,11 @@ async def test_a_fault_of_ours_is_an_answer_too(caplog: pytest.LogCaptureFixture
         assert error["code"] == rpc.INTERNAL_ERROR
         assert "database" not in error["message"]
         assert "database is away" in caplog.text
+        client.session.stored_texts_changed()
+        async with asyncio.timeout(20):
+            while "could not be worked out" not in caplog.text:
+                await asyncio.sleep(0.01)
+        assert await client.refused("textDocument/hover", params)
 
 
 async def test_positions_outside_of_the_text() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final, Literal, Protocol
@@ -56,6 +57,9 @@ class _Positioned(Protocol):
 
     text_document: lsp.TextDocumentIdentifier
     position: lsp.Position
+
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(slots=True)
@@ -406,7 +410,13 @@ class LanguageSession:
     async def _publish(self) -> None:
         while True:
             self._again = False
-            for params in await self.endpoint.run(self._changed_messages):
+            try:
+                changed = await self.endpoint.run(self._changed_messages)
+            except Exception:
+                # The session goes on: the next change of a text tries again.
+                log.exception("the messages of a program could not be worked out")
+                return
+            for params in changed:
                 await self.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params)
             if not self._again:
                 return
