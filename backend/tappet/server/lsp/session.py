@@ -48,6 +48,7 @@ MAX_DOCUMENT: Final = 4_000_000
 READ_DOCUMENT: Final = "tappet/document"
 """Our own request: the text of a document that is not open, such as one of a library."""
 
+log = logging.getLogger(__name__)
 _CONVERTER = converters.get_converter()
 _State = Literal["new", "initialized", "shut down"]
 
@@ -57,9 +58,6 @@ class _Positioned(Protocol):
 
     text_document: lsp.TextDocumentIdentifier
     position: lsp.Position
-
-
-log = logging.getLogger(__name__)
 
 
 @dataclass(slots=True)
