@@ -44,9 +44,15 @@ export function relationChanged(applicationId: string, relation: LoginRelation):
   change((session) => session.applicationId === applicationId, { relation });
 }
 
-/** The online socket heard a runtime's state; a lost connection counts as restored. */
+/**
+ * The online socket heard a runtime's state. The way to the server stands, then; whether the server still reaches the
+ * runtime is in the state itself.
+ */
 export function runtimeStateReceived(runtimeId: string, runtime: RuntimeState): void {
-  change((session) => session.runtimeId === runtimeId, { runtime, lostSince: null });
+  if (!runtime.connected) {
+    connectionLost(runtimeId, runtime.since === null ? undefined : Date.parse(runtime.since));
+    runtimePolled(runtimeId, runtime);
+  } else change((session) => session.runtimeId === runtimeId, { runtime, lostSince: null });
 }
 
 /** A state read by REST: it says nothing about the online channel, so a lost connection stays lost. */
