@@ -224,18 +224,13 @@ def changed_over(old: CodePackage, new: CodePackage) -> list[object]:
 # -- single cases -----------------------------------------------------------------------------------
 
 
-def is_partial(result: BuildResult) -> bool:
-    """Whether only what the edit changed was generated."""
-    return "layout" not in result.timings
-
-
 def agree(pair: Pair, partial: bool = True, previous: CodePackage | None = None) -> BuildResult:
     """The next build of a pair, which gives what a whole one gives."""
     after, whole = pair.both(previous)
     assert messages(after) == messages(whole)
     assert after.package is not None
     assert whole.package is not None
-    assert is_partial(after) == partial
+    assert after.partial == partial
     assert after.package.code_id == whole.package.code_id
     with running(after.package) as a, running(whole.package) as b:
         assert values(a) == values(b)
@@ -272,7 +267,7 @@ def test_changed_tasks_are_a_whole_build():
     agree(pair, partial=False)
     tasks = (TaskSpec("T", programs=("PLC_PRG", "PLC_PRG")),)
     after, whole = pair.build(tasks=tasks), pair.whole(tasks=tasks)
-    assert not is_partial(after)
+    assert not after.partial
     assert after.package is not None
     assert whole.package is not None
     assert after.package.code_id == whole.package.code_id
@@ -387,7 +382,7 @@ def test_lines_follow_the_edited_text(name: str, body: str):
     pair.build()
     pair.bodies[name] = body
     after, whole = pair.both()
-    assert is_partial(after)
+    assert after.partial
     assert after.package is not None
     assert whole.package is not None
     assert lines(after.package) == lines(whole.package)
@@ -431,7 +426,7 @@ def run_of(session: BuildSession, texts: dict[str, str], *paths: str, partial: b
     built = build_application([Source(n, text) for n, text in texts.items()], (), OPTIONS, None, session)
     assert messages(built) == [m for m in messages(built) if "error" not in m]
     assert built.package is not None
-    assert is_partial(built) == partial
+    assert built.partial == partial
     with running(built.package) as application:
         application.cycle()
         return [application.read(path) for path in paths]
@@ -522,7 +517,7 @@ def test_block_type_known_from_the_running_application_gets_its_methods():
     assert without is not None
     texts = new_texts
     after = build(session, without)
-    assert is_partial(after)
+    assert after.partial
     assert after.package is not None
     with running(after.package) as application:
         application.cycle()

@@ -1,12 +1,18 @@
-"""A compiler process that does what its first source says: sleep, die, fail, or answer."""
+"""A compiler process that does what its first source says: sleep, wait to be cancelled, die, fail, answer."""
 
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import time
 
-from tappet.server.build_worker import pack_frame, read_frame
+from tappet.server.build_worker import CANCEL, BuildCancelled, pack_frame, read_frame
+
+
+def obey(number: int, frame: object) -> None:
+    raise BuildCancelled
+
 
 builds = 0
 while (order := read_frame(sys.stdin.buffer)) is not None:
@@ -16,6 +22,14 @@ while (order := read_frame(sys.stdin.buffer)) is not None:
         os._exit(3)
     if "sleep" in text:
         time.sleep(60)
+    if "patient" in text:
+        signal.signal(CANCEL, obey)
+        try:
+            time.sleep(60)
+        except BuildCancelled:
+            sys.stdout.buffer.write(pack_frame({"cancelled": True}))
+            sys.stdout.buffer.flush()
+            continue
     answer = {"package": b"package", "code_id": str(builds), "data_id": "d", "code_size": 1, "data_size": 2}
     answer |= {"change_base": None, "change_reasons": [], "diagnostics": [], "timings": {}, "seconds": 0.1}
     if "fail" in text:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import asyncio
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from tappet.codegen.generate import Generator
 from tappet.project.sources import Segment, SourceText
+from tappet.server.build_worker import CANCEL, Compiler
 from tappet.server.builder import Application, Builder
 from tappet.server.packages import KEEP, PackageStore
 from tappet.server.problems import Problem
@@ -49,6 +52,50 @@ async def test_a_cancelled_build_ends_at_once_and_the_next_works(builder: Builde
     assert caught.value.kind == "build-cancelled"
     assert (await builder.build(application("x"), None)).report.ok
     assert not builder.cancel("p", "a")
+
+
+async def test_a_compiler_that_obeys_a_cancellation_lives_on(builder: Builder) -> None:
+    assert (await builder.build(application("x"), None)).report.code_id == "1"
+    waiting = asyncio.create_task(builder.build(application("patient"), None))
+    await asyncio.sleep(0.3)
+    assert builder.cancel("p", "a")
+    with pytest.raises(Problem, match="cancelled"):
+        await asyncio.wait_for(waiting, 10)
+    assert (await builder.build(application("y"), None)).report.code_id == "3", "the same process has counted"
+
+
+def compile_order(body: str) -> dict[str, Any]:
+    source = {"uri": "PLC_PRG", "text": f"PROGRAM PLC_PRG\nVAR a : INT; END_VAR\n{body}\nEND_PROGRAM"}
+    source |= {"scope": "application"}
+    return {
+        "key": "p/a", "application": "A", "sources": [source], "tasks": [], "libraries": [], "previous": None,
+        "cache": "",
+    }  # fmt: skip
+
+
+def test_a_cancelled_build_leaves_the_session(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    compiler = Compiler()
+    first = compiler.outcome(compile_order("a := 1;") | {"cache": str(tmp_path)})
+    assert first["package"]
+    with monkeypatch.context() as patch:
+        patch.setattr(Generator, "again", lambda *_: compiler.cancel(CANCEL, None))
+        cancelled = compiler.outcome(compile_order("a := 2;") | {"cache": str(tmp_path)})
+    assert cancelled == {"cancelled": True}
+    compiler.cancel(CANCEL, None)  # too late: nothing is being built
+    after = compiler.outcome(compile_order("a := 3;") | {"cache": str(tmp_path)})
+    assert after["package"]
+    assert "layout" in after["timings"]
+    again = compiler.outcome(compile_order("a := 4;") | {"cache": str(tmp_path)})
+    assert "layout" not in again["timings"]
+    assert len({first["code_id"], after["code_id"], again["code_id"]}) == 3
+
+
+def test_an_online_change_takes_the_short_way(tmp_path: Path) -> None:
+    compiler = Compiler()
+    old = compiler.outcome(compile_order("a := 1;") | {"cache": str(tmp_path)})
+    new = compiler.outcome(compile_order("a := 2;") | {"cache": str(tmp_path), "previous": old["package"]})
+    assert "layout" not in new["timings"]
+    assert (new["change_base"], new["data_id"]) == (old["code_id"], old["data_id"])
 
 
 async def test_who_only_waits_may_leave(builder: Builder) -> None:

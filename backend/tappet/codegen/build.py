@@ -79,6 +79,8 @@ class BuildResult:
     """Bytes of the image."""
     functions: int = 0
     cached_objects: int = 0
+    partial: bool = False
+    """Only what an edit of bodies changed was generated; the rest is that of the build before."""
 
     @property
     def ok(self) -> bool:
@@ -292,6 +294,7 @@ class _Build:
         done = None
         if last is not None and (last.options, last.specs) == (settings, specs) and not options.check_only:
             done = generator.again(last, list(session.edited.values()))
+        result.partial = done is not None
         if done is None:
             done = generator.whole(analysis, specs, options.check_only)
         if done is None:

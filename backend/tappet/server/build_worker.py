@@ -6,7 +6,9 @@ kept from one build of an application to the next.
 
 from __future__ import annotations
 
+import gc
 import os
+import signal
 import struct
 import sys
 import time
@@ -14,6 +16,7 @@ import traceback
 from collections import OrderedDict
 from dataclasses import dataclass
 from pathlib import Path
+from types import FrameType
 from typing import Any, BinaryIO
 
 import msgpack
@@ -28,6 +31,14 @@ LENGTH = struct.Struct("<Q")
 KEPT_SESSIONS = 8
 """Applications whose parsed texts are kept."""
 LARGEST_FRAME = 1 << 31
+PARTIAL_BUILDS = 20
+"""Builds of single bodies leave little garbage: it is looked for after so many."""
+CANCEL = signal.SIGUSR1
+"""Ends the running build; what earlier ones left for the next stays."""
+
+
+class BuildCancelled(BaseException):
+    """The running build is to end. No Exception: nothing on the way may take it for a failure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +65,37 @@ class Compiler:
 
     def __init__(self) -> None:
         self._sessions: OrderedDict[str, BuildSession] = OrderedDict()
+        self._previous: tuple[bytes, CodePackage] | None = None
+        self._at_work = False
+        self._partial = False
+        self._since = 0
+
+    def cancel(self, number: int, frame: FrameType | None) -> None:
+        """Signal handler: ends the running build, if there is one."""
+        if self._at_work:
+            self._at_work = False
+            raise BuildCancelled
+
+    def outcome(self, order: dict[str, Any]) -> dict[str, Any]:
+        """Outcome of an order, also of one that was cancelled or that the compiler fails at."""
+        try:
+            self._at_work = True
+            found = self.build(order)
+            self._at_work = False
+        except BuildCancelled:
+            return {"cancelled": True}
+        except Exception as error:
+            self._at_work = False
+            traceback.print_exc()
+            return {"crash": f"{type(error).__name__}: {error}"}
+        return found
+
+    def tidy(self) -> None:
+        """Look for garbage: after builds of everything, and now and then."""
+        self._since += 1
+        if not self._partial or self._since >= PARTIAL_BUILDS:
+            self._since = 0
+            gc.collect()
 
     def build(self, order: dict[str, Any]) -> dict[str, Any]:
         """Outcome of an order: package or None, diagnostics as maps, sizes, seconds."""
@@ -62,7 +104,7 @@ class Compiler:
         self._sessions[order["key"]] = session
         while len(self._sessions) > KEPT_SESSIONS:
             self._sessions.popitem(last=False)
-        previous = CodePackage.from_bytes(order["previous"]) if order["previous"] else None
+        previous = self._package(order["previous"])
         options = BuildOptions(
             application=order["application"],
             libraries=tuple(LibraryReference(n, v, space or None) for n, v, space in order["libraries"]),
@@ -71,6 +113,7 @@ class Compiler:
         sources = [Source(**{**source, "scope": Scope(source["scope"])}) for source in order["sources"]]
         tasks = [_task(task) for task in order["tasks"]]
         result = build_application(sources, tasks, options, previous, session)
+        self._partial = result.partial
         package = result.package
         return {
             "package": package.to_bytes() if package else None,
@@ -86,6 +129,14 @@ class Compiler:
             "timings": result.timings,
             "seconds": time.perf_counter() - started,
         }
+
+    def _package(self, data: bytes | None) -> CodePackage | None:
+        """The running package; from one build to the next it is mostly the same."""
+        if not data:
+            return None
+        if self._previous is None or self._previous[0] != data:
+            self._previous = data, CodePackage.from_bytes(data)
+        return self._previous[1]
 
 
 def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
@@ -132,14 +183,13 @@ def main() -> None:
     output = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever prints in here must not get between the frames
     compiler = Compiler()
+    signal.signal(CANCEL, compiler.cancel)
+    gc.disable()  # looking for garbage in large trees takes longer than a small build: done between builds
     while (order := read_frame(sys.stdin.buffer)) is not None:
-        try:
-            outcome = compiler.build(order)
-        except Exception as error:
-            traceback.print_exc()
-            outcome = {"crash": f"{type(error).__name__}: {error}"}
-        output.write(pack_frame(outcome))
+        output.write(pack_frame(compiler.outcome(order)))
         output.flush()
+        del order
+        compiler.tidy()
 
 
 if __name__ == "__main__":

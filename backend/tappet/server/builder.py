@@ -18,7 +18,7 @@ import msgpack
 from tappet.project import sources as texts
 from tappet.project.model import Project
 from tappet.project.sources import SourceText, TaskDefinition
-from tappet.server.build_worker import LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
+from tappet.server.build_worker import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
 from tappet.server.problems import Problem
 from tappet.server.schemas.build import BuildReport, Diagnostic, Part, Severity
 
@@ -26,6 +26,8 @@ log = logging.getLogger(__name__)
 KEPT_BUILDS = 32
 """Newest build of so many applications stay at hand."""
 WORKER = (sys.executable, "-m", "tappet.server.build_worker")
+GRACE_S = 3.0
+"""A compiler process that does not end a cancelled build within this time is killed."""
 
 
 class BuildCrashedError(RuntimeError):
@@ -184,11 +186,20 @@ class _Worker:
         self._turn = asyncio.Lock()
 
     async def build(self, order: BuildOrder) -> dict[str, Any]:
-        """One build; when this call is cancelled, the process is killed and its caches with it."""
+        """One build; when this call is cancelled, the process ends the build and keeps its caches."""
         async with self._turn:
             process = await self._start()
+            exchange = asyncio.create_task(self._exchange(process, order))
             try:
-                return await self._exchange(process, order)
+                return await asyncio.shield(exchange)
+            except asyncio.CancelledError:
+                ready = False
+                try:
+                    ready = await _ends(process, exchange)
+                finally:
+                    if not ready:
+                        await self._kill()
+                raise
             except BaseException:
                 await self._kill()
                 raise
@@ -232,6 +243,17 @@ class _Worker:
 
     async def close(self) -> None:
         await self._kill()
+
+
+async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict[str, Any]]) -> bool:
+    """Whether a process ends its build when told to, and is ready for the next one."""
+    with suppress(ProcessLookupError):
+        process.send_signal(CANCEL)
+    await asyncio.wait([exchange], timeout=GRACE_S)
+    if not exchange.done():
+        exchange.cancel()
+        return False
+    return exchange.exception() is None
 
 
 def _source_fields(source: SourceText) -> dict[str, Any]:
