@@ -21,7 +21,7 @@ from tappet.codegen.build import (
     layout_of,
 )
 from tappet.codegen.check import check_application, format_diagnostic
-from tappet.codegen.package import CodePackage, PackageError
+from tappet.codegen.package import CodePackage, PackageError, WatchdogSpec
 from tappet.lang.source import Scope, Source
 
 PROGRAM = """
@@ -40,6 +40,7 @@ class Task:
     interval_ns: int = 1_000_000
     priority: int = 1
     event: str | None = None
+    watchdog: WatchdogSpec | None = None
     programs: tuple[str, ...] = ("PLC_PRG",)
 
 
@@ -140,10 +141,33 @@ def test_persistent_list():
         (Task(programs=("F",)), "E0709"),
         (Task(kind="event", event="PLC_PRG.nothing"), "E0704"),
         (Task(kind="event", event="PLC_PRG.a"), "E0705"),
+        (Task(watchdog=WatchdogSpec(0)), "E0710"),
+        (Task(watchdog=WatchdogSpec(1000, -1)), "E0710"),
     ],
 )
 def test_wrong_tasks_are_reported(task: Task, code: str):
     assert codes(PROGRAM + "FUNCTION F : INT END_FUNCTION", task) == [code]
+
+
+def test_a_watchdog_tolerates_nothing_at_sensitivity_0():
+    package = build_application([Source("a.st", PROGRAM)], [Task(watchdog=WatchdogSpec(1000, 0))]).package
+    assert package is not None
+    assert package.tasks[0].watchdog == WatchdogSpec(1000, 0)
+
+
+def test_warnings_about_tasks_are_in_the_build():
+    text = (
+        PROGRAM + "PROGRAM Idle\nEND_PROGRAM\nPROGRAM Alone\nVAR go : BOOL; END_VAR\ngo := TRUE;\nEND_PROGRAM"
+    )
+    tasks = [Task("E", "event", event="PLC_PRG.go", programs=()), Task("F", "status", event="PLC_PRG.go")]
+    found = build_application([Source("a.st", text.replace("a : INT := 5;", "a : INT; go : BOOL;"))], tasks)
+    assert found.package is not None
+    assert [d.code for d in found.diagnostics if d.code.startswith("W14")] == [
+        "W1402",
+        "W1401",
+        "W1403",
+        "W1403",
+    ]
 
 
 def test_two_tasks_of_one_name():

@@ -36,6 +36,8 @@ def test_entry_is_well_formed(entry: object) -> None:
     assert entry.alias == "" or re.fullmatch(r"C\d{4}", entry.alias)
     assert entry.message
     assert not entry.message.endswith(".")
+    assert entry.advice.endswith((".", "}"))
+    assert "{hint}" not in entry.advice
     for template in (entry.message, entry.advice):
         assert all(name is None or name.isidentifier() for _, name, _, _ in Formatter().parse(template))
 
@@ -59,6 +61,13 @@ def test_report_fills_the_templates() -> None:
         "PLC_PRG:12:9: error E0301: Cannot convert type 'INT' to type 'BYTE'. Use INT_TO_BYTE(...)."
     )
     assert (made.alias, made.name, made.related[0].uri) == ("C0032", "cannot_convert", "GVL")
+
+
+def test_a_hint_takes_the_place_of_the_advice() -> None:
+    place = ("P", Span(0, 0, 0, 1))
+    assert report("E0201", *place, name="x", hint="Did you mean 'y'?").advice == "Did you mean 'y'?"
+    for hint in ({}, {"hint": ""}):
+        assert report("E0201", *place, name="x", **hint).advice == TABLE["E0201"].advice != ""
 
 
 def test_report_with_a_missing_field_is_a_fault_of_the_caller() -> None:

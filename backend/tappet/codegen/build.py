@@ -21,10 +21,11 @@ from tappet.codegen.layout import ImageTooLargeError
 from tappet.codegen.optimise import ObjectCache
 from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.codegen.system import SystemBuild, SystemBuildError, build_system, layout_of
-from tappet.codegen.tasks import check_tasks, default_tasks
+from tappet.codegen.tasks import default_tasks, task_specs
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
+from tappet.lang.analysis.tasks import Task, check_tasks
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.parser import ParseResult
@@ -109,23 +110,6 @@ class SourceLike(Protocol):
     def body_line(self) -> int: ...
 
 
-class TaskLike(Protocol):
-    """What `project.sources.tasks` hands over."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def kind(self) -> str: ...
-    @property
-    def interval_ns(self) -> int: ...
-    @property
-    def priority(self) -> int: ...
-    @property
-    def event(self) -> str | None: ...
-    @property
-    def programs(self) -> tuple[str, ...]: ...
-
-
 class BuildSession:
     """What builds of one application keep: after an edit only one text is parsed and one module compiled.
 
@@ -187,7 +171,7 @@ def as_source(text: Source | SourceLike) -> Source:
 
 def build_application(
     sources: Iterable[Source | SourceLike],
-    tasks: Iterable[TaskLike] = (),
+    tasks: Iterable[Task] = (),
     options: BuildOptions | None = None,
     previous: CodePackage | None = None,
     session: BuildSession | None = None,
@@ -232,7 +216,7 @@ class _Build:
             spent = time.perf_counter() - start
             self.result.timings[stage] = self.result.timings.get(stage, 0.0) + spent
 
-    def run(self, given: list[Source | SourceLike], task_list: list[TaskLike]) -> BuildResult:
+    def run(self, given: list[Source | SourceLike], task_list: list[Task]) -> BuildResult:
         result, options = self.result, self.options
         sources = [as_source(s) for s in given] + self.library_sources()
         with self.timed("parse"):
@@ -248,11 +232,11 @@ class _Build:
         result.analysis = analysis
         result.diagnostics += [d for p in parsed for d in p.diagnostics]
         result.diagnostics += analysis.diagnostics
-        specs = check_tasks(task_list, analysis, result.diagnostics)
-        if not task_list:
-            specs = default_tasks(analysis, sources, options.main_program)
+        if task_list:
+            result.diagnostics += check_tasks(task_list, analysis)
         if any(d.severity == "error" for d in result.diagnostics):
             return result
+        specs = task_specs(task_list) or default_tasks(analysis, sources, options.main_program)
         try:
             self.generate(analysis, specs)
         except LoweringError as error:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from tappet.codegen.build import BuildOptions, BuildSession, SourceLike, TaskLike, build_application
+from tappet.codegen.build import BuildOptions, BuildSession, SourceLike, build_application
+from tappet.lang.analysis.tasks import Task
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 
 
 def check_application(
     sources: Iterable[Source | SourceLike],
-    tasks: Iterable[TaskLike] = (),
+    tasks: Iterable[Task] = (),
     options: BuildOptions | None = None,
     session: BuildSession | None = None,
 ) -> list[Diagnostic]:

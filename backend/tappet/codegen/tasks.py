@@ -1,80 +1,39 @@
-"""Checks the task configuration against the program (E07xx) and finds event variables."""
+"""Tasks of the package from the task configuration; where their event variables lie."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
 
 from tappet.codegen.package import TaskSpec, WatchdogSpec
 from tappet.codegen.symbol_map import SymbolError, SymbolMap
 from tappet.lang.analysis.result import Analysis
+from tappet.lang.analysis.tasks import Task, Watchdog
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.source import NOWHERE, Scope, Source
-from tappet.lang.symbols import PouSymbol
 
-if TYPE_CHECKING:
-    from tappet.codegen.build import TaskLike
-
-_KINDS = ("cyclic", "freewheeling", "event", "status")
 DEFAULT_INTERVAL_NS = 10_000_000
 """Cycle of the one task of an application without configuration."""
 
 
-def check_tasks(tasks: Sequence[TaskLike], analysis: Analysis, found: list[Diagnostic]) -> list[TaskSpec]:
-    """Task specifications; what is wrong is added to `found`."""
-    specs: list[TaskSpec] = []
-    names: set[str] = set()
-    for task in tasks:
-        if task.name.upper() in names:
-            found.append(report("E0703", "", NOWHERE, task=task.name))
-        names.add(task.name.upper())
-        kind = "event" if task.kind == "external" else task.kind
-        if kind not in _KINDS:
-            found.append(report("E0708", "", NOWHERE, task=task.name, kind=task.kind))
-        if not 0 <= task.priority <= 31:
-            found.append(report("E0702", "", NOWHERE, task=task.name, priority=task.priority))
-        if kind == "cyclic" and task.interval_ns <= 0:
-            found.append(report("E0706", "", NOWHERE, task=task.name, interval=task.interval_ns))
-        if kind in ("event", "status") and not task.event:
-            found.append(report("E0707", "", NOWHERE, task=task.name))
-        for name in task.programs:
-            _check_program(task.name, name, analysis, found)
-        specs.append(
-            TaskSpec(
-                task.name,
-                kind,
-                task.interval_ns if kind == "cyclic" else 0,
-                task.priority,
-                task.event,
-                watchdog=_watchdog(task, found),
-                programs=tuple(task.programs),
-            )
+def task_specs(tasks: Sequence[Task]) -> list[TaskSpec]:
+    """What the package says about tasks that `check_tasks` finds no error in."""
+    return [
+        TaskSpec(
+            task.name,
+            "event" if task.kind == "external" else task.kind,
+            task.interval_ns if task.kind == "cyclic" else 0,
+            task.priority,
+            task.event,
+            watchdog=_watchdog(task.watchdog),
+            programs=tuple(task.programs),
         )
-    return specs
+        for task in tasks
+    ]
 
 
-def _check_program(task: str, name: str, analysis: Analysis, found: list[Diagnostic]) -> None:
-    if name.upper() in analysis.programs:
-        return
-    symbol = analysis.scope.get(name.upper())
-    if isinstance(symbol, PouSymbol):
-        what = symbol.kind.lower().replace("_", " ")
-        found.append(report("E0709", "", NOWHERE, task=task, program=name, what=what))
-        return
-    known = ", ".join(sorted(p.name for p in analysis.programs.values()))
-    hint = f"There is {known}." if known else "Add a program."
-    found.append(report("E0701", "", NOWHERE, task=task, program=name, hint=hint))
-
-
-def _watchdog(task: Any, found: list[Diagnostic]) -> WatchdogSpec | None:
-    definition = getattr(task, "watchdog", None)
-    if definition is None:
-        return None
-    if definition.time_ns <= 0 or definition.sensitivity < 0:
-        found.append(report("E0710", "", NOWHERE, task=task.name))
-        return None
-    return WatchdogSpec(definition.time_ns, definition.sensitivity)
+def _watchdog(definition: Watchdog | None) -> WatchdogSpec | None:
+    return None if definition is None else WatchdogSpec(definition.time_ns, definition.sensitivity)
 
 
 def default_tasks(analysis: Analysis, sources: Sequence[Source], main_program: str) -> list[TaskSpec]:

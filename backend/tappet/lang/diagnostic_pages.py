@@ -78,8 +78,7 @@ def _plain(template: str) -> str:
 def _page(entry: Entry, rule: RuleText | None) -> str:
     lines = [f"# {entry.code}: {entry.name.replace('_', ' ')}", ""]
     lines += [f"**{entry.severity.capitalize()}**: {_plain(entry.message)}", ""]
-    if entry.advice and entry.advice != "{hint}":
-        lines += [f"**What to do**: {_plain(entry.advice)}", ""]
+    lines += [f"**What to do**: {_plain(entry.advice)}", ""]
     if entry.alias:
         lines += [f"CODESYS V3 reports the same as {entry.alias}.", ""]
     if rule is not None:

@@ -21,7 +21,8 @@ _SEVERITIES: dict[str, Severity] = {"error": "error", "warning": "warning", "inf
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One row of the table. `message` and `advice` are templates with named fields."""
+    """One row of the table. `message` and `advice` are templates with named fields; a field `hint` that the
+    place of the fault gives, such as the closest name, takes the place of the advice."""
 
     code: str
     severity: Severity
@@ -103,7 +104,7 @@ def report(
         code,
         entry.severity,
         entry.message.format_map(fields),
-        entry.advice.format_map(fields),
+        str(fields.get("hint") or "") or entry.advice.format_map(fields),
         uri,
         span,
         tuple(related),

@@ -43,7 +43,8 @@ class VariableParser(TypeParser):
             if self.kinds[self.i] == ";":
                 self.i += 1
         else:
-            self.error("E0103", end="END_VAR", begin=section, line=self.shown_line(opener[1]), found=self.found())
+            line = self.shown_line(opener[1])
+            self.error("E0103", end="END_VAR", begin=section, line=line, found=self.found())
         return ast.VarBlock(
             span=self.span_from(start),
             section=section,

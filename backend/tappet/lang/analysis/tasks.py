@@ -19,7 +19,7 @@ from tappet.lang.symbols import PouSymbol, VarSymbol
 HIGHEST_PRIORITY = 0
 LOWEST_PRIORITY = 31
 _KINDS = ("cyclic", "freewheeling", "event", "status", "external")
-_EVENT_KINDS = ("event", "status")
+_EVENT_KINDS = ("event", "status", "external")
 
 
 class Watchdog(Protocol):
@@ -67,7 +67,7 @@ class Task(Protocol):
 
 
 def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
-    """Messages about the tasks; the uri of each is the name of its task."""
+    """Messages about the tasks. They have no uri: the task is named in the text."""
     found: list[Diagnostic] = []
     if not tasks:
         main = analysis.options.main_program
@@ -78,11 +78,11 @@ def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
     for task in tasks:
         key = task.name.upper()
         if key in names:
-            found.append(report("E0703", task.name, NOWHERE, task=task.name))
+            found.append(report("E0703", "", NOWHERE, task=task.name))
         names.add(key)
         found += _check(task, analysis)
     if not any(task.kind in ("cyclic", "freewheeling") for task in tasks):
-        found.append(report("W1401", tasks[0].name, NOWHERE))
+        found.append(report("W1401", "", NOWHERE))
     found += _programs_without_task(tasks, analysis)
     return found
 
@@ -91,7 +91,7 @@ def _check(task: Task, analysis: Analysis) -> list[Diagnostic]:
     found: list[Diagnostic] = []
 
     def say(code: str, **fields: object) -> None:
-        found.append(report(code, task.name, NOWHERE, task=task.name, **fields))
+        found.append(report(code, "", NOWHERE, task=task.name, **fields))
 
     if not HIGHEST_PRIORITY <= task.priority <= LOWEST_PRIORITY:
         say("E0702", priority=task.priority)
@@ -135,9 +135,9 @@ def _check_event(task: Task, path: str, analysis: Analysis) -> list[Diagnostic]:
     bit = getattr(expression, "bit", None)
     if type_ is None or (not isinstance(symbol, VarSymbol) and bit is None):
         hint = next((d.advice for d in session.diagnostics if d.advice), "Enter the path of a BOOL variable.")
-        return [report("E0704", task.name, NOWHERE, task=task.name, event=path, hint=hint)]
+        return [report("E0704", "", NOWHERE, task=task.name, event=path, hint=hint)]
     if t.value_type(type_) is not t.BOOL:
-        return [report("E0705", task.name, NOWHERE, task=task.name, event=path, type=type_)]
+        return [report("E0705", "", NOWHERE, task=task.name, event=path, type=type_)]
     return []
 
 

@@ -1,12 +1,13 @@
 """A local variable is used.
 
 Inputs, outputs, and variables at an address belong to the interface of the POU or the machine and are left
-out.
+out; so are RETAIN and PERSISTENT variables, which may be there for the values that are stored under them.
 
 Source: spec LDEC-20.
 
 Passes:
     VAR a : INT; END_VAR
+    VAR RETAIN kept : INT; END_VAR
     a := 1;
 Fails:
     VAR a, b : INT; END_VAR        (* W1103: b is never used *)
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
 
 CODES = ("W1103",)
+_REMANENT = {"RETAIN", "PERSISTENT"}
 
 
 def check_program(session: Session) -> None:
@@ -47,6 +49,8 @@ def _check(session: Session, pou: PouSymbol) -> None:
     for block in pou.pou.blocks:
         if block.section not in ("VAR", "VAR_TEMP", "VAR_STAT"):
             continue
+        if block.flags & _REMANENT and pou.kind not in ("FUNCTION", "METHOD"):
+            continue  # declared for what lies in the memory, such as values of an earlier version
         for decl in block.variables:
             symbol = decl.symbol
             if (
