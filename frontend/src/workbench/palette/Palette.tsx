@@ -40,9 +40,7 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
 
   const choose = (item: PaletteItem | undefined) => {
     if (!item || item.disabledReason) return;
-    closePalette();
-    // After the palette is gone and has given the focus back, so that the act may move it.
-    setTimeout(item.run);
+    closePalette(item.run);
   };
 
   const onKeyDown = (event: KeyboardEvent) => {
