@@ -5,7 +5,7 @@ import { useText } from '@/i18n';
 import { objectIcon } from '@/icons/objects';
 import { explain } from '../notices';
 import { createObject } from '../tree/acts';
-import { ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '../tree/placement';
+import { firstChoice, ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '../tree/placement';
 import type { Forest, TreeView } from '../tree/model';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';
@@ -30,7 +30,7 @@ const ACCESS = ['PUBLIC', 'PRIVATE', 'PROTECTED', 'INTERNAL'] as const;
 export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind, close }: AddObjectProps) {
   const t = useText();
   const kinds = placeableKinds(rules, forest, parentId, view);
-  const [rule, setRule] = useState(kinds.find((candidate) => candidate.kind === kind) ?? kinds[0]!);
+  const [rule, setRule] = useState(() => firstChoice(kinds, kind));
   const [subkind, setSubkind] = useState<string | undefined>(rule.subkinds[0]);
   const [name, setName] = useState(() => proposedName(rule, forest, parentId));
   const [options, setOptions] = useState<ObjectOptions>({});

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { ObjectKind, ObjectSummary, PlacementRule } from '@/api/types';
 import { forestOf } from './model';
-import { dropPlace, fixedNames, mayDrop, nameFault, placeableKinds, proposedName } from './placement';
+import { dropPlace, firstChoice, fixedNames, mayDrop, nameFault, placeableKinds, proposedName } from './placement';
 
 const rule = (kind: ObjectKind, parents: string[], more: Partial<PlacementRule> = {}): PlacementRule => ({
   kind,
@@ -118,5 +118,14 @@ describe('placement', () => {
     expect(dropPlace(forest, target, 'inside')).toEqual({ parentId: 'Folder', index: 1 });
     expect(dropPlace(forest, target, 'before')).toEqual({ parentId: 'App', index: 1 });
     expect(dropPlace(forest, target, 'after')).toEqual({ parentId: 'App', index: 2 });
+  });
+});
+
+describe('the kind that Add Object begins with', () => {
+  const [folder, , pou] = RULES;
+  it('is a POU where there may be one, unless another was asked for', () => {
+    expect(firstChoice([folder!, pou!])).toBe(pou);
+    expect(firstChoice([folder!, pou!], 'folder')).toBe(folder);
+    expect(firstChoice([folder!])).toBe(folder);
   });
 });

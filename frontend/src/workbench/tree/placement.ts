@@ -73,6 +73,12 @@ export function fixedNames(rule: PlacementRule, forest: Forest, parentId: string
   return rule.naming === 'fixed' ? freeFixedNames(rule, forest, parentId) : [];
 }
 
+/** The kind that the dialog begins with: the one asked for, else a POU, which is added most often. */
+export function firstChoice(kinds: readonly PlacementRule[], asked?: string): PlacementRule {
+  const of = (kind: string | undefined) => kinds.find((candidate) => candidate.kind === kind);
+  return of(asked) ?? of('pou') ?? kinds[0]!;
+}
+
 /** The name that the dialog proposes: PLC_PRG for the first POU of an application, otherwise the rule's, made unique. */
 export function proposedName(rule: PlacementRule, forest: Forest, parentId: string | null): string {
   if (rule.naming === 'fixed') return freeFixedNames(rule, forest, parentId)[0] ?? rule.names[0] ?? '';
