@@ -1,5 +1,6 @@
 import { Unplug } from 'lucide-react';
 import { useText } from '@/i18n';
+import { timeText } from '@/workbench/clock';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import styles from './OnlineTable.module.css';
 
@@ -10,7 +11,7 @@ export function LostBar({ session }: { session: OnlineSession | null }) {
   return (
     <div className={`${styles.bar} ${styles.lost}`} role="status">
       <Unplug size={14} aria-hidden />
-      {t('online.frozenSince', { time: new Date(session.lostSince).toLocaleTimeString() })}
+      {t('online.frozenSince', { time: timeText(session.lostSince) })}
     </div>
   );
 }

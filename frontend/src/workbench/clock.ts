@@ -13,3 +13,8 @@ export function secondText(at: string): string {
 export function millisecondText(at: string): string {
   return `${secondText(at)}.${String(new Date(at).getMilliseconds()).padStart(3, '0')}`;
 }
+
+/** `08:15:02`, of milliseconds since 1970: for moments of today. */
+export function timeText(at: number): string {
+  return secondText(new Date(at).toISOString()).slice(11);
+}

@@ -5,6 +5,7 @@ import { api } from '@/api/client';
 import { keys, queryClient, useProjects } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
+import { secondText } from '@/workbench/clock';
 import { objectIcon, TappetMark } from '@/icons/objects';
 import { confirm } from '@/workbench/dialogs';
 import { downloadUrl } from '@/workbench/downloadFile';
@@ -201,11 +202,7 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
         <span className={styles.name}>{project.name}</span>
         {project.description && <span className={styles.description}>{project.description}</span>}
       </button>
-      <time
-        className={styles.date}
-        dateTime={project.modified}
-        title={new Date(project.modified).toLocaleString(language)}
-      >
+      <time className={styles.date} dateTime={project.modified} title={secondText(project.modified)}>
         {ago(project.modified, now, language)}
       </time>
       <span onClick={(event) => event.stopPropagation()}>

@@ -1,5 +1,6 @@
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
+import { timeText } from '../clock';
 import { useOnline } from '../onlineSession';
 import { toneOfApplication } from '../tones';
 import { ancestorOfKind, objectPath } from '../tree/model';
@@ -28,9 +29,7 @@ export function OnlineStripe({ object, objects, instance }: OnlineStripeProps) {
       <span className={styles.path}>{path}</span>
       {isType && <span>{t('online.implementation')}</span>}
       <span className={styles.state}>
-        {tone === 'lost' && since
-          ? t('online.lostSince', { time: new Date(since).toLocaleTimeString() })
-          : t(`online.tone.${tone}`)}
+        {tone === 'lost' && since ? t('online.lostSince', { time: timeText(since) }) : t(`online.tone.${tone}`)}
       </span>
     </div>
   );

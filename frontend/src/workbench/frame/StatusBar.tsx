@@ -3,6 +3,7 @@ import { useMemo } from 'react';
 import type { LoginRelation } from '@/api/types';
 import { useSession } from '@/app/session';
 import { useText } from '@/i18n';
+import { timeText } from '../clock';
 import { showPanel } from '../docking/dock';
 import { usePresence } from '../events';
 import { countOf, presentMessages, useMessages } from '../messages/store';
@@ -53,7 +54,7 @@ function RuntimeItem({ session }: { session: OnlineSession }) {
   const detail = [runtime?.exception?.message, runtime?.scheduling].filter(Boolean).join('\n') || undefined;
   const state =
     lostSince !== null
-      ? t('online.lostSince', { time: new Date(lostSince).toLocaleTimeString() })
+      ? t('online.lostSince', { time: timeText(lostSince) })
       : runtime
         ? runtimeText(runtime, t)
         : t('state.loading');

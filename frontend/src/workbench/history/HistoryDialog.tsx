@@ -57,7 +57,7 @@ export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) 
       {
         id: 'at',
         title: t('history.at'),
-        width: 160,
+        width: 175,
         cell: (one) => <span className="digits">{secondText(one.at)}</span>,
       },
       { id: 'author', title: t('history.author'), width: 100, cell: (one) => <span>{one.author}</span> },

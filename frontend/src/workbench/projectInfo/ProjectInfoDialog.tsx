@@ -3,7 +3,8 @@ import { useState } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient, useObjects } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
-import { useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
+import { secondText } from '../clock';
 import { atLeast } from '../rights';
 import { commandContext } from '../context';
 import { guard } from '../notices';
@@ -33,13 +34,11 @@ export function ProjectInfoDialog({ projectId, close }: { projectId: string; clo
 
 function InfoForm({ project, close }: { project: ProjectSummary; close: () => void }) {
   const t = useText();
-  const language = useLanguage();
   const { data: objects } = useObjects(project.id);
   const [name, setName] = useState(project.name);
   const [description, setDescription] = useState(project.description);
   const mayChange = atLeast(commandContext().role, 'engineer');
   const fault = name.trim() === '' ? t('name.empty') : null;
-  const date = (text: string) => new Date(text).toLocaleString(language);
 
   const save = async () => {
     if (fault) return;
@@ -92,9 +91,9 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
         }}
       >
         <dt>{t('project.created')}</dt>
-        <dd style={{ margin: 0 }}>{date(project.created)}</dd>
+        <dd style={{ margin: 0 }}>{secondText(project.created)}</dd>
         <dt>{t('project.modified')}</dt>
-        <dd style={{ margin: 0 }}>{date(project.modified)}</dd>
+        <dd style={{ margin: 0 }}>{secondText(project.modified)}</dd>
         <dt>{t('project.objects')}</dt>
         <dd style={{ margin: 0 }}>{objects?.length ?? ''}</dd>
       </dl>
