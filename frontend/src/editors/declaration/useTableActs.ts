@@ -58,11 +58,12 @@ export function useTableActs(input: TableActsInput) {
     );
 
   /** This cell has no field of its own: it is a dialog. */
-  const editAttributes = async (index: number) => {
+  const editAttributes = async (index: number, typed: string | undefined) => {
     const row = model.rows[index];
     if (row === undefined) return;
     const value = cellText(model, row, 'attributes');
-    const text = await openDialog<string>((close) => createElement(AttributesDialog, { value, close }));
+    // The key that opened the dialog is the beginning of the new text, as in every other cell.
+    const text = await openDialog<string>((close) => createElement(AttributesDialog, { value: typed ?? value, close }));
     if (text !== undefined && text !== value) replace(withCell(model.text, index, 'attributes', text));
   };
 
@@ -71,7 +72,7 @@ export function useTableActs(input: TableActsInput) {
     const column = columns[cell.column]?.id;
     if (edit !== null || column === undefined || column === 'number') return;
     if (index !== DRAFT_KEY && model.rows[index]?.special != null) return;
-    if (column === 'attributes') void editAttributes(index);
+    if (column === 'attributes') void editAttributes(index, cell.initial);
     else setEditing(cell);
   };
 
