@@ -1,6 +1,6 @@
 import { X } from 'lucide-react';
 import { Dialog as Radix } from 'radix-ui';
-import type { CSSProperties, FormEvent, ReactNode } from 'react';
+import type { CSSProperties, FormEvent, KeyboardEvent, ReactNode } from 'react';
 import { useText } from '@/i18n';
 import { IconButton } from './Button';
 import styles from './Dialog.module.css';
@@ -47,7 +47,7 @@ export function Dialog({ title, description, width, onClose, onSubmit, footer, c
           onOpenAutoFocus={focusFirstField}
         >
           {onSubmit ? (
-            <form onSubmit={submit} style={{ display: 'contents' }}>
+            <form onSubmit={submit} onKeyDown={submitFromRadio} style={{ display: 'contents' }}>
               {content}
             </form>
           ) : (
@@ -57,6 +57,13 @@ export function Dialog({ title, description, width, onClose, onSubmit, footer, c
       </Radix.Portal>
     </Radix.Root>
   );
+}
+
+/** Our radios are buttons: Enter would only choose again what is chosen, where every dialog takes it as the answer. */
+function submitFromRadio(event: KeyboardEvent<HTMLFormElement>): void {
+  if (event.key !== 'Enter' || !(event.target instanceof Element) || event.target.role !== 'radio') return;
+  event.preventDefault();
+  event.currentTarget.requestSubmit();
 }
 
 /** The first field, or the button that stands for the expected answer, gets the focus instead of the closing cross. */
