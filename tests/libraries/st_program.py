@@ -1,0 +1,44 @@
+"""A program with all libraries, run for some cycles of virtual time."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
+from tappet.codegen.jit import LoadedApplication
+from tappet.lang.source import Source
+from tappet.libraries import names
+
+CYCLE_MS = 10
+SESSION = BuildSession()
+
+
+class Program:
+    """The values after the last cycle."""
+
+    def __init__(self, application: LoadedApplication) -> None:
+        self._application = application
+
+    def literal(self, expression: str) -> str:
+        return self._application.literal(expression)
+
+    def numbers(self, expression: str) -> list[float]:
+        return [float(number) for number in self.literal(expression).strip("[]").split(",")]
+
+
+@contextmanager
+def run(text: str, cycles: int, cycle_ms: int = CYCLE_MS) -> Iterator[Program]:
+    """`text` after so many calls of its programs."""
+    libraries = tuple(LibraryReference(name) for name in names())
+    options = BuildOptions(libraries=libraries, level=1)
+    result = build_application([Source("program", text)], options=options, session=SESSION)
+    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+    assert result.package is not None
+    application = LoadedApplication(result.package)
+    try:
+        application.start()
+        for _ in range(cycles):
+            application.cycle()
+            application.clock_ns += cycle_ms * 1_000_000
+        yield Program(application)
+    finally:
+        application.close()
