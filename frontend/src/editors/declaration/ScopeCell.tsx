@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { Checkbox } from '@/workbench/ui/Field';
 import { useText } from '@/i18n';
-import { Floating } from '../grid/Floating';
+import { Floating } from '@/workbench/ui/Floating';
 import styles from './DeclarationTable.module.css';
 import { scopesFor, VARIABLE_FLAGS, type DeclarationModel } from './model';
 

@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
-import { Floating } from './Floating';
+import { Floating } from '@/workbench/ui/Floating';
 import styles from './Grid.module.css';
 
 interface CellInputProps {

@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
-import { Floating } from '@/editors/grid/Floating';
+import { Floating } from '@/workbench/ui/Floating';
 import grid from '@/editors/grid/Grid.module.css';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { useSymbols } from '../useLive';

@@ -5,6 +5,7 @@ import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
 import { displayName } from '../objectName';
 import type { OnlineTone } from '../onlineSession';
+import { Floating } from '../ui/Floating';
 import { ToneDot } from '../ui/ToneDot';
 import type { Mark } from './marks';
 import type { Row } from './model';
@@ -146,6 +147,7 @@ interface NameFieldProps {
 function NameField({ name, faultOf, onDone }: NameFieldProps) {
   const t = useText();
   const [value, setValue] = useState(name);
+  const [anchor, setAnchor] = useState<HTMLSpanElement | null>(null);
   const fault = value === name ? null : faultOf(value);
   // Taking the name moves the focus away, which must not take it a second time.
   const done = useRef(false);
@@ -160,7 +162,7 @@ function NameField({ name, faultOf, onDone }: NameFieldProps) {
     else if (event.key === 'Escape') finish(null);
   };
   return (
-    <span style={{ position: 'relative' }}>
+    <span ref={setAnchor}>
       <input
         className={styles.rename}
         value={value}
@@ -175,7 +177,11 @@ function NameField({ name, faultOf, onDone }: NameFieldProps) {
         onDoubleClick={(event) => event.stopPropagation()}
         onBlur={() => finish(fault ? null : value)}
       />
-      {fault && <span className={styles.fault}>{fault}</span>}
+      {fault && (
+        <Floating anchor={anchor} className={styles.fault}>
+          <span role="alert">{fault}</span>
+        </Floating>
+      )}
     </span>
   );
 }
