@@ -29,6 +29,7 @@ export function followEditors(api: DockviewApi): () => void {
     const focusedPanel = panelAround(document.activeElement) ?? panel.id;
     useSelection.setState(isEditor(panel) ? { activeEditor: panel.id, focusedPanel } : { focusedPanel });
     if (isEditor(panel)) editorGroupUsed(panel.group.id);
+    requestAnimationFrame(() => showTab(panel.id));
   };
   const disposers = [
     api.onDidAddPanel(list),
@@ -50,6 +51,12 @@ export function followEditors(api: DockviewApi): () => void {
     disposers.forEach((disposer) => disposer.dispose());
     useSelection.setState({ editors: [], activeEditor: null, focusedPanel: null });
   };
+}
+
+/** With many tabs the one in front may be out of sight or half of it. */
+function showTab(panelId: string): void {
+  const tab = document.querySelector(`[data-tab-panel-id="${CSS.escape(panelId)}"]`);
+  tab?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
 }
 
 /** Empty groups go, but for one: the editor area stays in its place when its last tab is closed. */
