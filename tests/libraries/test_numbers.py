@@ -71,7 +71,7 @@ def test_pid_without_limits_is_its_formula(block: str) -> None:
 
 
 def _loop(gain: float, lag: float, cycle: float, steps: int) -> np.ndarray:
-    """Answer to a step of the set point from 0 to 1 of the plant dx/dt = (u - x)/lag, 0 <= u <= 2, TN = lag."""
+    """Answer of the plant dx/dt = (u - x)/lag, 0 <= u <= 2, to a step of the set point; TN = lag."""
     text = f"""
         PROGRAM Main
         VAR fb : PID_FIXCYCLE; rPlant : LREAL; i : INT; arOut : ARRAY[0..{steps - 1}] OF LREAL; END_VAR
