@@ -14,6 +14,7 @@ from .conftest import Server
 from .workbench import (
     add_line,
     choose_menu,
+    delete_line,
     implementation,
     log_in,
     open_object,
@@ -126,9 +127,23 @@ def test_an_exception_names_its_place_and_a_reset_ends_it(page: Page) -> None:
     expect(editor).to_contain_text("xSafe")
     add_line(page, editor, "iLoaded := 7 / LEN('');")
     log_in(page, expected="exception")
-    report = page.get_by_role("dialog").or_(page.get_by_role("alert")).filter(has_text="PLC_PRG")
-    expect(report.first).to_contain_text("ivision by zero")
-    expect(status_bar(page).get_by_text("exception")).to_be_visible()
+    report = open_panel(page, "Call Stack")
+    expect(report).to_contain_text("Division by zero")
+    expect(report).to_contain_text("PLC_PRG, line 2, task MainTask")
+    editor.locator(".view-line").last.click()
+    report.get_by_role("button", name="Go to place").click()
+    expect(page.get_by_text("Ln 2, Col")).to_be_visible()
+
+    page.keyboard.press("Control+F8")
+    expect(status_bar(page).get_by_text("Offline")).to_be_visible()
+    delete_line(page, editor, 2)
+    log_in(page, expected="exception")
+    report.get_by_role("button", name="Reset warm").click()
+    page.get_by_role("dialog").get_by_role("button", name="Reset warm").click()
+    expect(status_bar(page).get_by_text("stopped")).to_be_visible()
+    page.keyboard.press("F5")
+    expect(status_bar(page).get_by_text("running")).to_be_visible()
+    expect(editor).to_contain_text("Execute")
 
 
 def test_a_killed_runtime_is_noticed_and_comes_back_with_its_values(page: Page, server: Server) -> None:
