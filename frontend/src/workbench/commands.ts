@@ -63,6 +63,8 @@ export interface Command {
   hidden?: boolean;
   /** The act is offered by the focused view; see `useHandlers`. */
   delegated?: boolean;
+  /** Keys pressed out of habit (Ctrl+S): where it is not possible now, nothing is said. */
+  quiet?: boolean;
   /** A check mark in menus, a pressed look in the tool bar. */
   checked?: (context: CommandContext) => boolean;
   visible?: (context: CommandContext) => boolean;

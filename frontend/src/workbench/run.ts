@@ -28,13 +28,14 @@ export function refusal(command: Command, context: CommandContext): string | nul
   return enablement === true ? null : reasonText(enablement);
 }
 
-/** Runs the command if it may; a refusal or a failure becomes a notice. */
+/** Runs the command if it may; a refusal or a failure becomes a notice, the refusal of a quiet command does not. */
 export async function runCommand(id: string, argument?: unknown): Promise<void> {
   const command = findCommand(id);
   if (!command) return;
   const context = commandContext();
   const refused = refusal(command, context);
   if (refused !== null) {
+    if (command.quiet) return;
     notify({ tone: 'info', title: t('notices.notNow', { command: titleOf(command) }), text: refused });
     return;
   }

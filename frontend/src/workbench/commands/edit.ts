@@ -131,6 +131,7 @@ const commands: Command[] = [
     title: 'command.save',
     icon: Save,
     keys: ['Ctrl+S'],
+    quiet: true,
     delegated: true,
     menu: { menu: 'file', group: '3_save', order: 1 },
     toolbar: { group: '1_file', order: 1 },
@@ -144,6 +145,7 @@ const commands: Command[] = [
     title: 'command.saveAll',
     icon: SaveAll,
     keys: ['Ctrl+Shift+S'],
+    quiet: true,
     menu: { menu: 'file', group: '3_save', order: 2 },
     enabled: (context) => (context.dirtyPanels.length > 0 ? true : 'reason.nothingToSave'),
     run: async (context) => {
