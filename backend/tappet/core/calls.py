@@ -23,6 +23,10 @@ from tappet.lang import types as t
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol, PropertySymbol, VarSymbol
 
 
+BODY = "__BODY"
+"""Name of a block's body in its table of methods."""
+
+
 @dataclass(slots=True)
 class Prepared:
     """A call ready to be placed: what happens before it, the call, what happens after."""
@@ -220,7 +224,10 @@ def dispatch(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr
     only = b.program.only_implementation(target)
     if only is not None:
         return ir.Call(scalar, b.program.function(only), values)
-    name = target.name.upper()
+    return _through_table(b, target.name.upper(), scalar, values)
+
+
+def _through_table(b: Body, name: str, scalar: ir.Scalar, values: list[ir.Expr]) -> ir.Expr:
     b.program.dispatched.setdefault(name)
     code = ir.Intrinsic(ir.PTR, "dispatch", [values[0], ir.Const(ir.I64, 0)])
     b.program.pending_slots.append((code, name))
@@ -335,11 +342,18 @@ def _block_call(b: Body, e: ast.Call, target: PouSymbol) -> Prepared:
         assert b.own_data is not None
         return _instance_call(b, e, target, b.own_data, before)
     place = places.freeze(b, b.place(callee), before)
-    return _instance_call(b, e, target, place, before)
+    virtual = isinstance(callee, ast.Deref) or _through_reference(callee)
+    return _instance_call(b, e, target, place, before, virtual=virtual)
 
 
 def _instance_call(
-    b: Body, e: ast.Call, target: PouSymbol, instance: ir.Place, before: list[ir.Stmt]
+    b: Body,
+    e: ast.Call,
+    target: PouSymbol,
+    instance: ir.Place,
+    before: list[ir.Stmt],
+    *,
+    virtual: bool = False,
 ) -> Prepared:
     prepared = Prepared(before)
     given = {id(a.parameter) for a in e.args if a.value is not None}
@@ -369,7 +383,10 @@ def _instance_call(
                 assign.store_member(b, slot, parameter, value)
             before += store
     own = [places.address_of(instance)] if target.kind == "FUNCTION_BLOCK" else []
-    prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
+    if virtual and b.program.is_extended(target):
+        prepared.call = _through_table(b, BODY, ir.VOID, own)
+    else:
+        prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
     return prepared
 
 

@@ -129,6 +129,11 @@ class Program:
             return next(iter(found.values()))
         return method if not found and method.owner is not None else None
 
+    def is_extended(self, block: PouSymbol) -> bool:
+        """Whether another block extends this one, so that its body may not be the one to call."""
+        bodies = self.implementations.get("__BODY", {}).values()
+        return any(_extends(pou, block) for pou in bodies)
+
     def library_function(self, name: str) -> PouSymbol | None:
         """A function of the conversion library that every application is built with."""
         if not self.library:
@@ -208,6 +213,13 @@ class Program:
         elif isinstance(type_, t.Struct):
             for member in type_.members.values():
                 self._expose_blocks(member.type)
+
+
+def _extends(pou: PouSymbol, block: PouSymbol) -> bool:
+    base = pou.base
+    while base is not None and base is not block:
+        base = base.base
+    return base is not None
 
 
 def qualified_name(pou: PouSymbol) -> str:
