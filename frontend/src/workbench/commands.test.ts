@@ -9,6 +9,7 @@ import {
   type Command,
   type Handlers,
 } from './commands';
+import { registerEditCommands } from './commands/edit';
 import { registerOnlineCommands } from './commands/online';
 import { menuOf, toolbarOf } from './frame/menuModel';
 
@@ -41,6 +42,18 @@ describe('delegated commands', () => {
   it('ask their own condition first', () => {
     const cut: Command = { ...undo, enabled: () => 'reason.nothingSelected' };
     expect(enablementOf(cut, someContext({ focusedPanel: 'ed' }), handlers)).toBe('reason.nothingSelected');
+  });
+});
+
+describe('undo', () => {
+  beforeAll(registerEditCommands);
+  const handlers = new Map<string, Handlers>([['ed', { 'edit.undo': { run: () => undefined } }]]);
+  const can = (focusedPanel: string) =>
+    enablementOf(findCommand('edit.undo')!, someContext({ focusedPanel, activeEditor: editor }), handlers);
+
+  it('in a tree leaves the text of the active editor alone', () => {
+    expect(can('devices')).toBe('reason.treeHistory');
+    expect(can('messages')).toBe(true);
   });
 });
 

@@ -31,6 +31,9 @@ function inTree(context: CommandContext): boolean {
   return context.focusedPanel === 'devices' || context.focusedPanel === 'pous';
 }
 
+/** Undo in a tree would change the text of an editor that the user is not looking at. */
+const inEditors = (context: CommandContext): Enablement => (inTree(context) ? 'reason.treeHistory' : true);
+
 const commands: Command[] = [
   {
     id: 'edit.undo',
@@ -38,6 +41,7 @@ const commands: Command[] = [
     icon: Undo2,
     keys: ['Ctrl+Z'],
     delegated: true,
+    enabled: inEditors,
     menu: { menu: 'edit', group: '1_undo', order: 1 },
   },
   {
@@ -46,6 +50,7 @@ const commands: Command[] = [
     icon: Redo2,
     keys: ['Ctrl+Y', 'Ctrl+Shift+Z'],
     delegated: true,
+    enabled: inEditors,
     menu: { menu: 'edit', group: '1_undo', order: 2 },
   },
   {
