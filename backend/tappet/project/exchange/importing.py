@@ -1,0 +1,108 @@
+"""Files of other systems into a project: what each file is, and which importer takes it."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tappet.project.exchange import twincat
+from tappet.project.exchange.codesys23 import read_export
+from tappet.project.exchange.decoding import decode_text, decode_xml
+from tappet.project.exchange.drafts import Batch, task_configuration
+from tappet.project.exchange.placing import import_into_empty, place
+from tappet.project.exchange.plcopen_read import read_plcopen
+from tappet.project.exchange.report import ExchangeError, ImportReport
+from tappet.project.exchange.split_text import split_text
+from tappet.project.exchange.standard_tasks import read_configurations
+from tappet.project.exchange.twincat_project import read_project
+from tappet.project.model import Project
+
+ENDINGS = (".xml", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS)
+"""Endings of the files that are read, in lower case."""
+
+_MARKED = re.compile(r"\(\*\s*@(?:NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION|GLOBAL_VARIABLE_LIST)\s*:=")
+
+
+@dataclass(frozen=True, slots=True)
+class Imported:
+    """A project with what was imported in it, and what is to say about that."""
+
+    project: Project
+    report: ImportReport
+
+
+def is_importable(path: str) -> bool:
+    """Whether a file is of a kind that is read, by its name."""
+    return path.lower().endswith(ENDINGS)
+
+
+def import_files(
+    files: Mapping[str, bytes],
+    into: Project | None = None,
+    *,
+    application_id: str | None = None,
+    name: str = "",
+) -> Imported:
+    """Import files, given by path (`/` between the parts), into a project or into a new one.
+
+    A file that cannot be read does not hinder the others: the report says why. Raises ExchangeError when
+    no file could be read, with the reason of the first.
+    """
+    report = ImportReport()
+    batch = Batch()
+    projects = sorted(path for path in files if path.lower().endswith(".plcproj"))
+    used: set[str] = set()
+    failures: list[ExchangeError] = []
+    for path in projects:
+        try:
+            used |= read_project(path, files, batch, report, own_device=len(projects) > 1)
+        except ExchangeError as error:
+            _failed(path, error, report, failures)
+            used.add(path)
+    for path in sorted(files):
+        if path in used:
+            continue
+        if projects and path.lower().endswith(twincat.ENDINGS):
+            report.add("refused", path, "no .plcproj lists this file, so it is not part of the project")
+            continue
+        try:
+            _read(path, files[path], batch, report)
+        except ExchangeError as error:
+            _failed(path, error, report, failures)
+    if failures and len(failures) == len(files):
+        raise failures[0]
+    if into is None:
+        stem = posixpath.basename(next(iter(sorted(files)), "Import")).rsplit(".", 1)[0]
+        into = import_into_empty(name or batch.name or stem, batch.description)
+    return Imported(place(batch, into, report, application_id), report)
+
+
+def _failed(path: str, error: ExchangeError, report: ImportReport, failures: list[ExchangeError]) -> None:
+    failures.append(error)
+    report.add("refused", path, str(error).partition(": ")[2], line=error.line)
+
+
+def _read(path: str, content: bytes, batch: Batch, report: ImportReport) -> None:
+    """Read one file by its ending; XML by its root."""
+    ending = posixpath.splitext(path)[1].lower()
+    if ending in twincat.ENDINGS:
+        for draft in twincat.read_object(path, content, report):
+            parent = task_configuration(batch.loose) if draft.kind == "task" else batch.loose
+            parent.children.append(draft)
+    elif ending == ".xml" or decode_xml(path, content[:400]).lstrip("\ufeff \t\r\n").startswith("<?xml"):
+        read_plcopen(path, content, batch, report)
+    elif ending in (".st", ".exp", ".txt", ".iecst", ".lib"):
+        text, encoding = decode_text(path, content)
+        if encoding in ("cp1252", "latin-1"):
+            report.add("changed", path, "the file is not UTF-8; it was read as Windows-1252 (Latin-1)")
+        if ending == ".exp" or _MARKED.search(text):
+            read_export(path, text, batch, report)
+        else:
+            stem = posixpath.basename(path).rsplit(".", 1)[0]
+            split = split_text(path, text, report, list_name=stem)
+            batch.loose.children += split.drafts()
+            read_configurations(split, batch.loose, report)
+    else:
+        raise ExchangeError(path, f"files of this kind are not read; possible are {', '.join(ENDINGS)}")

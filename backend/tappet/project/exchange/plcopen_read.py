@@ -1,0 +1,377 @@
+"""PLCopen XML to drafts: TC6 0200 and 0201, with or without the namespace, from CODESYS, TwinCAT, Beremiz ...
+
+Objects are taken wherever they stand, in `types` or in additional data of any level, because the systems
+differ in that. Where the export holds the declarations as plain text, these are taken as they are.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from tappet.project.declaration_text import SECTION_KEYWORDS, read_header
+from tappet.project.exchange.drafts import (
+    GRAPHICAL_LANGUAGES,
+    Batch,
+    Draft,
+    body,
+    hex_id,
+    library_manager,
+    plc_logic,
+    task_configuration,
+)
+from tappet.project.exchange.libraries import reference
+from tappet.project.exchange.plcopen_declarations import (
+    added,
+    data_type_text,
+    documentation,
+    exact_text,
+    head_lines,
+    plain_text,
+    section_lines,
+    sections,
+)
+from tappet.project.exchange.plcopen_tasks import read_task, task_of_instance
+from tappet.project.exchange.plcopen_tree import arrange
+from tappet.project.exchange.report import ExchangeError, ImportReport
+from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
+
+PRODUCT = "Tappet"
+"""Name of the product in the header of our own exports."""
+_CODE = frozenset(["pou", "dut", "interface", "folder"])
+
+_KEYWORDS = {"program": "PROGRAM", "function": "FUNCTION", "functionblock": "FUNCTION_BLOCK"}
+_CONTAINERS = frozenset(
+    ["types", "dataTypes", "pous", "instances", "configurations", "globalVarsList", "Interfaces", "project"]
+)
+_NO_OBJECTS = frozenset(
+    [
+        "objectid",
+        "attributes",
+        "projectinformation",
+        "projectstructure",
+        "interfaceasplaintext",
+        "pouinheritance",
+        "accessmodifiers",
+        "mixedattrsvarlist",
+        "tasksettings",
+        "buildproperties",
+    ]
+)
+"""Additional data that say something of the element they stand in."""
+
+
+def read_plcopen(source: str, content: bytes, batch: Batch, report: ImportReport) -> None:
+    """Take the objects of a file in. Raises ExchangeError for what is no PLCopen XML."""
+    root = read_xml(source, content)
+    if root.tag != "project":
+        hint = (
+            "export the project as PLCopen XML"
+            if root.tag in ("ExportFile", "Project")
+            else "expected <project>"
+        )
+        raise ExchangeError(source, f"is no PLCopen XML: its root is <{root.tag}>; {hint}", root.line)
+    _Reader(source, batch, report).read(root)
+
+
+class _Reader:
+    def __init__(self, source: str, batch: Batch, report: ImportReport) -> None:
+        self.source = source
+        self.batch = batch
+        self.report = report
+        self.pool = Draft("pous_view", "", source=source)
+        """What stands in no application of the file."""
+        self.devices: list[Draft] = []
+        self.by_id: dict[str, Draft] = {}
+        self.generic: list[Draft] = []
+
+    def read(self, root: Element) -> None:
+        header = root.child("contentHeader")
+        if header is not None:
+            name = header.get("name").removesuffix(".project").removesuffix(".library")
+            self.batch.name = self.batch.name or name
+            comment = header.child("Comment")
+            note = exact_text(comment) if comment is not None else documentation(header)
+            self.batch.description = self.batch.description or note
+        product = root.child("fileHeader")
+        self.batch.complete = product is not None and product.get("productName") == PRODUCT
+        for item in root:
+            if item.tag not in ("fileHeader", "contentHeader"):
+                self._element(item, self.pool)
+        for name, item in added(root):
+            self._added(name, item, self.pool)
+        structure = next((item for name, item in added(root) if name == "projectstructure"), None)
+        applications = [
+            item for device in self.devices for logic in device.children for item in logic.children
+        ]
+        filled = any(item.kind in _CODE for found in applications for item in found.children)
+        if not filled and not self.batch.complete and applications:
+            applications[0].children += self.pool.children
+            self.pool.children = []
+        arrange(structure, self.pool, self.devices, self.generic, self.by_id)
+        if applications or self.batch.complete:
+            self.batch.devices += self.devices
+            self.batch.pous.children += self.pool.children
+        else:
+            self.batch.loose.children += self.pool.children
+
+    # -- objects, wherever they stand
+
+    def _element(self, item: Element, parent: Draft) -> None:
+        tag = item.tag
+        if tag == "pou":
+            self._enter(parent, self._pou(item))
+        elif tag == "dataType":
+            self._enter(parent, self._data_type(item))
+        elif tag == "globalVars":
+            self._enter(parent, self._globals(item))
+        elif tag == "Interface":
+            self._enter(parent, self._interface(item))
+        elif tag == "configuration":
+            self._configuration(item)
+        elif tag == "resource":
+            self._resource(item, parent)
+        elif tag == "task":
+            ours = next((part for name, part in added(item) if name == "object"), None)
+            draft = read_task(self.source, item, self.report)
+            if ours is not None:
+                draft.data = _json(self.source, ours)
+            draft.id = self._id(item)
+            self._enter(task_configuration(parent), draft)
+        elif tag == "pouInstance":
+            draft = task_of_instance(self.source, item, self.report)
+            self._enter(task_configuration(parent), draft)
+        elif tag in _CONTAINERS:
+            for inner in item:
+                self._element(inner, parent)
+            for name, inner in added(item):
+                self._added(name, inner, parent)
+
+    def _added(self, name: str, item: Element, parent: Draft) -> None:
+        if item.tag == "Object" and name == "object":
+            self._generic(item)
+        elif item.tag == "Libraries":
+            self._libraries(item, parent)
+        elif item.tag in ("pou", "dataType", "globalVars", "Interface", "configuration", "resource", "task"):
+            self._element(item, parent)
+        elif name == "device" and parent.kind == "device":
+            kind = item.find("DeviceType") or item
+            self.report.add(
+                "refused",
+                self.source,
+                "the settings of the device are not read; its applications are",
+                name=parent.name,
+                line=kind.line,
+            )
+        elif name not in _NO_OBJECTS:
+            text = f"additional data '{name}' are not read"
+            self.report.add(
+                "refused", self.source, text, name=item.get("name") or item.get("Name"), line=item.line
+            )
+
+    def _enter(self, parent: Draft, draft: Draft) -> None:
+        parent.children.append(draft)
+        self._remember(draft)
+
+    def _remember(self, draft: Draft) -> None:
+        waiting = [draft]
+        while waiting:
+            item = waiting.pop()
+            if item.id is not None and self.by_id.setdefault(item.id, item) is not item:
+                item.id = None
+            waiting += item.children
+
+    def _id(self, item: Element) -> str | None:
+        if item.get("ObjectId"):
+            return hex_id(item.get("ObjectId"))
+        for name, inner in added(item):
+            if name == "objectid":
+                return hex_id(inner.text())
+        return None
+
+    def _draft(self, kind: str, item: Element, data: dict[str, Any] | None = None) -> Draft:
+        return Draft(kind, item.get("name"), data or {}, self.source, item.line, [], self._id(item))
+
+    # -- programming objects
+
+    def _pou(self, item: Element) -> Draft:
+        keyword = _KEYWORDS.get(item.get("pouType").lower(), "PROGRAM")
+        draft = self._draft("pou", item, {"declaration": self._declaration(keyword, item)})
+        draft.data |= self._body(item, draft.name)
+        self._children(item, draft)
+        return draft
+
+    def _children(self, item: Element, draft: Draft) -> None:
+        holders = [
+            part for tag in ("actions", "transitions", "Methods", "Properties") for part in item.children(tag)
+        ]
+        for holder in (item, *holders):
+            for part in holder:
+                self._child(part, draft)
+        for name, part in added(item):
+            if not self._child(part, draft) and name not in _NO_OBJECTS:
+                text = f"additional data '{name}' are not read"
+                self.report.add("refused", self.source, text, name=draft.name, line=part.line)
+
+    def _child(self, item: Element, owner: Draft) -> bool:
+        tag = item.tag.lower()
+        name = f"{owner.name}.{item.get('name')}"
+        if tag in ("action", "transition"):
+            child = self._draft(tag, item, self._body(item, name))
+            if tag == "transition":
+                text = "transitions belong to SFC, which is not compiled yet"
+                self.report.add("kept", self.source, text, name=name, line=item.line)
+        elif tag == "method":
+            child = self._draft("method", item, {"declaration": self._declaration("METHOD", item)})
+            child.data |= self._body(item, name)
+        elif tag == "property":
+            child = self._draft("property", item, {"declaration": self._declaration("PROPERTY", item)})
+            for accessor, title in (("GetAccessor", "Get"), ("SetAccessor", "Set")):
+                for part in item.children(accessor):
+                    data = {"declaration": self._local_declaration(part)} | self._body(
+                        part, f"{name}.{title}"
+                    )
+                    made = Draft("accessor", title, data, self.source, part.line, [], self._id(part))
+                    child.children.append(made)
+        else:
+            return False
+        owner.children.append(child)
+        return True
+
+    def _declaration(self, keyword: str, item: Element) -> str:
+        text = plain_text(item)
+        if text is not None:
+            header = read_header(text)
+            if header is None or header.keyword not in SECTION_KEYWORDS or self.batch.complete:
+                return text
+            return "\n".join([*head_lines(keyword, item), text])
+        return "\n".join([*head_lines(keyword, item), *sections(item.child("interface"))])
+
+    def _local_declaration(self, item: Element) -> str:
+        text = plain_text(item)
+        return text if text is not None else "\n".join(sections(item.child("interface")))
+
+    def _body(self, item: Element, name: str) -> dict[str, Any]:
+        """The implementation: text, or a graphical one as the XML that it is."""
+        bodies = item.children("body")
+        if not bodies:
+            return body("ST", "")
+        if len(bodies) == 1:
+            for kind, inner in added(bodies[0]):
+                if kind == "implementation" and inner.tag == "Implementation":
+                    return body(inner.get("language", "ST"), exact_text(inner))
+        parts = [part for found in bodies for part in found if part.tag not in ("documentation", "addData")]
+        languages = {part.tag for part in parts}
+        if not parts and not any(True for found in bodies for _ in added(found)):
+            return body("ST", "")
+        if languages in ({"ST"}, {"IL"}):
+            language = languages.pop()
+            text = "\n".join(exact_text(part) for part in parts)
+            if language == "IL":
+                self._kept(item, name, language)
+            return body(language, text)
+        language = next((part.tag for part in parts if part.tag in GRAPHICAL_LANGUAGES), "CFC")
+        self._kept(item, name, language)
+        if len(bodies) == 1:
+            return body(language, xml_text(bodies[0]))
+        worksheets: list[Element | str] = list(bodies)
+        return body(language, xml_text(Element("bodies", content=worksheets)))
+
+    def _kept(self, item: Element, name: str, language: str) -> None:
+        text = f"the body in {language} is kept as it is; it cannot be compiled yet"
+        self.report.add("kept", self.source, text, name=name, line=item.line)
+
+    def _data_type(self, item: Element) -> Draft:
+        text = plain_text(item)
+        return self._draft("dut", item, {"declaration": text if text is not None else data_type_text(item)})
+
+    def _interface(self, item: Element) -> Draft:
+        text = plain_text(item)
+        if text is None:
+            text = "\n".join(head_lines("INTERFACE", item))
+        draft = self._draft("interface", item, {"declaration": text})
+        self._children(item, draft)
+        return draft
+
+    def _globals(self, item: Element) -> Draft:
+        text = plain_text(item)
+        if text is None:
+            mixed = [part for name, held in added(item) if name == "mixedattrsvarlist" for part in held]
+            lines = [line for part in mixed or [item] for line in section_lines(part)]
+            notes = [f"// {line}" for line in documentation(item).strip().split("\n") if line]
+            pragmas = [line for line in head_lines("", item)[:-1] if line.startswith("{")]
+            text = "\n".join([*notes, *pragmas, *lines])
+        draft = self._draft("gvl", item, {"declaration": text})
+        draft.name = draft.name or "Global_Variables"
+        if item.get("persistent").lower() in ("true", "1") and draft.name.lower().startswith("persistent"):
+            draft.kind = "persistent"
+        for name, part in added(item):
+            if name == "object" and part.get("kind") in ("gvl", "persistent"):
+                draft.kind = part.get("kind")
+        return draft
+
+    # -- devices and what we add ourselves
+
+    def _configuration(self, item: Element) -> None:
+        device = self._draft("device", item)
+        device.name = device.name or "Device"
+        self.devices.append(device)
+        for name, part in added(item):
+            if name == "object":
+                device.data = _json(self.source, part)
+            else:
+                self._added(name, part, device)
+        self._remember(device)
+        own = Draft("application", "", source=self.source)
+        for part in item:
+            if part.tag == "resource":
+                self._resource(part, device)
+            elif part.tag not in ("addData", "documentation"):
+                self._element(part, own)
+        logic = next((part for part in device.children if part.kind == "plc_logic"), None)
+        if own.children:
+            logic = logic or plc_logic(device)
+            if not logic.children:
+                logic.children.append(Draft("application", "Application", source=self.source))
+            logic.children[0].children += own.children
+
+    def _resource(self, item: Element, parent: Draft) -> None:
+        application = self._draft("application", item)
+        application.name = application.name or "Application"
+        if parent.kind != "device":
+            parent = Draft("device", "Device", source=self.source, line=item.line)
+            self.devices.append(parent)
+        plc_logic(parent).children.append(application)
+        self._remember(application)
+        for part in item:
+            if part.tag not in ("addData", "documentation"):
+                self._element(part, application)
+        for name, part in added(item):
+            self._added(name, part, application)
+
+    def _libraries(self, item: Element, parent: Draft) -> None:
+        manager = library_manager(parent)
+        references = manager.data.setdefault("references", [])
+        for library in item.children("Library"):
+            resolution = library.get("DefaultResolution") or library.get("Name")
+            name, _, rest = resolution.lstrip("#").partition(",")
+            version = rest.partition("(")[0].strip() or "*"
+            made = reference(
+                self.source, name.strip(), version, library.get("Namespace"), self.report, library.line
+            )
+            references.append(made)
+
+    def _generic(self, item: Element) -> None:
+        draft = self._draft(item.get("kind"), item, _json(self.source, item))
+        self.generic.append(draft)
+        self._remember(draft)
+
+
+def _json(source: str, item: Element) -> dict[str, Any]:
+    try:
+        data = json.loads(item.text() or "{}")
+    except (ValueError, RecursionError) as error:
+        raise ExchangeError(source, f"the data of '{item.get('name')}' are no JSON", item.line) from error
+    if not isinstance(data, dict):
+        raise ExchangeError(source, f"the data of '{item.get('name')}' should be a JSON object", item.line)
+    return data

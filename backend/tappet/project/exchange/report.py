@@ -1,0 +1,78 @@
+"""What an import did: one entry for each object and for each thing that could not be read."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from tappet.project.errors import ProjectError
+
+Outcome = Literal["imported", "changed", "refused", "kept"]
+
+MAX_ENTRIES = 20_000
+"""Entries of one report; what comes after is counted in the last one."""
+
+
+class ExchangeError(ProjectError):
+    """A file cannot be read at all; the message begins with its path and, where known, the line."""
+
+    code = "exchange"
+
+    def __init__(self, source: str, message: str, line: int | None = None) -> None:
+        place = source if line is None else f"{source}:{line}"
+        super().__init__(f"{place}: {message}")
+        self.source = source
+        self.line = line
+
+
+class Entry(BaseModel):
+    """One line of a report."""
+
+    model_config = ConfigDict(frozen=True)
+
+    source: str = Field(description="The file, by the name it was given under.")
+    line: int | None = Field(default=None, description="Line in the file, from 1; null: the file as a whole.")
+    object: str = Field(default="", description="The object, such as FB_Motor.Start; empty: none.")
+    outcome: Outcome = Field(
+        description="imported: as it was; changed: with a difference that the text tells; kept: stored "
+        "unchanged but not compiled; refused: not in the project."
+    )
+    text: str = Field(default="", description="What was changed or why it could not be read.")
+
+    def __str__(self) -> str:
+        place = self.source if self.line is None else f"{self.source}:{self.line}"
+        name = f" {self.object}" if self.object else ""
+        return f"{place}: {self.outcome}{name}{': ' + self.text if self.text else ''}"
+
+
+class ImportReport(BaseModel):
+    """Everything an import has to say."""
+
+    entries: list[Entry] = Field(default_factory=list)
+
+    def add(
+        self, outcome: Outcome, source: str, text: str = "", *, name: str = "", line: int | None = None
+    ) -> None:
+        """Append an entry; past the limit only the last entry counts on."""
+        if len(self.entries) < MAX_ENTRIES:
+            self.entries.append(Entry(source=source, line=line, object=name, outcome=outcome, text=text))
+        else:
+            note = f"more than {MAX_ENTRIES} entries; the further ones are left out"
+            self.entries[-1] = Entry(source=source, outcome=outcome, text=note)
+
+    def counts(self) -> dict[Outcome, int]:
+        """Number of entries of each outcome that occurs."""
+        return dict(Counter(entry.outcome for entry in self.entries))
+
+    def noteworthy(self) -> Iterable[Entry]:
+        """The entries a person should read: all but plain imports."""
+        return (entry for entry in self.entries if entry.outcome != "imported")
+
+    def summary(self) -> str:
+        """One line such as `212 imported, 3 changed, 1 refused`."""
+        counts = self.counts()
+        order: tuple[Outcome, ...] = ("imported", "changed", "kept", "refused")
+        return ", ".join(f"{counts[key]} {key}" for key in order if key in counts) or "nothing imported"

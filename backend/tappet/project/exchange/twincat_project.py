@@ -1,0 +1,105 @@
+"""TwinCAT 3: `.plcproj`, the list of the files, folders and libraries of a PLC project."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Mapping
+from urllib.parse import unquote
+
+from tappet.project.exchange.drafts import Batch, Draft, library_manager, plc_logic, task_configuration
+from tappet.project.exchange.libraries import reference
+from tappet.project.exchange.report import ExchangeError, ImportReport
+from tappet.project.exchange.twincat import ENDINGS, read_object
+from tappet.project.exchange.xml_tree import Element, read_xml
+
+_RESOLUTION = re.compile(r"\s*(?P<name>[^,]+?)\s*(?:,\s*(?P<version>[^,(]+?)\s*)?(?:[,(].*)?$", re.DOTALL)
+
+
+def read_project(
+    source: str, files: Mapping[str, bytes], batch: Batch, report: ImportReport, *, own_device: bool
+) -> set[str]:
+    """Take a project in, with those of its files that are in `files`; the paths of these.
+
+    `own_device`: it becomes a device of its own, not part of the application that is imported into.
+    """
+    root = read_xml(source, files[source])
+    if root.tag != "Project":
+        raise ExchangeError(source, "is no PLC project: its root is not <Project>", root.line)
+    name = _property(root, "Title") or _property(root, "Name") or posixpath.basename(source).rsplit(".", 1)[0]
+    batch.name = batch.name or name
+    batch.description = batch.description or _property(root, "Description")
+    application = batch.loose
+    if own_device:
+        device = Draft("device", name, source=source)
+        application = Draft("application", name, source=source)
+        plc_logic(device).children.append(application)
+        batch.devices.append(device)
+    by_key = {path.casefold(): path for path in files}
+    used = {source}
+    for item in root.walk():
+        include = unquote(item.get("Include")).replace("\\", "/")
+        if item.tag == "Folder" and include:
+            application.below(_folders(include))
+        elif item.tag in ("Compile", "None", "Content", "EmbeddedResource") and include:
+            link = item.child("Link")
+            path = by_key.get(
+                posixpath.normpath(posixpath.join(posixpath.dirname(source), include)).casefold()
+            )
+            if not include.casefold().endswith(ENDINGS):
+                if item.tag == "Compile":
+                    report.add(
+                        "refused", source, "files of this kind are not read", name=include, line=item.line
+                    )
+                continue
+            if path is None:
+                text = "the project lists this file, but it was not given with it"
+                report.add("refused", source, text, name=include, line=item.line)
+                continue
+            used.add(path)
+            place = link.text().replace("\\", "/") if link is not None else include
+            _add(application, _folders(posixpath.dirname(place)), path, files[path], report)
+        elif item.tag in ("PlaceholderReference", "LibraryReference") and include:
+            _library(source, item, include, application, report)
+    return used
+
+
+def _add(
+    application: Draft, folders: tuple[str, ...], path: str, content: bytes, report: ImportReport
+) -> None:
+    try:
+        drafts = read_object(path, content, report)
+    except ExchangeError as error:
+        report.add("refused", error.source, str(error).partition(": ")[2], line=error.line)
+        return
+    for draft in drafts:
+        parent = task_configuration(application) if draft.kind == "task" else application.below(folders)
+        parent.children.append(draft)
+
+
+def _library(source: str, item: Element, include: str, application: Draft, report: ImportReport) -> None:
+    resolution = item.child("DefaultResolution")
+    text = resolution.text() if resolution is not None else include
+    match = _RESOLUTION.match(text)
+    namespace = item.child("Namespace")
+    made = reference(
+        source,
+        match["name"] if match else include,
+        (match["version"] or "*") if match else "*",
+        namespace.text().strip() if namespace is not None else "",
+        report,
+        item.line,
+    )
+    library_manager(application).data.setdefault("references", []).append(made)
+
+
+def _folders(path: str) -> tuple[str, ...]:
+    return tuple(part for part in path.split("/") if part not in ("", ".", ".."))
+
+
+def _property(root: Element, tag: str) -> str:
+    for group in root.children("PropertyGroup"):
+        child = group.child(tag)
+        if child is not None and child.text().strip():
+            return child.text().strip()
+    return ""
