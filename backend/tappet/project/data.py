@@ -54,7 +54,7 @@ Text = Annotated[str, Field(max_length=MAX_TEXT), AfterValidator(_clean_text)]
 Line = Annotated[str, Field(max_length=4000), AfterValidator(_clean_text)]
 Duration = Annotated[str, BeforeValidator(_microseconds_as_text), AfterValidator(_clean_time)]
 """A TIME literal (`T#20ms`) or a number of microseconds as text (`300`); TASK-17."""
-Language = Literal["ST"]
+Language = Literal["ST", "IL", "LD", "FBD", "CFC", "SFC"]
 
 
 class Data(BaseModel):
