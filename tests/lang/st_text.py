@@ -9,7 +9,7 @@ from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
 
-_PLACES = {"span", "name_span", "source", "owner"}
+_PLACES = {"span", "name_span", "target_span", "source", "owner"}
 _RESOLVED = {"type", "constant", "is_constant", "symbol", "bit", "operand_type", "parameter", "number"}
 _IGNORED = _PLACES | _RESOLVED | {"untyped", "expansion"}
 _COMPOUND = (ast.If, ast.Case, ast.For, ast.While, ast.RepeatUntil, ast.Try)

@@ -56,6 +56,8 @@ class Body:
         self.checks = scope is not Scope.LIBRARY
         """Whether implicit check functions apply: to sources of the application, not to libraries."""
         self.temporaries = 0
+        self.held: dict[int, ir.Place] = {}
+        """Where the accumulator of IL is kept, by the number of its `Hold`."""
 
     # -- statements ----------------------------------------------------------------------------------
 

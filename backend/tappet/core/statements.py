@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from tappet.core import assign, calls, ir, places
-from tappet.core.body import Body
-from tappet.core.scalars import convert, require_scalar
+from tappet.core.body import PLACES, VALUES, Body
+from tappet.core.scalars import convert, require_scalar, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.result import carried_type
 
 
 def lower_statements(b: Body, statements: Sequence[ast.Stmt]) -> None:
@@ -142,6 +143,29 @@ def _return(b: Body, s: ast.Return) -> None:
     b.emit(ir.Return())
 
 
+def _hold(b: Body, s: ast.Hold) -> None:
+    """Keep the accumulator of IL in a local of its own."""
+    e = s.value
+    type_ = e.type
+    assert type_ is not None
+    scalar = scalar_of(carried_type(e))
+    if scalar is not None:
+        place = ir.Place(b.temp(scalar, once=False))
+        b.emit(ir.Store(place, b.value(e)))
+    else:
+        place = ir.Place(b.space(type_.size, type_.align))
+        assign.copy_value(b, place, type_, e)
+    b.held[s.slot] = place
+
+
+def _held_value(b: Body, e: ast.Held) -> ir.Expr:
+    return ir.Load(require_scalar(carried_type(e)), b.held[e.slot])
+
+
+def _held_place(b: Body, e: ast.Held) -> ir.Place:
+    return b.held[e.slot]
+
+
 def _jump(b: Body, s: ast.Jump) -> None:
     b.emit(ir.Goto(s.target.upper()))
 
@@ -163,5 +187,8 @@ _STATEMENTS: dict[type, Callable[..., None]] = {
     ast.Continue: _continue,
     ast.Return: _return,
     ast.Jump: _jump,
+    ast.Hold: _hold,
     ast.Try: _try,
 }
+VALUES[ast.Held] = _held_value
+PLACES[ast.Held] = _held_place

@@ -150,6 +150,8 @@ class Call(Expr):
 
     callee: Expr
     args: list[Argument]
+    accumulator: Argument | None = None
+    """The first of `args` when it is the accumulator of IL; analysis leaves it out where nothing takes it."""
     # resolved
     target: Symbol | None = None
     """PouSymbol for functions, methods, programs and the body of an FB; BuiltinSymbol for operators."""
@@ -198,6 +200,16 @@ class AssignExpr(Expr):
     op: str
     target: Expr
     value: Expr
+
+
+@dataclass(slots=True, kw_only=True)
+class Held(Expr):
+    """What the `Hold` of this number has computed: the accumulator of IL."""
+
+    slot: int
+    # resolved
+    carried: Type | None = None
+    """Type in which the value is kept."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -320,6 +332,15 @@ class Jump(Stmt):
     """JMP label."""
 
     target: str
+    target_span: Span = NOWHERE
+
+
+@dataclass(slots=True, kw_only=True)
+class Hold(Stmt):
+    """Computes a value and keeps it for every `Held` of the same number: the accumulator of IL."""
+
+    slot: int
+    value: Expr
 
 
 @dataclass(slots=True, kw_only=True)

@@ -6,6 +6,8 @@ from pathlib import PurePosixPath
 from typing import Final
 
 from tappet.lang import ast
+from tappet.lang.il.reader import read_body
+from tappet.lang.il.recognise import is_instruction_list
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import BODY_END, CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS, Opener
 from tappet.lang.parser_type_blocks import TypeBlockParser
@@ -235,11 +237,18 @@ class Parser(TypeBlockParser):
                 self._pass(ENDS[kind])
             else:
                 at = self.i
-                body = self.statements()
+                if not begun and self._reads_rows():
+                    pou.language = "IL"
+                body = read_body(self) if pou.language == "IL" else self.statements()
                 pou.body += body
                 begun = begun or any(not isinstance(item, ast.PragmaStmt) for item in body)
                 if self.i == at and not self._foreign_end(kind):
                     break
+
+    def _reads_rows(self) -> bool:
+        """Whether the body that begins here is written in IL."""
+        language = self.source.language
+        return is_instruction_list(self) if language is None else language == "IL"
 
     def _pass(self, kind: str) -> None:
         if self.kinds[self.i] == kind:
@@ -327,7 +336,7 @@ class Parser(TypeBlockParser):
         self.open.append(opener)
         while True:
             at = self.i
-            body += self.statements()
+            body += read_body(self) if not body and self._reads_rows() else self.statements()
             if self.i == at and not self._foreign_end(self.kinds[at]):
                 break
             if self.kinds[self.i] in SECTIONS or self.kinds[self.i] in OBJECT_HEADS:

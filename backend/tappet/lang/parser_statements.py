@@ -451,9 +451,9 @@ class StatementParser(ExpressionParser):
         """JMP label."""
         self.i = start + 1
         messages = len(self.diagnostics)
-        target, _ = self.name("label", "Write JMP and the label to go to.")
+        target, place = self.name("label", "Write JMP and the label to go to.")
         self.end_of_statement(messages)
-        return ast.Jump(span=self.span_from(start), target=target)
+        return ast.Jump(span=self.span_from(start), target=target, target_span=place)
 
     def empty_statement(self, start: int) -> ast.Stmt:
         """A lone `;`."""

@@ -37,6 +37,8 @@ class Source:
     body_line: int = 0
     """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one
     text."""
+    language: str | None = None
+    """Language of the bodies, `ST` or `IL`; None: each body tells by its first instruction."""
 
 
 class Span(NamedTuple):

@@ -13,6 +13,7 @@ from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, val
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.type_conversions import find_operator
+from tappet.lang.any_type import accepts, is_any
 from tappet.lang.rules import EXPRESSION_RULES
 from tappet.lang.source import Span
 from tappet.lang.symbols import PouSymbol, PropertySymbol, Storage, Symbol, TypeSymbol, VarSymbol
@@ -82,6 +83,14 @@ def _hint(b: Body, callee: ast.Expr, symbol: Symbol | None, type_: Type | None) 
     return ""
 
 
+def _pass_accumulator(e: ast.Call, accumulator: ast.Argument, target: PouSymbol) -> None:
+    """IL: the accumulator is the first operand of what takes one (IL-13)."""
+    takes = any(p.section in _PASSED for p in target.parameters)
+    passed = bool(e.args) and e.args[0] is accumulator
+    if takes != passed:
+        e.args = [accumulator, *e.args] if takes else e.args[1:]
+
+
 def _evaluate_arguments(b: Body, args: Sequence[ast.Argument]) -> None:
     for arg in args:
         arg.parameter = None
@@ -96,6 +105,8 @@ def _bind(b: Body, e: ast.Call, target: PouSymbol) -> None:
     e.type = result.base if result.__class__ is t.Reference else result
     b.session.called.add(id(target))
     b.called.append((target, text_of(e.callee), e.span))
+    if e.accumulator is not None:
+        _pass_accumulator(e, e.accumulator, target)
     bind_arguments(b, e.args, target.parameters, target.name, e.span, target.kind)
 
 
@@ -195,9 +206,19 @@ def _argument(b: Body, arg: ast.Argument, parameter: VarSymbol, callee: str) -> 
         _in_out(b, content, parameter, type_, callee)
     elif type_.__class__ is t.Reference:
         bind_reference(b, content, type_)
+    elif is_any(type_):
+        _any(b, content, type_)
     else:
         require(b, content, type_)
 
+
+def _any(b: Body, content: ast.Expr, type_: Type) -> None:
+    own = content.type
+    assert own is not None
+    if not accepts(type_, own):
+        b.report("E0301", content.span, source=own, target=type_, hint="")
+    elif is_place(content):
+        mark_written(b, content)  # through pValue
 
 def _output(b: Body, target: ast.Expr, source: Type | None) -> None:
     type_ = value(b, target)

@@ -52,6 +52,7 @@ class Body:
     __slots__ = (
         "assigned",
         "called",
+        "held",
         "jumps",
         "labels",
         "locals",
@@ -82,6 +83,8 @@ class Body:
         self.assigned: ast.Expr | None = None
         """The value of the assignment being resolved: `__NEW` is legal only there."""
         self.loop_writes: list[tuple[Symbol, Span]] = []
+        self.held: dict[int, ast.Expr] = {}
+        """What the accumulator of IL holds, by the number of its place."""
 
     def report(self, code: str, span: Span, related: Iterable[Related] = (), /, **fields: object) -> None:
         """Adds a message at a place of this text."""

@@ -44,6 +44,7 @@ Expressions
                 is static, others are virtual through PouSymbol.vtable of the instance when callee base can
                 be derived. target BuiltinSymbol: see there; with `expansion` set, lower that instead (ADD,
                 AND, GT, MOVE ...). Unselected arguments of SEL, MUX, AND_THEN, OR_ELSE are not evaluated.
+    Held        the accumulator of IL: what the Hold of the same number has computed and keeps in `carried`.
     AssignExpr  like Assign; its value is the target after the assignment, type = target type.
     ArrayInit   only as initial value: type Array; elements in storage order, missing ones take the default.
                 Nested arrays may also be written flat. Repeat.count is constant; `N(7)` with a constant N, a
@@ -173,6 +174,8 @@ def carried_type(expr: ast.Expr) -> Type | None:
         return expr.operand_type or expr.type
     elif isinstance(expr, ast.Call) and isinstance(expr.target, BuiltinSymbol):
         return expr.target.return_type
+    elif isinstance(expr, ast.Held) and not expr.is_constant:
+        return expr.carried or expr.type
     return expr.type
 
 

@@ -13,6 +13,7 @@ from tappet.lang.analysis.calls import bind_reference
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
 from tappet.lang.analysis.places import writable
+from tappet.lang.analysis.result import carried_type
 from tappet.lang.rules import LIST_RULES, STATEMENT_RULES
 from tappet.lang.symbols import PropertySymbol, VarSymbol
 from tappet.lang.types import Elementary, Kind, Type
@@ -274,6 +275,22 @@ def _exit(b: Body, s: ast.Exit | ast.Continue) -> None:
         b.report("E0801", s.span, name="EXIT" if isinstance(s, ast.Exit) else "CONTINUE")
 
 
+def _hold(b: Body, s: ast.Hold) -> None:
+    """The accumulator of IL is computed; constants stay what they are, so that they adapt to each use."""
+    b.held[s.slot] = s.value
+    value(b, s.value)
+
+
+def _held(b: Body, e: ast.Held) -> None:
+    kept = b.held.get(e.slot)
+    e.type = e.carried = e.constant = None
+    e.is_constant = e.untyped = False
+    if kept is None or kept.type is None:
+        return
+    e.type, e.carried = kept.type, carried_type(kept)
+    e.constant, e.is_constant, e.untyped = kept.constant, kept.is_constant, kept.untyped
+
+
 def _jump(b: Body, s: ast.Jump) -> None:
     b.jumps.append(s)
 
@@ -301,6 +318,7 @@ def check_jumps(b: Body) -> None:
 
 
 EXPRESSIONS[ast.AssignExpr] = _assign_expr
+EXPRESSIONS[ast.Held] = _held
 STATEMENTS.update(
     {
         ast.Assign: _assign,
@@ -314,6 +332,7 @@ STATEMENTS.update(
         ast.Exit: _exit,
         ast.Continue: _exit,
         ast.Jump: _jump,
+        ast.Hold: _hold,
         ast.Try: _try,
     }
 )

@@ -46,9 +46,9 @@ class Occurrence:
 
 
 _SKIPPED = frozenset(
-    {"owner", "init", "expansion", "symbol", "type", "parameter", "source", "span", "name_span"}
+    {"owner", "init", "expansion", "accumulator", "symbol", "type", "carried", "parameter", "source"}
+    | {"span", "name_span", "target_span"}
 )
-_LABEL = re.compile(r"JMP\s+", re.IGNORECASE)
 
 
 _child_fields: dict[type[ast.Node], tuple[str, ...]] = {}
@@ -129,7 +129,6 @@ class _Finder:
     def __init__(self, snapshot: Snapshot, source: Source) -> None:
         self.analysis = snapshot.analysis
         self.source = source
-        self.lines: list[str] | None = None
         self.found: list[Occurrence] = []
         self.stack: list[tuple[ast.Node, Role, int]] = []
 
@@ -287,16 +286,7 @@ class _Finder:
                 self.add(Span(span.end_line, span.end_column - len(last), *span[2:]), "read", symbol)
 
     def jump(self, node: ast.Jump, body: int) -> None:
-        if self.lines is None:
-            self.lines = split_lines(self.source.text)
-        span = node.span
-        start = span.column
-        if node.label is not None:
-            start = self.lines[span.line].find("JMP", start)
-        match = _LABEL.match(self.lines[span.line], max(start, 0))
-        if match is not None:
-            place = Span(span.line, match.end(), span.line, match.end() + len(node.target))
-            self.add(place, "read", None, _label_key(self.source, body, node.target))
+        self.add(node.target_span, "read", None, _label_key(self.source, body, node.target))
 
 
 def _label_key(source: Source, body: int, name: str) -> Key:
