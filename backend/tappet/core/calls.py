@@ -18,10 +18,10 @@ from tappet.core.body import (
 from tappet.core.program import attribute_value
 from tappet.core.scalars import NULL, require_scalar, scalar_of
 from tappet.core.values import member_value, variable_value
-from tappet.lang import ast
+from tappet.lang import any_type, ast
 from tappet.lang import types as t
+from tappet.lang.any_type import is_any
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol, PropertySymbol, VarSymbol
-
 
 BODY = "__BODY"
 """Name of a block's body in its table of methods."""
@@ -273,6 +273,8 @@ def _argument(b: Body, prepared: Prepared, parameter: VarSymbol, given: ast.Argu
         if value is None:
             return ir.Const(require_scalar(type_), default_number(type_))
         return b.value_as(value, type_)
+    if value is not None and is_any(type_) and not is_any(value.type):
+        return _any_argument(b, prepared, value)
     return _aggregate_argument(b, prepared, type_, value)
 
 
@@ -297,6 +299,33 @@ def _aggregate_argument(b: Body, prepared: Prepared, type_: t.Type, value: ast.E
             assign.copy_value(b, ir.Place(local), type_, value)
     prepared.before += before
     return ir.Address(ir.PTR, ir.Place(local))
+
+
+def _any_argument(b: Body, prepared: Prepared, value: ast.Expr) -> ir.Expr:
+    """The structure that stands for a value of any type: class, address, size."""
+    type_ = value.type
+    assert type_ is not None
+    if places.is_place(value) and not _is_bit(value):
+        place = b.place(value)
+        b.program.expose(place, type_)
+        b.touch(place)
+    else:
+        place = ir.Place(b.space(type_.size, type_.align))
+        with b.block_of() as fill:
+            assign.copy_value(b, place, type_, value)
+        prepared.before += fill
+    record = b.space(any_type.SIZE, 8)
+    kind = ir.Const(ir.I32, any_type.class_of(type_))
+    prepared.before += [
+        ir.Store(ir.Place(record, any_type.CLASS_OFFSET), kind),
+        ir.Store(ir.Place(record, any_type.VALUE_OFFSET), places.address_of(place)),
+        ir.Store(ir.Place(record, any_type.SIZE_OFFSET), ir.Const(ir.I32, type_.size)),
+    ]
+    return ir.Address(ir.PTR, ir.Place(record))
+
+
+def _is_bit(e: ast.Expr) -> bool:
+    return isinstance(e, ast.Member) and isinstance(e.symbol, VarSymbol) and e.symbol.bit is not None
 
 
 def in_out_address(b: Body, before: list[ir.Stmt], parameter: VarSymbol, value: ast.Expr) -> ir.Expr:

@@ -220,6 +220,7 @@ def _any(b: Body, content: ast.Expr, type_: Type) -> None:
     elif is_place(content):
         mark_written(b, content)  # through pValue
 
+
 def _output(b: Body, target: ast.Expr, source: Type | None) -> None:
     type_ = value(b, target)
     if type_ is None or source is None or not writable(b, target):

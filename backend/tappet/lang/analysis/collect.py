@@ -9,6 +9,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.scope import Level, describe
+from tappet.lang.any_type import ANY_TYPES, TYPE_CLASS_SYMBOL
 from tappet.lang.attributes import attribute
 from tappet.lang.diagnostics import Related
 from tappet.lang.source import Source, Span
@@ -86,7 +87,9 @@ def collect(session: Session, units: Sequence[ast.Unit]) -> Collected:
 def _add_system_interface(session: Session) -> None:
     query = InterfaceSymbol("IQueryInterface")
     query.type = t.Interface("IQueryInterface", pou=ast.Interface(name="IQueryInterface", symbol=query))
-    session.levels.system["__SYSTEM"] = NamespaceSymbol("__System", members={"IQUERYINTERFACE": query})
+    members: dict[str, Symbol] = {"IQUERYINTERFACE": query, "TYPE_CLASS": TYPE_CLASS_SYMBOL}
+    members["ANYTYPE"] = TypeSymbol("AnyType", type=ANY_TYPES["ANY"])
+    session.levels.system["__SYSTEM"] = NamespaceSymbol("__System", members=members)
 
 
 def check_name(session: Session, name: str, source: Source, span: Span) -> None:

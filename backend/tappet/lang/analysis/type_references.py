@@ -12,6 +12,7 @@ from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import value
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.scope import AmbiguousSymbol, describe
+from tappet.lang.any_type import ANY_TYPES
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Span
 from tappet.lang.symbols import InterfaceSymbol, NamespaceSymbol, PouSymbol, Symbol, TypeSymbol
@@ -96,6 +97,8 @@ class TypeReferences:
         if elementary is not None:
             return elementary
         symbol = self._named_symbol(body, name)
+        if symbol is None and key in ANY_TYPES:
+            return _any_group(body, ref, key)
         if isinstance(symbol, TypeSymbol):
             type_ = self.symbol_type(symbol)
             declared = self.declared.get(id(symbol))
@@ -345,6 +348,14 @@ class TypeReferences:
                     "E0417", declaration.name_span, name=name, base=declaration.extends, what="structure"
                 )
         return struct
+
+
+def _any_group(body: Body, ref: ast.NamedType, key: str) -> Type | None:
+    if body.pou is not None and body.pou.kind in ("FUNCTION", "METHOD"):
+        return ANY_TYPES[key]
+    hint = f"'{key}' is for inputs of functions and methods."
+    body.report("E0202", ref.span, name=key, hint=hint)
+    return None
 
 
 def _warn_obsolete(body: Body, span: Span, attributes: list[ast.Pragma]) -> None:

@@ -1,0 +1,92 @@
+"""ANY and its groups as types of inputs: the callee gets class, address and size of what is given (LDEC-31).
+
+The input is a structure `__SYSTEM.AnyType`: TypeClass, pValue (POINTER TO BYTE), diSize (bytes).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.symbols import Storage, TypeSymbol, VarSymbol
+
+CLASSES = (
+    "BOOL", "BIT", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT", "UDINT",
+    "ULINT", "REAL", "LREAL", "STRING", "WSTRING", "TIME", "DATE", "DATEANDTIME", "TIMEOFDAY", "POINTER",
+    "REFERENCE", "SUBRANGE", "ENUM", "ARRAY", "PARAMS", "USERDEF", "NONE", "ANY", "ANYBIT", "ANYDATE", "ANYINT",
+    "ANYNUM", "ANYREAL", "LAZY", "LTIME", "BITCONST", "INTERFACE", "LDATE", "LDATEANDTIME", "LTIMEOFDAY",
+)  # fmt: skip
+"""Values of `__SYSTEM.TYPE_CLASS` from 0 on, without TYPE_."""
+
+TYPE_CLASS = t.Enum("TYPE_CLASS", t.DINT, {f"TYPE_{name}": n for n, name in enumerate(CLASSES)})
+TYPE_CLASS.qualified_only = True
+TYPE_CLASS_SYMBOL = TypeSymbol("TYPE_CLASS", type=TYPE_CLASS)
+
+_LONG_NAMES = {
+    "DATE_AND_TIME": "DATEANDTIME",
+    "TIME_OF_DAY": "TIMEOFDAY",
+    "LDATE_AND_TIME": "LDATEANDTIME",
+    "LTIME_OF_DAY": "LTIMEOFDAY",
+}
+CLASS_OFFSET, VALUE_OFFSET, SIZE_OFFSET, SIZE = 0, 8, 16, 24
+"""Bytes of the members in the structure, and of the structure."""
+
+
+def _any(name: str) -> t.Struct:
+    struct = t.Struct(name, size=SIZE, align=8)
+    for member, type_, offset in (
+        ("TypeClass", TYPE_CLASS, CLASS_OFFSET),
+        ("pValue", t.Pointer(t.BYTE), VALUE_OFFSET),
+        ("diSize", t.DINT, SIZE_OFFSET),
+    ):
+        symbol = VarSymbol(member, type=type_, storage=Storage.INSTANCE, owner=name, offset=offset)
+        symbol.home = Storage.INSTANCE
+        decl = ast.VarDecl(name=member, type_ref=ast.NamedType(name=str(type_)), symbol=symbol)
+        symbol.decl = decl
+        struct.members[member.upper()] = t.Member(member, type_, offset, decl=decl)
+    return struct
+
+
+def _is(*kinds: t.Kind) -> Callable[[t.Type], bool]:
+    return lambda type_: isinstance(type_, t.Elementary) and type_.kind in kinds
+
+
+_INTEGERS = (t.Kind.SIGNED, t.Kind.UNSIGNED)
+_ACCEPTS: dict[str, Callable[[t.Type], bool]] = {
+    "ANY": lambda type_: True,
+    "ANY_INT": _is(*_INTEGERS),
+    "ANY_REAL": _is(t.Kind.REAL),
+    "ANY_NUM": _is(*_INTEGERS, t.Kind.REAL),
+    "ANY_BIT": lambda type_: type_ == t.BOOL or _is(t.Kind.BITS)(type_),
+    "ANY_DATE": _is(t.Kind.DATE),
+    "ANY_STRING": lambda type_: isinstance(type_, t.String),
+}
+ANY_TYPES = {name: _any(name) for name in _ACCEPTS}
+"""The groups by name."""
+
+
+def is_any(type_: t.Type | None) -> bool:
+    """Whether an input has the type ANY or one of its groups."""
+    return isinstance(type_, t.Struct) and ANY_TYPES.get(type_.name) is type_
+
+
+def accepts(formal: t.Type, given: t.Type) -> bool:
+    """Whether a value of type `given` may be handed to an input of the group `formal`."""
+    return is_any(given) or (isinstance(formal, t.Struct) and _ACCEPTS[formal.name](t.value_type(given)))
+
+
+def class_of(type_: t.Type) -> int:
+    """TypeClass of a type, a value of TYPE_CLASS."""
+    if isinstance(type_, t.Reference):
+        type_ = type_.base
+    if isinstance(type_, t.Subrange):
+        type_ = type_.base
+    if isinstance(type_, t.Elementary):
+        name = _LONG_NAMES.get(type_.name, type_.name)
+    elif isinstance(type_, t.String):
+        name = "WSTRING" if type_.wide else "STRING"
+    else:
+        kinds = ((t.Enum, "ENUM"), (t.Array, "ARRAY"), (t.Pointer, "POINTER"), (t.Interface, "INTERFACE"))
+        name = next((known for kind, known in kinds if isinstance(type_, kind)), "USERDEF")
+    return CLASSES.index(name)
