@@ -121,6 +121,16 @@ def test_what_is_no_token_is_reported_once(text: str, expected: list[str]) -> No
     assert codes(lex(text, "x").diagnostics) == expected
 
 
+def test_an_attribute_may_go_over_several_lines_as_twincat_tools_write_it() -> None:
+    text = "{attribute 'note' := '\n  a: {b}\n  c: d\n'}\nx : INT; {attribute 'y' :=\n 'z'\n}\ny"
+    lexed = lex(text, "x")
+    assert not lexed.diagnostics
+    assert lexed.kinds == ["id", ":", "id", ";", "id", "end"]
+    assert [item.text[:16] for item in lexed.trivia[0]] == ["{attribute 'note"]
+    assert (lexed.lines[0], lexed.columns[0]) == (4, 0)
+    assert (lexed.lines[4], lexed.columns[4]) == (7, 0)
+
+
 def test_full_width_characters_are_read_as_what_they_look_like() -> None:
     assert kinds("a：=（1）；") == ["id", ":", "=", "(", "int", ")", ";"]
 

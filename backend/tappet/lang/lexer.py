@@ -46,7 +46,8 @@ _TOKEN = re.compile(
     | //[^\r\n]*+ | /\*[^*]*+(?:\*(?!/)[^*]*+)*+(?:\*/)?+ | /
     | '(?:[^'$\r\n]|\$[^\r\n])*+\$?+'?+ | "(?:[^"$\r\n]|\$[^\r\n])*+\$?+"?+
     | => | = | <= | <> | < | >= | > | \*\*?+
-    | \{(?:[^{}'"\r\n]|'[^'\r\n]*+'|"[^"\r\n]*+")*+\} | \{[^}\r\n]*+\}?+
+    | \{(?:[^{}'"\r\n]|'[^'\r\n]*+'|"[^"\r\n]*+")*+\}
+    | \{\s*+(?i:attribute)\b(?:[^{}'"\r\n]|[\r\n]\s*+(?=['":}])|'[^']*+'|"[^"]*+")*+\} | \{[^}\r\n]*+\}?+
     | (?i:L?(?:D|DT|DATE|TOD|TIME_OF_DAY|DATE_AND_TIME))\#\d\w*+(?:[-:]\d\w*+)*+(?:\.\d\w*+)?+
     | [^\W\d]\w*+\#(?:
           [+-]?+\d\w*+(?:\#\w*+|(?:\.\d\w*+)?+(?:(?<=\d[eE])[+-]\d\w*+)?+)
@@ -199,13 +200,18 @@ def _special(
     index = len(out.kinds)
     if piece == "(*":
         end = _nested_comment_end(text, end)
-    if piece.startswith(("(*", "//", "/*")):
+    if piece.startswith(("(*", "//", "/*", "{")):
         piece = text[start:end].removesuffix("\n") if end == len(text) else text[start:end]
         end_line, end_start = line, line_start
         for mark in _LINE_END.finditer(piece):
             end_line += 1
             end_start = start + mark.end()
         span = Span(line, column, end_line, start + len(piece) - end_start)
+        if piece[0] == "{":
+            out.trivia.setdefault(index, []).append(Trivia(PRAGMA, piece, span))
+            if piece[-1] != "}":
+                out.diagnostics.append(report("E0003", uri, span))
+            return end, end_line, end_start
         out.trivia.setdefault(index, []).append(Trivia(COMMENT, piece, span))
         closed = piece.startswith("//") or (
             len(piece) > 3 and piece.endswith("*)" if piece[0] == "(" else "*/")
@@ -217,11 +223,7 @@ def _special(
             out.diagnostics.append(report("E0002", uri, place, mark=mark_text))
         return end, end_line, end_start
     span = Span(line, column, line, column + len(piece))
-    if piece[0] == "{":
-        out.trivia.setdefault(index, []).append(Trivia(PRAGMA, piece, span))
-        if piece[-1] != "}":
-            out.diagnostics.append(report("E0003", uri, span))
-    elif piece[0] in "'\"":
+    if piece[0] in "'\"":
         out.diagnostics.append(report("E0004", uri, span, quote=piece[0]))
         _append(out, STRING, piece.rstrip("$") + piece[0], line, column)
         out.damaged.add(index + 1)
