@@ -74,6 +74,8 @@ class _Reader(RowReader):
         p, net = self.p, self.net
         if len(net.levels) > 1:
             self.fault("E0127", p.span_at(start), what=f"Label '{p.texts[start]}'")
+            del net.levels[1:]
+            net.level.used = True
         self.end_network()
         net.flush_label()
         p.i = start + 2
@@ -92,7 +94,9 @@ class _Reader(RowReader):
             self.p.diagnostics.append(
                 report("E0123", self.p.source.uri, level.opener, network=net.number, row=net.row, op=op)
             )
+            level.value = ast.ErrorExpr(span=level.opener)
             self.close_level(level.opener)
+            net.level.used = True
         self.drop()
 
     def drop(self) -> None:
@@ -118,10 +122,12 @@ class _Reader(RowReader):
             if word in WRONG_MODIFIERS:
                 base, modifier = WRONG_MODIFIERS[word]
                 self.fault("E0126", p.span_at(start), op=base, modifier=modifier)
+                self.lose(start)
             elif kind is ID or kind in ("THIS", "SUPER", "."):
                 self.function(start)
             else:
                 self.fault("E0128", p.span_at(start), found=p.found())
+                self.lose(start)
             return
         p.i = start + 1
         action = found.action
@@ -147,6 +153,11 @@ class _Reader(RowReader):
         self.net.level.value = ast.ErrorExpr(span=self.p.span_at(start))
         return False
 
+    def lose(self, start: int) -> None:
+        """What the accumulator holds behind a faulty row is not known: rows that use it are no faults."""
+        level = self.net.level
+        level.value, level.used = ast.ErrorExpr(span=self.p.span_at(start)), True
+
     def taken(self) -> ast.Expr:
         """The accumulator as a part of the expression that takes its place."""
         value = self.net.level.value
@@ -162,9 +173,10 @@ class _Reader(RowReader):
 
     def load(self, found: Instruction, start: int) -> None:
         operand = self.operand(found.name)
-        if operand is None:
-            return
         self.drop()
+        if operand is None:
+            self.lose(start)
+            return
         if found.negated:
             operand = self.complement(operand, self.p.span_at(start))
         self.net.set(operand, self.p.span_at(start))
