@@ -71,9 +71,9 @@ def _links(text: str) -> list[str]:
     return re.findall(r"https?://\S+/auth/link\?token=\S+", text)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Chromium without a window."""
+    """Chromium without a window. It ends with its module: while it is there, no asynchronous test can run."""
     found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if found is None:
         pytest.fail("Chromium is missing; `make system` installs it")
@@ -86,9 +86,9 @@ def browser() -> Iterator[Browser]:
         chromium.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    """One server for a module of tests, on a free port, with data of its own."""
+    """One server for all tests of a process, on a free port, with data of its own."""
     data = tmp_path_factory.mktemp("serve")
     log = data / "serve.log"
     command = [sys.executable, "-m", "tappet", "serve", "--port", "0", "--data", str(data / "data")]
