@@ -218,13 +218,11 @@ def test_statements_begin_at_their_load() -> None:
     assert not {1, 4} & set(rows)
 
 
-_PIECES = st.sampled_from(
-    [
-        *"LD ST ADD MUL( ) AND( JMP JMPC CAL RET RETC S R NOT a b x l l: 1 2 , ( ) := => t1 t1( IN := SEL".split(),
-        *"LEN ; + - THIS^ . [ ] ' (* *) {x} IF END_IF VAR END_VAR TRUE %MX0.0 N".split(),
-        *("\n", "\n", "\n"),
-    ]
-)
+_WORDS = """
+    LD ST ADD MUL( ) AND( JMP JMPC CAL RET RETC S R NOT a b x l l: 1 2 , ( ) := => t1 t1( IN := SEL LEN ; + -
+    THIS^ . [ ] ' (* *) {x} IF END_IF VAR END_VAR TRUE %MX0.0 N
+"""
+_PIECES = st.sampled_from([*_WORDS.split(), *["\n"] * 4])
 
 
 @given(st.lists(_PIECES, max_size=40))

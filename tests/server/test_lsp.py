@@ -183,6 +183,17 @@ async def test_definition_in_a_library_can_be_read() -> None:
         assert "There is no document" in (await client.refused("tappet/document", {"uri": "x"}))["message"]
 
 
+async def test_short_forms_are_expanded() -> None:
+    """DECL-13, LDEC-142: what Ctrl+Enter asks for."""
+    async with start() as client:
+        await client.start()
+        assert await client.ask("tappet/shorthand", {"line": "n I 2; parts"}) == {
+            "line": "n: INT := 2; (* parts *)"
+        }
+        assert await client.ask("tappet/shorthand", {"line": "n : INT;"}) == {"line": None}
+        assert "one line" in (await client.refused("tappet/shorthand", {}))["message"]
+
+
 async def test_references_and_highlights() -> None:
     async with start() as client:
         await client.start()
@@ -431,7 +442,8 @@ async def test_positions_outside_of_the_text() -> None:
 
 
 METHODS = [
-    *("initialize", "shutdown", "$/cancelRequest", "tappet/document", "workspace/symbol"),
+    *("initialize", "shutdown", "$/cancelRequest", "tappet/document", "tappet/shorthand"),
+    "workspace/symbol",
     *(f"textDocument/{name}" for name in ("hover", "completion", "rename", "didChange", "didOpen")),
 ]
 JSON = st.recursive(

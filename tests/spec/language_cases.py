@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tappet.codegen.build import BuildOptions, BuildResult, build_application
+from tappet.codegen.build import BuildOptions, BuildResult, LibraryReference, build_application
 from tappet.codegen.jit import ApplicationFault, LoadedApplication
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import SymbolError, VarRef
@@ -57,7 +57,8 @@ def sources_of(case: dict[str, Any]) -> list[Source]:
 
 def build(case: dict[str, Any], previous: CodePackage | None = None) -> BuildResult:
     byte_addressing = case.get("options", {}).get("byte_addressing", False)
-    options = BuildOptions(byte_addressing=byte_addressing, level=1)
+    libraries = (LibraryReference("Standard"), LibraryReference("Standard64"))
+    options = BuildOptions(byte_addressing=byte_addressing, level=1, libraries=libraries)
     return build_application(sources_of(case), options=options, previous=previous)
 
 
@@ -130,6 +131,7 @@ def _execute(case: dict[str, Any], result: BuildResult, warnings: list[str]) -> 
         if "then" in case:
             application = _then(case, application)
         expected = case.get("expect_after_task", case["expect"])
+        expected = expected.get("display", expected)
         values = {path: _value(application, path, want) for path, want in expected.items() if _is_path(path)}
         values = {path: repr(v) if isinstance(v, float) else v for path, v in values.items()}
     except ApplicationFault as fault:

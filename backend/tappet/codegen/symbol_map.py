@@ -27,7 +27,8 @@ class MemberInfo:
     section: str = "VAR"
     """VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT (a pointer) ..."""
     flags: str = ""
-    """Space separated of CONSTANT, RETAIN, PERSISTENT, HIDDEN."""
+    """Space separated of CONSTANT, RETAIN, PERSISTENT, HIDDEN, DISPLAY_HEX (`display`),
+    SYMBOL_READ (`symbol_export`)."""
     bit: int | None = None
     """Bit of a BIT member or of a variable at a bit address."""
     absolute: bool = False

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from tappet.codegen.display import FLAG as DISPLAY_FLAG
+from tappet.codegen.display import MODES
 from tappet.codegen.layout import Signatures
 from tappet.codegen.package import DataObject, RemanentRange
+from tappet.codegen.symbol_export import FLAG as SYMBOL_FLAG
+from tappet.codegen.symbol_export import right_of
 from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
 from tappet.core.initial import VFTABLE
 from tappet.core.lower import DataObject as ProgramData
@@ -98,8 +102,8 @@ class TypeTable:
     def member(self, m: t.Member, out_of_sight: bool = False) -> MemberInfo:
         """Description of a stored member; VAR_IN_OUT is the pointer it is stored as."""
         type_ = t.Pointer(m.type) if m.section == "VAR_IN_OUT" else m.type
-        flags = set(m.flags)
-        if out_of_sight or m.name.upper() == VFTABLE or hidden(m.decl):
+        flags = set(m.flags) | marks(m.decl)
+        if out_of_sight or m.name.upper() == VFTABLE:
             flags.add("HIDDEN")
         return MemberInfo(m.name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
 
@@ -107,6 +111,41 @@ class TypeTable:
 def hidden(decl: ast.VarDecl | None) -> bool:
     """Whether a variable has the attribute hide."""
     return decl is not None and attribute_value(decl.attributes, "hide") is not None
+
+
+def marks(decl: ast.VarDecl | None) -> set[str]:
+    """Flags that the attributes of a variable give: HIDDEN, DISPLAY_HEX (LPRG-21), SYMBOL_READ (LPRG-44)."""
+    found: set[str] = set()
+    if decl is None or not decl.attributes:
+        return found
+    if hidden(decl):
+        found.add("HIDDEN")
+    mode = MODES.get((attribute_value(decl.attributes, "displaymode") or "").lower())
+    if mode is not None:
+        found.add(f"{DISPLAY_FLAG}{mode.upper()}")
+    right = right_of(attribute_value(decl.attributes, "symbol"))
+    if right is not None:
+        found.add(f"{SYMBOL_FLAG}{right.upper()}")
+    return found
+
+
+def _exported(owner: GvlSymbol | PouSymbol, members: tuple[MemberInfo, ...]) -> tuple[MemberInfo, ...]:
+    """Members with the access right of their program or list, where they have none of their own (SYM-10)."""
+    if isinstance(owner, PouSymbol):
+        pragmas = owner.pou.attributes if owner.pou is not None else []
+    else:
+        blocks = owner.decl.blocks if owner.decl is not None else []
+        own = owner.decl.attributes if owner.decl is not None else []
+        pragmas = [*own, *(p for block in blocks for p in block.attributes)]
+    right = right_of(attribute_value(pragmas, "symbol"))
+    if right is None:
+        return members
+    return tuple(
+        m
+        if SYMBOL_FLAG in m.flags
+        else replace(m, flags=" ".join(sorted([*m.flags.split(), f"{SYMBOL_FLAG}{right.upper()}"])))
+        for m in members
+    )
 
 
 def build_symbol_map(
@@ -127,14 +166,13 @@ def build_symbol_map(
         if isinstance(item.owner, PouSymbol):
             assert item.owner.instance is not None
             number = table.number(item.owner.instance)
-            if extra:
-                info = table.types[number]
-                table.types[number] = TypeInfo(
-                    info.name, info.kind, info.size, members=(*info.members, *extra)
-                )
+            info = table.types[number]
+            members = _exported(item.owner, (*info.members, *extra))
+            if members != info.members:
+                table.types[number] = TypeInfo(info.name, info.kind, info.size, members=members)
             symbols.roots[name] = Root(shown, "program", offset, number)
             continue
-        members = (*_list_members(table, item.owner), *extra)
+        members = _exported(item.owner, (*_list_members(table, item.owner), *extra))
         table.types.append(TypeInfo(item.owner.name, "gvl", item.size, members=members))
         symbols.roots[name] = Root(shown, "gvl", offset, len(table.types) - 1)
         if not item.owner.qualified_only and not name.startswith("__") and "." not in name:
@@ -147,7 +185,7 @@ def build_symbol_map(
 def _list_members(table: TypeTable, gvl: GvlSymbol) -> Iterator[MemberInfo]:
     for member in gvl.members.values():
         if _home(member) is Storage.GLOBAL and member.type is not None:
-            flags = set(member.flags) | ({"HIDDEN"} if hidden(member.decl) else set())
+            flags = set(member.flags) | marks(member.decl)
             text = " ".join(sorted(flags))
             number = table.number(member.type)
             yield MemberInfo(member.name, number, member.offset, member.section, text, member.bit)
@@ -166,7 +204,7 @@ def _addressed(
         area = areas.get(variable.area or "")
         if variable.storage is Storage.DIRECT and variable.type is not None and area is not None:
             offset = area[0] + variable.offset
-            flags = " ".join(sorted(variable.flags))
+            flags = " ".join(sorted(set(variable.flags) | marks(variable.decl)))
             number = table.number(variable.type)
             yield MemberInfo(variable.name, number, offset, variable.section, flags, variable.bit, True)
 

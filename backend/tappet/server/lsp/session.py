@@ -35,6 +35,7 @@ from tappet.lang.services.rename import rename, renameable
 from tappet.lang.services.reports import reports
 from tappet.lang.services.results import Outline, Report, ServiceError
 from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES, semantic_tokens
+from tappet.lang.services.shorthand import expand
 from tappet.lang.services.signature_help import signature
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.lang.source import split_lines
@@ -47,6 +48,10 @@ MAX_DOCUMENT: Final = 4_000_000
 """Characters of one document."""
 READ_DOCUMENT: Final = "tappet/document"
 """Our own request: the text of a document that is not open, such as one of a library."""
+EXPAND_SHORTHAND: Final = "tappet/shorthand"
+"""Our own request: `{line}` to the declaration it is short for, or null."""
+MAX_LINE: Final = 10_000
+"""Characters of a line that may be short for a declaration."""
 
 log = logging.getLogger(__name__)
 _CONVERTER = converters.get_converter()
@@ -387,6 +392,13 @@ class LanguageSession:
             raise ServiceError(f"There is no document '{uri}'")
         return {"uri": str(uri), "languageId": convert.LANGUAGE_ID, "text": text}
 
+    def expand_shorthand(self, params: Any) -> dict[str, str | None]:
+        """The declaration that a typed line stands for (DECL-61..DECL-66)."""
+        line = params.get("line") if isinstance(params, dict) else None
+        if not isinstance(line, str) or len(line) > MAX_LINE:
+            raise ServiceError("'line' is the text of one line of a declaration editor")
+        return {"line": expand(line)}
+
     # -- messages
 
     def _schedule_from_worker(self) -> None:
@@ -473,6 +485,7 @@ _REQUESTS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     lsp.TEXT_DOCUMENT_RENAME: LanguageSession.rename,
     lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: LanguageSession.semantic_tokens,
     READ_DOCUMENT: LanguageSession.read_document,
+    EXPAND_SHORTHAND: LanguageSession.expand_shorthand,
 }
 _NOTIFICATIONS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     lsp.INITIALIZED: LanguageSession.initialized,
