@@ -137,8 +137,10 @@ class SoftPlc(ApplicationAccess):
                 self.application.tasks.collect()
             state = self.state
             if state == "exception" and self._report is None:
-                self._report = build_report(self._need(), self.log)
-                self.log.add("exception", "application", summary(self._report))
+                loaded = self._need()
+                self._report = build_report(loaded, self.log)
+                body_lines = loaded.package.runtime.get("body_lines")
+                self.log.add("exception", "application", summary(self._report, body_lines))
             if state != self._seen_state:
                 entered = state == "exception"
                 self._seen_state = state
