@@ -250,17 +250,11 @@ class _Build:
         return result
 
     def library_sources(self) -> list[Source]:
-        """Texts of the libraries in use and of the conversion library."""
-        texts: list[Source] = []
-        wanted = [*self.options.libraries, LibraryReference(CONVERSION_LIBRARY)]
-        for reference in wanted:
-            try:
-                found = installed.load(reference.name, reference.version, reference.namespace)
-            except installed.UnknownLibraryError as error:
-                self.result.diagnostics.append(report("E0902", "", NOWHERE, message=str(error)))
-                continue
-            texts += found.sources
-        return texts
+        """Texts of the libraries in use, of those they need and of the conversion library."""
+        wanted = [(r.name, r.version, r.namespace) for r in self.options.libraries]
+        found, problems = installed.resolve([*wanted, (CONVERSION_LIBRARY, "*", None)])
+        self.result.diagnostics += [report("E0902", "", NOWHERE, message=text) for text in problems]
+        return [source for library in found for source in library.sources]
 
     def generate(self, analysis: Analysis, specs: list[TaskSpec]) -> None:
         """Objects and package; after an edit of bodies only what that changed."""

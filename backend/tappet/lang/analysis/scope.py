@@ -108,7 +108,12 @@ class Levels:
         if table is None:
             table = dict(self._library_names())
             if source.scope is Scope.LIBRARY:
-                table.update(self.of(source).names())
+                level = self.of(source)
+                names = level.names()
+                own = (source.library or level.label).upper()
+                if own != level.label.upper():  # loaded under another namespace: its texts know the own one
+                    table[own] = NamespaceSymbol(own, members=names)
+                table.update(names)
             else:
                 table.update(self.pous.names())
                 if source.scope is Scope.APPLICATION:

@@ -63,12 +63,10 @@ class ProjectPrograms:
 
     def _application(self, project: Project, application: ProjectObject) -> Program:
         texts = self._texts(project, project_sources.application_sources(project, application.id))
-        for reference in project_sources.libraries(project, application.id):
-            try:
-                library = libraries.load(reference.name, reference.version, reference.namespace or None)
-            except libraries.UnknownLibraryError:
-                continue  # the build and the library manager say so
-            texts += [library_text(source) for source in library.sources]
+        references = project_sources.libraries(project, application.id)
+        wanted = [(r.name, r.version, r.namespace or None) for r in references]
+        found, _ = libraries.resolve(wanted)  # what is missing, the build and the library manager say
+        texts += [library_text(source) for library in found for source in library.sources]
         tasks = [task.name for task in project_sources.tasks(project, application.id)]
         return Program(f"{application.name} {application.id}", texts, tasks)
 

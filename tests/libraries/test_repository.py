@@ -1,0 +1,209 @@
+"""Versions side by side, references, placeholders, requirements, library files."""
+
+import io
+import json
+import zipfile
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tappet.codegen.build import BuildOptions, LibraryReference, build_application
+from tappet.codegen.jit import LoadedApplication
+from tappet.lang.source import Source
+from tappet.libraries import UnknownLibraryError, archive, every_version, load, names, repository, resolve
+from tappet.libraries.archive import LibraryFileError
+
+
+def block(step: int) -> str:
+    """A library text: a counter whose result shows its version."""
+    return (
+        f"(* Counts by {step}. *)\nFUNCTION_BLOCK Counter\nVAR_OUTPUT\n    n : INT; (* Count *)\nEND_VAR\n"
+        f"VAR\n    state : State;\nEND_VAR\nstate.count := state.count + {step};\nn := state.count;\n"
+        "END_FUNCTION_BLOCK\n"
+    )
+
+
+STATE = "(* State. *)\nTYPE State :\nSTRUCT\n    count : INT; (* Count *)\nEND_STRUCT\nEND_TYPE\n"
+
+
+def install(name: str, version: str, step: int = 1, **facts: object) -> None:
+    texts = {"Counter": block(step), "State": STATE}
+    archive.install({**archive.manifest(name, version, company="Plant"), **facts}, texts)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Util, * (Tappet)", ("Util", "*", "Tappet")),
+        ("Util, 3.5.0.0 (Tappet)", ("Util", "3.5.0.0", "Tappet")),
+        ("Util", ("Util", "*", None)),
+        (
+            "Tc2_Standard, 3.3.3.0 (Beckhoff Automation GmbH)",
+            ("Tc2_Standard", "3.3.3.0", "Beckhoff Automation GmbH"),
+        ),
+        ("My Library, 1.0", ("My Library", "1.0", None)),
+    ],
+)
+def test_references_as_they_are_written(text: str, expected: tuple[str, str, str | None]) -> None:
+    found = repository.designation(text)
+    assert (found.name, found.version, found.company) == expected
+
+
+def test_newest_counts_by_numbers_and_every_version_stays_reachable() -> None:
+    for version, step in (("1.9.0.0", 9), ("1.10.0.0", 10), ("1.2.0.0", 2)):
+        install("Plant", version, step)
+    assert load("Plant").version == "1.10.0.0"
+    assert load("plant, * (Plant)").version == "1.10.0.0"
+    assert load("Plant", "1.2.0.0").version == "1.2.0.0"
+    assert load("Plant, 1.9.0.0 (Plant)").version == "1.9.0.0"
+    assert [x.version for x in every_version() if x.name == "Plant"] == ["1.10.0.0", "1.9.0.0", "1.2.0.0"]
+    assert names().count("Plant") == 1
+    with pytest.raises(
+        UnknownLibraryError, match=r"version 1\.10\.0\.0 and 1\.9\.0\.0 and 1\.2\.0\.0, not 7"
+    ):
+        load("Plant", "7")
+    with pytest.raises(UnknownLibraryError):
+        load("Plant, * (Somebody else)")
+
+
+def test_installing_again_replaces_and_removing_brings_the_one_before_back() -> None:
+    install("Plant", "1.0.0.0", 1)
+    assert "+ 1;" in load("Plant").sources[0].text
+    install("Plant", "1.0.0.0", 5)
+    assert "+ 5;" in load("Plant").sources[0].text
+    install("Plant", "2.0.0.0", 7)
+    assert "+ 7;" in load("Plant").sources[0].text
+    archive.remove("Plant", "2.0.0.0")
+    assert load("Plant").version == "1.0.0.0"
+    archive.remove("Plant", "1.0.0.0")
+    with pytest.raises(UnknownLibraryError):
+        load("Plant")
+
+
+def test_libraries_of_the_product_stay() -> None:
+    version = load("Util").version
+    with pytest.raises(LibraryFileError, match="comes with Tappet"):
+        archive.remove("Util", version)
+    with pytest.raises(LibraryFileError, match="comes with Tappet"):
+        install("Util", version)
+
+
+def test_a_placeholder_of_another_system_finds_ours_under_its_own_namespace() -> None:
+    library = load("Tc2_Standard, * (Beckhoff Automation GmbH)")
+    assert (library.name, library.namespace) == ("Standard", "Tc2_Standard")
+    assert load("Tc2_Standard, 3.3.3.0 (Beckhoff Automation GmbH)").name == "Standard"
+    assert load("Standard, * (System)").namespace == "Standard"
+    text = (
+        "PROGRAM Main\nVAR t : Tc2_Standard.TON; u : TON; END_VAR\nt(PT := T#1s); u(PT := T#2s);\nEND_PROGRAM"
+    )
+    reference = LibraryReference("Tc2_Standard, * (Beckhoff Automation GmbH)")
+    result = build_application([Source("m", text)], options=BuildOptions(libraries=(reference,)))
+    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+
+
+def test_two_versions_in_one_application_under_two_namespaces() -> None:
+    install("Plant", "1.0.0.0", 1)
+    install("Plant", "2.0.0.0", 20)
+    text = (
+        "PROGRAM Main\nVAR a : PlantOld.Counter; b : Plant.Counter; s : PlantOld.State; END_VAR\n"
+        "a(); b(); b(); s.count := a.n;\nEND_PROGRAM"
+    )
+    old, new = LibraryReference("Plant", "1.0.0.0", "PlantOld"), LibraryReference("Plant")
+    result = build_application([Source("m", text)], options=BuildOptions(libraries=(old, new)))
+    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+    assert result.package is not None
+    application = LoadedApplication(result.package)
+    try:
+        application.start()
+        application.cycle()
+        values = [application.literal(f"Main.{name}") for name in ("a.n", "b.n", "s.count")]
+    finally:
+        application.close()
+    assert values == ["1", "40", "1"]
+
+
+def test_two_versions_under_one_namespace_are_refused() -> None:
+    install("Plant", "1.0.0.0")
+    install("Plant", "2.0.0.0")
+    _, problems = resolve([("Plant", "1.0.0.0", None), ("Plant", "*", None)])
+    assert len(problems) == 1
+    assert "give one of them another namespace" in problems[0]
+
+
+def test_what_a_library_needs_comes_with_it() -> None:
+    install("Base", "1.0.0.0")
+    install("Base", "2.0.0.0")
+    install("User", "1.0.0.0", requires=[{"name": "Base"}, {"name": "Standard"}])
+    found, problems = resolve([("User", "*", None)])
+    assert [(x.name, x.version) for x in found][1:] == [
+        ("Base", "2.0.0.0"),
+        ("Standard", load("Standard").version),
+    ]
+    assert problems == []
+    found, problems = resolve([("Base", "1.0.0.0", None), ("User", "*", None)])
+    assert [x.version for x in found if x.name == "Base"] == ["1.0.0.0"]
+    install("Exact", "1.0.0.0", requires=[{"name": "Base", "version": "2.0.0.0"}])
+    _, problems = resolve([("Base", "1.0.0.0", None), ("Exact", "*", None)])
+    assert "'Exact'" in problems[0]
+    install("Lost", "1.0.0.0", requires=[{"name": "Nowhere"}])
+    _, problems = resolve([("Lost", "*", None)])
+    assert problems[0].startswith("'Lost' needs it: library 'Nowhere' is not installed")
+
+
+def test_a_library_file_comes_back_and_is_stable() -> None:
+    facts = archive.manifest("Plant", "1.2.0.0", namespace="PL", description="Conveyors")
+    data = archive.pack(facts, {"State": STATE, "Counter": block(1)})
+    assert data == archive.pack(facts, {"Counter": block(1), "State": STATE})
+    assert archive.unpack(data) == (facts, {"Counter": block(1), "State": STATE})
+
+
+def test_a_broken_manifest_hides_no_other_library(library_folder: Path) -> None:
+    install("Plant", "1.0.0.0")
+    (library_folder / "Bad" / "1.0").mkdir(parents=True)
+    (library_folder / "Bad" / "1.0" / "library.json").write_text("{")
+    assert "Plant" in names()
+
+
+@pytest.mark.parametrize(
+    ("files", "message"),
+    [
+        ({}, "no library.json"),
+        ({"library.json": "{"}, "library.json:"),
+        ({"library.json": "[]"}, "no object"),
+        ({"library.json": '{"name": "../x", "version": "1.0"}'}, "none for a library"),
+        ({"library.json": '{"name": "x", "version": "one"}'}, "write it like 1.2.0.0"),
+        ({"library.json": '{"name": "x", "version": "1.0", "namespace": "a b"}'}, "no identifier"),
+        ({"library.json": '{"name": "x", "version": "1.0"}', "../evil.st": ""}, "no ST file"),
+        ({"library.json": '{"name": "x", "version": "1.0"}', "run.sh": ""}, "no ST file"),
+    ],
+)
+def test_bad_library_files_are_refused_with_a_reason(files: dict[str, str], message: str) -> None:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as zipped:
+        for name, text in files.items():
+            zipped.writestr(name, text)
+    with pytest.raises(LibraryFileError, match=message):
+        archive.unpack(out.getvalue())
+
+
+def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(archive, "MAX_BYTES", 1000)
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as zipped:
+        zipped.writestr(
+            "library.json", json.dumps({"name": "x", "version": "1.0", "description": "x" * 2000})
+        )
+    with pytest.raises(LibraryFileError, match="more than"):
+        archive.unpack(out.getvalue())
+
+
+@given(st.binary(max_size=200), st.integers(0, 400), st.binary(min_size=1, max_size=4))
+def test_damaged_library_files_never_raise_anything_else(data: bytes, at: int, patch: bytes) -> None:
+    good = archive.pack(archive.manifest("Plant", "1.0"), {"Counter": block(1)})
+    for candidate in (data, good[:at] + patch + good[at + len(patch) :]):
+        with suppress(LibraryFileError):
+            facts, _ = archive.unpack(candidate)
+            assert facts["name"] == "Plant"
