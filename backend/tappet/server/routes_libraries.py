@@ -1,32 +1,47 @@
-"""The installed libraries."""
+"""The installed libraries: what they offer, installing and removing them, and projects saved as libraries."""
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
+from typing import Annotated
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Query, UploadFile
 from pydantic import TypeAdapter
 
 from tappet import libraries
-from tappet.libraries import Library, UnknownLibraryError, catalog
-from tappet.server.dependencies import Viewer
+from tappet.libraries import Library, UnknownLibraryError, archive, catalog
+from tappet.libraries.archive import LibraryFileError
+from tappet.project.errors import ProjectError
+from tappet.project.library_texts import library_requirements, library_texts
+from tappet.server import audit
+from tappet.server.audit import Act
+from tappet.server.auth.identity import Identity
+from tappet.server.database import Database
+from tappet.server.dependencies import DatabaseDep, Engineer, StoreDep, Viewer
 from tappet.server.problems import Problem, not_found
-from tappet.server.schemas.libraries import LibraryDetail, LibraryItem, LibrarySource, LibrarySummary
+from tappet.server.schemas.libraries import (
+    LibraryDetail,
+    LibraryItem,
+    LibrarySource,
+    LibrarySummary,
+    NewLibrary,
+)
 
-router = APIRouter(prefix="/libraries", tags=["libraries"])
+router = APIRouter(tags=["libraries"])
 _ITEMS = TypeAdapter(list[LibraryItem])
+Version = Annotated[str, Query(description="A version, or * for the newest one.")]
 
 
-def _load(name: str) -> Library:
+def _load(name: str, version: str = "*") -> Library:
     try:
-        return libraries.load(name)
+        return libraries.load(name, version)
     except UnknownLibraryError as error:
         raise Problem(404, "not-found", f"{error}.") from None
 
 
-@cache
-def _items(name: str) -> list[LibraryItem]:
-    return _ITEMS.validate_python(catalog.items(_load(name)), from_attributes=True)
+@lru_cache(maxsize=32)
+def _items(library: Library) -> list[LibraryItem]:
+    return _ITEMS.validate_python(catalog.items(library), from_attributes=True)
 
 
 def _summary(library: Library) -> LibrarySummary:
@@ -36,26 +51,83 @@ def _summary(library: Library) -> LibrarySummary:
         namespace=library.namespace,
         company=library.company,
         description=library.description,
+        removable=library.removable,
     )
 
 
-@router.get("")
+@router.get("/libraries")
 def list_libraries(who: Viewer) -> list[LibrarySummary]:
-    """All libraries a project may refer to."""
-    return [_summary(libraries.load(name)) for name in libraries.names()]
+    """All libraries a project may refer to, in all versions, newest first."""
+    return [_summary(library) for library in libraries.every_version()]
 
 
-@router.get("/{name}")
-def get_library(name: str, who: Viewer) -> LibraryDetail:
+@router.get("/libraries/{name}")
+def get_library(name: str, who: Viewer, version: Version = "*") -> LibraryDetail:
     """A library with its POUs and types, their pins, defaults and comments."""
-    library = _load(name)
-    return LibraryDetail(**_summary(library).model_dump(), items=_items(library.name))
+    library = _load(name, version)
+    return LibraryDetail(**_summary(library).model_dump(), items=_items(library))
 
 
-@router.get("/{name}/sources/{item}")
-def get_library_source(name: str, item: str, who: Viewer) -> LibrarySource:
+@router.get("/libraries/{name}/sources/{item}")
+def get_library_source(name: str, item: str, who: Viewer, version: Version = "*") -> LibrarySource:
     """The ST text of an item: libraries are open."""
-    for source in _load(name).sources:
+    for source in _load(name, version).sources:
         if (source.name or "").upper() == item.upper():
             return LibrarySource(uri=source.uri, text=source.text)
     raise not_found(f"item of library {name}", item)
+
+
+@router.post("/libraries", status_code=201, max_body_size=archive.MAX_BYTES)
+def install_library(file: UploadFile, who: Engineer, database: DatabaseDep) -> LibrarySummary:
+    """Install a library file; the same version of a library is replaced."""
+    try:
+        facts, texts = archive.unpack(file.file.read())
+        found = archive.install(facts, texts)
+    except LibraryFileError as error:
+        raise Problem(422, "library-file", f"{error}.") from None
+    return _installed(database, who, found.name, found.version)
+
+
+@router.delete("/libraries/{name}/{version}", status_code=204)
+def remove_library(name: str, version: str, who: Engineer, database: DatabaseDep) -> None:
+    """Uninstall one version of a library; those of the product stay."""
+    library = _load(name, version)
+    try:
+        archive.remove(library.name, library.version)
+    except LibraryFileError as error:
+        raise Problem(409, "library-stays", f"{error}.") from None
+    _note(database, who, "library-removed", f"{library.name} {library.version}")
+
+
+@router.post("/projects/{project_id}/library", status_code=201)
+def save_as_library(
+    project_id: str, body: NewLibrary, who: Engineer, store: StoreDep, database: DatabaseDep
+) -> LibrarySummary:
+    """Make a library of a project, everything but its programs, and install it."""
+    project = store.load(project_id)
+    try:
+        texts = library_texts(project)
+        facts = archive.manifest(
+            body.name or project.name,
+            body.version,
+            namespace=body.namespace,
+            company=body.company,
+            description=body.description or project.description,
+            requires=[
+                {"name": r.name, "version": r.version, "namespace": r.namespace}
+                for r in library_requirements(project)
+            ],
+        )
+        found = archive.install(facts, texts)
+    except (ProjectError, LibraryFileError) as error:
+        raise Problem(422, "no-library", f"{error}.") from None
+    return _installed(database, who, found.name, found.version)
+
+
+def _installed(database: Database, who: Identity, name: str, version: str) -> LibrarySummary:
+    _note(database, who, "library-installed", f"{name} {version}")
+    return _summary(libraries.load(name, version))
+
+
+def _note(database: Database, who: Identity, action: str, target: str) -> None:
+    database.write(lambda db: audit.record(db, who, Act(action, target)))

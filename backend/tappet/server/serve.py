@@ -17,6 +17,7 @@ from pathlib import Path
 
 import uvicorn
 
+from tappet.libraries.repository import LOCATION_VARIABLE
 from tappet.project.errors import ProjectError
 from tappet.project.store import Store
 from tappet.server.app import create_app
@@ -56,6 +57,7 @@ def serve(options: ServeOptions) -> int:
     try:
         if options.example is not None:
             find_example(options.example)
+        os.environ.setdefault(LOCATION_VARIABLE, str(options.settings.data_dir.resolve() / "libraries"))
         with _owned(options.settings.data_dir), _listening(options.settings) as listener:
             Store(options.settings.url).close()  # an unusable database is one sentence, not a trace
             return asyncio.run(_serve(options, listener))

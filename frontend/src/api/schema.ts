@@ -237,11 +237,15 @@ export interface paths {
         };
         /**
          * List Libraries
-         * @description All libraries a project may refer to.
+         * @description All libraries a project may refer to, in all versions, newest first.
          */
         get: operations["list_libraries"];
         put?: never;
-        post?: never;
+        /**
+         * Install Library
+         * @description Install a library file; the same version of a library is replaced.
+         */
+        post: operations["install_library"];
         delete?: never;
         options?: never;
         head?: never;
@@ -283,6 +287,26 @@ export interface paths {
         put?: never;
         post?: never;
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/libraries/{name}/{version}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Remove Library
+         * @description Uninstall one version of a library; those of the product stay.
+         */
+        delete: operations["remove_library"];
         options?: never;
         head?: never;
         patch?: never;
@@ -522,6 +546,26 @@ export interface paths {
         get: operations["export_project"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/library": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Save As Library
+         * @description Make a library of a project, everything but its programs, and install it.
+         */
+        post: operations["save_as_library"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1210,9 +1254,9 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @constant
+             * @enum {string}
              */
-            language: "ST";
+            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
         };
         /**
          * AccessorObject
@@ -1272,9 +1316,9 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @constant
+             * @enum {string}
              */
-            language: "ST";
+            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
         };
         /**
          * ActionObject
@@ -1409,6 +1453,11 @@ export interface components {
              * @description Another name than the one in the archive.
              */
             name?: string | null;
+        };
+        /** Body_install_library */
+        Body_install_library: {
+            /** File */
+            file: string;
         };
         /**
          * BuildReport
@@ -2171,6 +2220,11 @@ export interface components {
             name: string;
             /** Namespace */
             namespace: string;
+            /**
+             * Removable
+             * @description Installed besides those of the product.
+             */
+            removable: boolean;
             /** Version */
             version: string;
         };
@@ -2300,6 +2354,11 @@ export interface components {
             name: string;
             /** Namespace */
             namespace: string;
+            /**
+             * Removable
+             * @description Installed besides those of the product.
+             */
+            removable: boolean;
             /** Version */
             version: string;
         };
@@ -2405,9 +2464,9 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @constant
+             * @enum {string}
              */
-            language: "ST";
+            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
         };
         /**
          * MethodObject
@@ -2465,6 +2524,39 @@ export interface components {
             name: string;
             /** Value */
             value: string;
+        };
+        /**
+         * NewLibrary
+         * @description A project to be saved as a library.
+         */
+        NewLibrary: {
+            /**
+             * Company
+             * @default
+             */
+            company: string;
+            /**
+             * Description
+             * @default
+             */
+            description: string;
+            /**
+             * Name
+             * @description That of the project when empty.
+             * @default
+             */
+            name: string;
+            /**
+             * Namespace
+             * @description Prefix of its names; the name when empty.
+             * @default
+             */
+            namespace: string;
+            /**
+             * Version
+             * @description Such as 1.2.0.0.
+             */
+            version: string;
         };
         /**
          * NewObject
@@ -2906,9 +2998,9 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @constant
+             * @enum {string}
              */
-            language: "ST";
+            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
         };
         /**
          * PouObject
@@ -4396,9 +4488,54 @@ export interface operations {
             };
         };
     };
-    get_library: {
+    install_library: {
         parameters: {
             query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_install_library"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibrarySummary"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_library: {
+        parameters: {
+            query?: {
+                /** @description A version, or * for the newest one. */
+                version?: string;
+            };
             header?: never;
             path: {
                 name: string;
@@ -4438,7 +4575,10 @@ export interface operations {
     };
     get_library_source: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description A version, or * for the newest one. */
+                version?: string;
+            };
             header?: never;
             path: {
                 name: string;
@@ -4456,6 +4596,45 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["LibrarySource"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    remove_library: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                version: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {
@@ -5116,6 +5295,50 @@ export interface operations {
                 };
                 content: {
                     "application/zip": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    save_as_library: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewLibrary"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibrarySummary"];
                 };
             };
             /** @description The request was refused */

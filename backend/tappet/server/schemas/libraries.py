@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from tappet.server.schemas.base import Reply
+from tappet.server.schemas.base import Reply, Request
 
 
 class LibrarySummary(Reply):
@@ -15,6 +15,7 @@ class LibrarySummary(Reply):
     namespace: str
     company: str
     description: str
+    removable: bool = Field(description="Installed besides those of the product.")
 
 
 class Pin(Reply):
@@ -60,3 +61,13 @@ class LibrarySource(Reply):
 
     uri: str
     text: str
+
+
+class NewLibrary(Request):
+    """A project to be saved as a library."""
+
+    name: str = Field(default="", max_length=80, description="That of the project when empty.")
+    version: str = Field(description="Such as 1.2.0.0.", max_length=40)
+    namespace: str = Field(default="", max_length=80, description="Prefix of its names; the name when empty.")
+    company: str = Field(default="", max_length=200)
+    description: str = Field(default="", max_length=4000)

@@ -1,0 +1,79 @@
+"""A project as a library: one ST text an object, with its methods, actions and properties in it (LIB-02).
+
+Everything of the POUs view and of the applications goes in except programs: a library has no tasks that would
+call them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tappet.project.data import LibraryReference
+from tappet.project.declaration_text import subkind_of
+from tappet.project.errors import ProjectError
+from tappet.project.model import Project, ProjectObject
+from tappet.project.naming import name_key
+from tappet.project.placement import in_scope_of
+from tappet.project.sources import libraries, source_of
+
+KINDS = frozenset(["pou", "interface", "dut", "gvl"])
+
+
+class NoLibraryError(ProjectError):
+    """The project cannot be a library; the message says why."""
+
+    code = "no_library"
+
+
+def library_texts(project: Project) -> dict[str, str]:
+    """ST texts by object name; raises NoLibraryError when there is none or two objects share a name."""
+    texts: dict[str, str] = {}
+    seen: dict[str, str] = {}
+    for item in _objects(project):
+        other = seen.setdefault(name_key(item.name), item.name)
+        if item.name in texts or other != item.name:
+            raise NoLibraryError(f"two objects are called '{other}'; names in a library are unique")
+        texts[item.name] = _text(project, item)
+    if not texts:
+        raise NoLibraryError(
+            "there is nothing to make a library of: no block, function, type or variable list"
+        )
+    return texts
+
+
+def library_requirements(project: Project) -> list[LibraryReference]:
+    """The libraries that the project refers to, each once."""
+    found: dict[str, LibraryReference] = {}
+    for owner in (*project.applications(), None):
+        references = libraries(project, owner.id) if owner else ()
+        for reference in references:
+            found.setdefault(name_key(reference.name), reference)
+    return list(found.values())
+
+
+def _objects(project: Project) -> Iterator[ProjectObject]:
+    for owner in (*project.applications(), None):
+        for item in in_scope_of(project, owner):
+            if item.kind in KINDS and not _is_program(item):
+                yield item
+
+
+def _is_program(item: ProjectObject) -> bool:
+    return item.kind == "pou" and subkind_of(getattr(item.data, "declaration", "")) == "program"
+
+
+def _text(project: Project, item: ProjectObject) -> str:
+    own = source_of(project, item.id)
+    assert own is not None
+    text = own.text.rstrip("\n") + "\n"
+    if item.kind not in ("pou", "interface"):
+        return text
+    parts = []
+    for child in in_scope_of(project, item):
+        source = source_of(project, child.id)
+        if source is not None:
+            parts.append(source.text.rstrip("\n") + "\n")
+    if item.kind == "interface":  # its methods stand inside
+        head, keyword, _ = text.rpartition("END_INTERFACE")
+        return f"{head}{''.join(parts)}{keyword}\n"
+    return text + "".join(f"\n{part}" for part in parts)
