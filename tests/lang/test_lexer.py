@@ -131,6 +131,12 @@ def test_an_attribute_may_go_over_several_lines_as_twincat_tools_write_it() -> N
     assert (lexed.lines[4], lexed.columns[4]) == (7, 0)
 
 
+def test_an_apostrophe_in_a_long_attribute_does_not_end_it() -> None:
+    lexed = lex("{attribute 'note' := '\n  a: it's so\n'}\nx", "x")
+    assert not lexed.diagnostics
+    assert (lexed.kinds, lexed.lines[0]) == (["id", "end"], 3)
+
+
 def test_full_width_characters_are_read_as_what_they_look_like() -> None:
     assert kinds("a：=（1）；") == ["id", ":", "=", "(", "int", ")", ";"]
 

@@ -32,7 +32,7 @@ class Decoded:
 
 
 _INT = re.compile(r"[+-]?\d+(?:_\d+)*", re.ASCII)
-_BASED = re.compile(r"(2|8|16)#([0-9A-F]+(?:_[0-9A-F]+)*)", re.ASCII | re.IGNORECASE)
+_BASED = re.compile(r"(2|8|10|16)#([0-9A-F]+(?:_[0-9A-F]+)*)", re.ASCII | re.IGNORECASE)
 _REAL = re.compile(r"[+-]?\d+(?:_\d+)*(?:\.\d+(?:_\d+)*)?(?:E[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _TIME_PART = re.compile(r"(\d+(?:\.\d+)?)([a-z]*)", re.ASCII | re.IGNORECASE)
 _DATE = re.compile(r"(\d{1,4})-(\d{1,2})-(\d{1,2})", re.ASCII)

@@ -46,6 +46,8 @@ class Parser(TypeBlockParser):
                 self._child(out, kind)
             elif kind == "INTERFACE":
                 out.append(self.interface())
+            elif kind is ID and self.word() == "FUNCTIONBLOCK":  # CoDeSys 2.3 takes the header as one word
+                out.append(self.pou("FUNCTION_BLOCK"))
             elif kind == ";":
                 self.i += 1
             else:

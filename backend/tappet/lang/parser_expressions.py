@@ -326,7 +326,9 @@ class ExpressionParser(Core):
             kind = kinds[self.i]
             if kind == ",":
                 self.i += 1
-                continue
+                if kinds[self.i] != ")":
+                    continue
+                kind = ")"  # TwinCAT and CODESYS take a comma behind the last argument
             if kind == ")":
                 self.i += 1
                 break
@@ -411,6 +413,18 @@ class ExpressionParser(Core):
                 elements.append(self.array_element())
         self.depth -= 1
         self.take("]")
+        return ast.ArrayInit(span=self.span_from(start), elements=elements)
+
+    def bare_array_initial(self) -> ast.Expr:
+        """The initial value of an array; CoDeSys 2.3 writes it without brackets: `1, 2, 4(0)`."""
+        start = self.i
+        first = self.array_element()
+        if self.kinds[self.i] != "," and not isinstance(first, ast.Repeat):
+            return first
+        elements = [first]
+        while self.kinds[self.i] == ",":
+            self.i += 1
+            elements.append(self.array_element())
         return ast.ArrayInit(span=self.span_from(start), elements=elements)
 
     def array_element(self) -> ast.Expr:

@@ -104,7 +104,7 @@ class VariableParser(TypeParser):
         else:
             self.expected("':' and a type", "Declare a variable as 'name : type;'.")
             type_ref = ast.NamedType(span=self.span_at(self.i), name="")
-        initial, initial_ref = self.initialisation()
+        initial, initial_ref = self.initialisation(isinstance(type_ref, ast.ArrayType))
         if kinds[self.i] == ";":
             self.i += 1
         elif len(self.diagnostics) > messages or self.failed_at == self.i:
@@ -183,13 +183,14 @@ class VariableParser(TypeParser):
         self.i += 1
         return self.texts[self.i - 1].upper()
 
-    def initialisation(self) -> tuple[ast.Expr | None, bool]:
+    def initialisation(self, of_array: bool = False) -> tuple[ast.Expr | None, bool]:
         """`:= value` or `REF= variable` if it stands here; the flag tells the second."""
         start = self.i
         kind = self.kinds[start]
         if kind == ":=":
             self.i = start + 1
-            return self.bounded(self.initial_value(), start), False
+            value = self.bare_array_initial() if of_array else self.initial_value()
+            return self.bounded(value, start), False
         if kind is ID and self.kinds[start + 1] == "=" and self.texts[start].upper() == "REF":
             self.i = start + 2
             return self.bounded(self.expression(), start), True

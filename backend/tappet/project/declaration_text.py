@@ -33,6 +33,7 @@ _COMMENT_EDGE = re.compile(r"\(\*|\*\)")
 END_KEYWORDS = {
     "PROGRAM": "END_PROGRAM",
     "FUNCTION_BLOCK": "END_FUNCTION_BLOCK",
+    "FUNCTIONBLOCK": "END_FUNCTION_BLOCK",  # CoDeSys 2.3
     "FUNCTION": "END_FUNCTION",
     "METHOD": "END_METHOD",
     "ACTION": "END_ACTION",
@@ -150,6 +151,8 @@ def subkind_of(text: str) -> str | None:
         return None
     if header.keyword in SECTION_KEYWORDS:
         return "gvl"
+    if header.keyword == "FUNCTIONBLOCK":
+        return "function_block"
     if header.keyword != "TYPE":
         return header.keyword.lower()
     return _type_subkind(text, header)
