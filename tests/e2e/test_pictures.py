@@ -54,6 +54,9 @@ def test_workbench_and_plant(browser: Browser, server: Server, theme: str, langu
         open_object(page, "Plant3D")
         frame = page.frame_locator("[data-testid=scene-view]")
         expect(frame.locator("canvas").first).to_be_visible()
+        remark = frame.locator(".mantine-Notification-closeButton")
+        if remark.count():  # without a graphics card the 3D library says that it is slow
+            remark.first.click()
         page.wait_for_timeout(15_000)
         page.screenshot(path=folder / f"plant-{suffix}.png", timeout=60_000)
         page.locator(".dv-tab").filter(has_text="Plant3D").locator("button, [role=button]").last.click()
