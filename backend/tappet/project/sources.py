@@ -209,12 +209,12 @@ def _text(
     if isinstance(data, BodyData):
         writer.part(item.id, "declaration", data.declaration)
         body_line = writer.line
-        writer.part(item.id, "implementation", data.implementation)
+        writer.part(item.id, "implementation", _compiled(item.name, data))
         writer.keyword(end_keyword(data.declaration))
     elif isinstance(data, ActionData):
         writer.keyword(f"ACTION {item.name}")
         body_line = writer.line
-        writer.part(item.id, "implementation", data.implementation)
+        writer.part(item.id, "implementation", _compiled(item.name, data))
         writer.keyword("END_ACTION")
         name = item.name
     elif isinstance(data, DeclarationData):
@@ -248,8 +248,18 @@ def _accessors(project: Project, item: ProjectObject, writer: _Writer) -> None:
             writer.keyword(keyword)
             if accessor.data.declaration:
                 writer.part(accessor.id, "declaration", accessor.data.declaration)
-            writer.part(accessor.id, "implementation", accessor.data.implementation)
+            writer.part(accessor.id, "implementation", _compiled(item.name, accessor.data))
             writer.keyword(f"END_{keyword}")
+
+
+def _compiled(name: str, data: BodyData | ActionData) -> str:
+    """The implementation as the compiler takes it; an imported graphical body gives an error of its own."""
+    if data.language in ("ST", "IL") or not data.implementation:
+        return data.implementation
+    return (
+        f"{{error 'The body of {name} is in {data.language}, which cannot be compiled yet; it was imported "
+        "and is kept unchanged. Write it in ST to run it.'}"
+    )
 
 
 class _Writer:

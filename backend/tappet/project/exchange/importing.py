@@ -11,7 +11,7 @@ from tappet.project.exchange import twincat
 from tappet.project.exchange.codesys23 import read_export
 from tappet.project.exchange.decoding import decode_text, decode_xml
 from tappet.project.exchange.drafts import Batch, task_configuration
-from tappet.project.exchange.placing import import_into_empty, place
+from tappet.project.exchange.placing import empty_project, place
 from tappet.project.exchange.plcopen_read import read_plcopen
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.split_text import split_text
@@ -75,7 +75,7 @@ def import_files(
         raise failures[0]
     if into is None:
         stem = posixpath.basename(next(iter(sorted(files)), "Import")).rsplit(".", 1)[0]
-        into = import_into_empty(name or batch.name or stem, batch.description)
+        into = empty_project(name or batch.name or stem, batch.description)
     return Imported(place(batch, into, report, application_id), report)
 
 

@@ -11,7 +11,7 @@ from tappet.project.errors import InvalidDataError, InvalidNameError
 from tappet.project.exchange.drafts import Batch, Draft, library_manager, plc_logic, task_configuration
 from tappet.project.exchange.report import ImportReport
 from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
-from tappet.project.naming import name_key, normal_name, unique_name
+from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
 from tappet.project.placement import DEVICES_VIEW, POUS_VIEW, RULES, check_project, check_spelling, owner_of
 from tappet.project.templates import DEFAULT_DEVICE, DEFAULT_LIBRARIES
 
@@ -262,6 +262,11 @@ def _fit_identifier(name: str) -> str:
     return f"_{plain}" if plain[0].isdigit() else plain
 
 
-def import_into_empty(name: str, description: str) -> Project:
+def empty_project(name: str, description: str) -> Project:
     """A project without objects, with a name that is possible."""
-    return Project(_fit_free(name)[:200] or "Import", description)
+    name = normal_name(name)
+    try:
+        check_project_name(name)
+    except InvalidNameError:
+        name = _fit_free(name)
+    return Project(name, description)

@@ -36,6 +36,8 @@ from tappet.project.exchange.plcopen_tree import arrange
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
 
+TAPPET = "https://github.com/tappet/plcopen/"
+"""Where the names of our own additional data begin."""
 PRODUCT = "Tappet"
 """Name of the product in the header of our own exports."""
 _CODE = frozenset(["pou", "dut", "interface", "folder"])
@@ -86,15 +88,17 @@ class _Reader:
         self.generic: list[Draft] = []
 
     def read(self, root: Element) -> None:
+        product = root.child("fileHeader")
+        self.batch.complete = product is not None and product.get("productName") == PRODUCT
         header = root.child("contentHeader")
         if header is not None:
-            name = header.get("name").removesuffix(".project").removesuffix(".library")
+            name = header.get("name")
+            if not self.batch.complete:
+                name = name.removesuffix(".project").removesuffix(".library")
             self.batch.name = self.batch.name or name
             comment = header.child("Comment")
             note = exact_text(comment) if comment is not None else documentation(header)
             self.batch.description = self.batch.description or note
-        product = root.child("fileHeader")
-        self.batch.complete = product is not None and product.get("productName") == PRODUCT
         for item in root:
             if item.tag not in ("fileHeader", "contentHeader"):
                 self._element(item, self.pool)

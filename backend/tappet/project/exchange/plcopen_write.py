@@ -1,0 +1,414 @@
+"""A project as PLCopen XML (TC6 0201): for other systems, and complete for our own import.
+
+Every declaration stands there twice: as sections of variables, as the standard has it, and as plain text,
+which CODESYS and our import prefer. Folders, order and ids are in CODESYS's project structure. What the
+standard has no place for (devices, libraries, scenes) is in additional data of our own.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import uuid
+from collections.abc import Iterator
+
+from tappet.project.data import (
+    AccessorData,
+    ActionData,
+    BodyData,
+    DeclarationData,
+    DeviceData,
+    TaskData,
+)
+from tappet.project.durations import duration_ns
+from tappet.project.exchange.declaration_sections import Section, read_sections, return_type
+from tappet.project.exchange.plcopen_declarations import CODESYS
+from tappet.project.exchange.plcopen_read import PRODUCT, TAPPET
+from tappet.project.exchange.plcopen_type_xml import type_element, value_element
+from tappet.project.exchange.report import ExchangeError
+from tappet.project.exchange.xml_tree import (
+    XHTML,
+    escape_attribute,
+    escape_text,
+    is_legal,
+    read_xml,
+    xml_text,
+)
+from tappet.project.model import Project, ProjectObject
+
+NAMESPACE = "http://www.plcopen.org/xml/tc6_0201"
+_POU_TYPES = {"program": "program", "function": "function", "function_block": "functionBlock"}
+_CODE = frozenset(["pou", "dut", "gvl", "persistent", "interface"])
+_SECTION_TAGS = {
+    "VAR": "localVars",
+    "VAR_TEMP": "tempVars",
+    "VAR_INPUT": "inputVars",
+    "VAR_OUTPUT": "outputVars",
+    "VAR_IN_OUT": "inOutVars",
+    "VAR_EXTERNAL": "externalVars",
+}
+_DATE = "1980-01-01T00:00:00"
+"""Stands where the format wants a time, so that the same project always gives the same bytes."""
+
+
+def write_plcopen(project: Project) -> bytes:
+    """The project as one XML file; the same project always gives the same bytes."""
+    return _Writer(project).whole().encode()
+
+
+class _Writer:
+    def __init__(self, project: Project) -> None:
+        self.project = project
+        self._lines: list[str] = []
+        self._depth = 0
+
+    def whole(self) -> str:
+        project = self.project
+        self._lines.append('<?xml version="1.0" encoding="utf-8"?>')
+        with self._tag("project", xmlns=NAMESPACE):
+            self._empty(
+                "fileHeader",
+                companyName="",
+                productName=PRODUCT,
+                productVersion="1",
+                creationDateTime=_DATE,
+            )
+            with self._tag("contentHeader", name=project.name, modificationDateTime=_DATE):
+                if project.description:
+                    self._text("Comment", project.description, html=False)
+                with self._tag("coordinateInfo"):
+                    for language in ("fbd", "ld", "sfc"):
+                        with self._tag(language):
+                            self._empty("scaling", x="1", y="1")
+            pool = [item for item in self._code(None) if not self._application_of(item)]
+            with self._tag("types"):
+                with self._tag("dataTypes"):
+                    self._objects(pool, "dut")
+                with self._tag("pous"):
+                    self._objects(pool, "pou")
+            with self._tag("instances"), self._tag("configurations"):
+                for device in project.find_kind("device"):
+                    self._device(device)
+            with self._tag("addData"):
+                self._added_code(pool)
+                for item in project.walk():
+                    if item.kind not in _OWN_PLACE:
+                        self._object_data(item, item.data.model_dump(mode="json"))
+                with self._data("projectstructure"), self._tag("ProjectStructure"):
+                    self._structure()
+        return "\n".join(self._lines) + "\n"
+
+    # -- where objects stand
+
+    def _application_of(self, item: ProjectObject) -> str | None:
+        above = [found.id for found in self.project.ancestors(item.id) if found.kind == "application"]
+        return above[0] if above else None
+
+    def _code(self, application_id: str | None) -> list[ProjectObject]:
+        return [
+            item
+            for item in self.project.walk()
+            if item.kind in _CODE and self._application_of(item) == application_id
+        ]
+
+    def _objects(self, items: list[ProjectObject], kind: str) -> None:
+        for item in items:
+            if item.kind == kind:
+                self._object(item)
+
+    def _added_code(self, items: list[ProjectObject], kinds: tuple[str, ...] = ()) -> None:
+        """Objects in additional data: lists and interfaces always, the others where `kinds` says so."""
+        for item in items:
+            if item.kind in ("gvl", "persistent"):
+                with self._data("globalvars"):
+                    self._object(item)
+            elif item.kind == "interface" or item.kind in kinds:
+                with self._data({"dut": "datatype"}.get(item.kind, item.kind)):
+                    self._object(item)
+
+    def _device(self, device: ProjectObject) -> None:
+        assert isinstance(device.data, DeviceData)
+        applications = [item for item in self.project.walk(device.id) if item.kind == "application"]
+        with self._tag("configuration", name=device.name):
+            for application in applications:
+                self._application(application)
+            with self._tag("addData"):
+                self._object_id(device)
+                self._object_data(device, device.data.model_dump(mode="json"))
+
+    def _application(self, application: ProjectObject) -> None:
+        code = self._code(application.id)
+        with self._tag("resource", name=application.name):
+            for item in self.project.walk(application.id):
+                if isinstance(item.data, TaskData) and self._application_of(item) == application.id:
+                    self._task(item, item.data)
+            with self._tag("addData"):
+                self._added_code(code, ("dut", "pou"))
+                self._object_id(application)
+
+    def _structure(self, parent_id: str | None = None) -> None:
+        for item in self.project.children(parent_id):
+            tag = "Folder" if item.kind == "folder" else "Object"
+            if self.project.children(item.id):
+                with self._tag(tag, Name=item.name, ObjectId=_guid(item.id)):
+                    self._structure(item.id)
+            else:
+                self._empty(tag, Name=item.name, ObjectId=_guid(item.id))
+
+    # -- programming objects
+
+    def _object(self, item: ProjectObject) -> None:
+        if item.kind == "dut":
+            self._data_type(item)
+        elif item.kind == "interface":
+            self._interface(item)
+        elif item.kind == "pou":
+            self._pou(item)
+        else:
+            self._globals(item)
+
+    def _pou(self, item: ProjectObject) -> None:
+        assert isinstance(item.data, BodyData)
+        kind = _POU_TYPES.get(item.subkind or "", "program")
+        children = list(self._members(item))
+        actions = [child for child in children if isinstance(child.data, ActionData)]
+        with self._tag("pou", name=item.name, pouType=kind):
+            self._interface_of(item.data.declaration, kind == "function")
+            if actions:
+                with self._tag("actions"):
+                    for action in actions:
+                        assert isinstance(action.data, ActionData)
+                        with self._tag("action", name=action.name):
+                            self._body(action.data)
+                            with self._tag("addData"):
+                                self._object_id(action)
+            self._body(item.data)
+            with self._tag("addData"):
+                self._plain_text(item.data.declaration)
+                self._children(children)
+                self._object_id(item)
+
+    def _members(self, item: ProjectObject) -> Iterator[ProjectObject]:
+        """What is below a POU or interface, its folders included, but not below one of these again."""
+        waiting = list(reversed(self.project.children(item.id)))
+        while waiting:
+            child = waiting.pop()
+            yield child
+            if child.kind not in ("pou", "interface"):
+                waiting.extend(reversed(self.project.children(child.id)))
+
+    def _children(self, children: list[ProjectObject]) -> None:
+        for child in children:
+            data = child.data
+            if child.kind == "method" and isinstance(data, BodyData):
+                with self._data("method"), self._tag("Method", name=child.name, ObjectId=_guid(child.id)):
+                    self._interface_of(data.declaration, True)
+                    self._body(data)
+                    self._plain_text_element(data.declaration)
+            elif child.kind == "property" and isinstance(data, DeclarationData):
+                with self._data("property"):
+                    self._property(child, data)
+
+    def _property(self, item: ProjectObject, data: DeclarationData) -> None:
+        with self._tag("Property", name=item.name, ObjectId=_guid(item.id)):
+            self._interface_of(data.declaration, True)
+            for accessor in self._members(item):
+                if isinstance(accessor.data, AccessorData):
+                    with self._tag(f"{accessor.name}Accessor", ObjectId=_guid(accessor.id)):
+                        self._interface_of(accessor.data.declaration, False)
+                        self._body(accessor.data)
+                        self._plain_text_element(accessor.data.declaration)
+            self._plain_text_element(data.declaration)
+
+    def _interface(self, item: ProjectObject) -> None:
+        assert isinstance(item.data, DeclarationData)
+        with self._tag("Interface", name=item.name, ObjectId=_guid(item.id)):
+            self._plain_text_element(item.data.declaration)
+            with self._tag("addData"):
+                self._children(list(self._members(item)))
+
+    def _data_type(self, item: ProjectObject) -> None:
+        assert isinstance(item.data, DeclarationData)
+        with self._tag("dataType", name=item.name):
+            self._raw(type_element("baseType", item.data.declaration))
+            with self._tag("addData"):
+                self._plain_text(item.data.declaration)
+                self._object_id(item)
+
+    def _globals(self, item: ProjectObject) -> None:
+        assert isinstance(item.data, DeclarationData)
+        sections = read_sections(item.data.declaration)
+        flags = sections[0].flags if len(sections) == 1 else ()
+        with self._tag("globalVars", name=item.name, **dict.fromkeys(flags, "true")):
+            for section in sections:
+                self._variables(section)
+            with self._tag("addData"):
+                self._plain_text(item.data.declaration)
+                self._object_id(item)
+                with self._own_data(), self._tag("Object", kind=item.kind):
+                    pass
+
+    # -- declarations and bodies
+
+    def _interface_of(self, declaration: str, returns: bool) -> None:
+        kind = return_type(declaration) if returns else ""
+        sections = [section for section in read_sections(declaration) if section.keyword in _SECTION_TAGS]
+        if not sections and not kind:
+            self._empty("interface")
+            return
+        with self._tag("interface"):
+            if kind:
+                self._raw(type_element("returnType", kind))
+            for section in sections:
+                with self._tag(_SECTION_TAGS[section.keyword], **dict.fromkeys(section.flags, "true")):
+                    self._variables(section)
+
+    def _variables(self, section: Section) -> None:
+        for variable in section.variables:
+            place = {"address": variable.address} if variable.address else {}
+            with self._tag("variable", name=variable.name, **place):
+                self._raw(type_element("type", variable.type))
+                if variable.initial:
+                    with self._tag("initialValue"):
+                        self._raw(value_element(variable.initial))
+                if variable.comment and is_legal(variable.comment):
+                    with self._tag("documentation"):
+                        self._xhtml(variable.comment)
+
+    def _body(self, data: BodyData | ActionData) -> None:
+        text, language = data.implementation, data.language
+        if language in ("ST", "IL"):
+            with self._tag("body"):
+                self._text(language, text)
+        elif _is_body(text):
+            self._raw(text)
+        else:
+            with self._tag("body"), self._tag("addData"), self._data("implementation"):
+                self._text("Implementation", text, language=language)
+
+    def _plain_text(self, declaration: str) -> None:
+        with self._data("interfaceasplaintext"):
+            self._plain_text_element(declaration)
+
+    def _plain_text_element(self, declaration: str) -> None:
+        self._text("InterfaceAsPlainText", declaration)
+
+    # -- tasks and our own data
+
+    def _task(self, item: ProjectObject, data: TaskData) -> None:
+        kinds = {"external": "ExternalEvent"}
+        cyclic = data.type == "cyclic"
+        attributes = {"interval": _iso(data.interval)} if cyclic else {}
+        if data.event and data.type == "event":
+            attributes["single"] = data.event
+        with self._tag("task", name=item.name, **attributes, priority=str(data.priority)):
+            for call in data.pous:
+                self._empty("pouInstance", name=call.name, typeName="")
+            with self._tag("addData"):
+                with self._data("tasksettings"):
+                    times = {"Interval": data.interval} if cyclic else {}
+                    kind = kinds.get(data.type, data.type.capitalize())
+                    with self._tag("TaskSettings", KindOfTask=kind, **times):
+                        watchdog = data.watchdog
+                        self._empty(
+                            "Watchdog",
+                            Enabled=str(watchdog.enabled).lower(),
+                            Time=watchdog.time,
+                            Sensitivity=str(watchdog.sensitivity),
+                        )
+                self._object_id(item)
+                self._object_data(item, data.model_dump(mode="json"))
+
+    def _object_id(self, item: ProjectObject) -> None:
+        with self._data("objectid", "discard"):
+            self._line(f"<ObjectId>{_guid(item.id)}</ObjectId>")
+
+    def _object_data(self, item: ProjectObject, data: object) -> None:
+        text = json.dumps(data, sort_keys=True, ensure_ascii=True, allow_nan=False)
+        place = f'name="{escape_attribute(item.name)}" kind="{item.kind}" ObjectId="{_guid(item.id)}"'
+        with self._own_data():
+            self._line(f"<Object {place}>{escape_text(text)}</Object>")
+
+    # -- writing
+
+    def _own_data(self) -> _Opened:
+        return self._tag("data", name=f"{TAPPET}object", handleUnknown="discard")
+
+    def _data(self, name: str, unknown: str = "implementation") -> _Opened:
+        return self._tag("data", name=f"{CODESYS}{name}", handleUnknown=unknown)
+
+    def _text(self, tag: str, text: str, html: bool = True, **attributes: str) -> None:
+        """An element with a text in it, exactly; in base64 if XML cannot hold it."""
+        if not is_legal(text):
+            attributes["encoding"] = "base64"
+            text = base64.b64encode(text.encode()).decode()
+        start = f"<{tag}{_attributes(attributes)}>"
+        inner = f'<xhtml xmlns="{XHTML}">{escape_text(text)}</xhtml>' if html else escape_text(text)
+        self._line(f"{start}{inner}</{tag}>")
+
+    def _xhtml(self, text: str) -> None:
+        self._line(f'<xhtml xmlns="{XHTML}">{escape_text(text)}</xhtml>')
+
+    def _tag(self, tag: str, **attributes: str) -> _Opened:
+        return _Opened(self, tag, attributes)
+
+    def _empty(self, tag: str, **attributes: str) -> None:
+        self._line(f"<{tag}{_attributes(attributes)} />")
+
+    def _raw(self, text: str) -> None:
+        self._line(text)
+
+    def _line(self, text: str) -> None:
+        self._lines.append("  " * self._depth + text)
+
+
+class _Opened:
+    """An element that is open as long as the context lasts; one without content is written as empty."""
+
+    def __init__(self, writer: _Writer, tag: str, attributes: dict[str, str]) -> None:
+        self.writer = writer
+        self.tag = tag
+        self.attributes = attributes
+
+    def __enter__(self) -> None:
+        self.writer._line(f"<{self.tag}{_attributes(self.attributes)}>")
+        self.writer._depth += 1
+        self.begun = len(self.writer._lines)
+
+    def __exit__(self, *_: object) -> None:
+        self.writer._depth -= 1
+        if len(self.writer._lines) == self.begun:
+            self.writer._lines.pop()
+            self.writer._empty(self.tag, **self.attributes)
+        else:
+            self.writer._line(f"</{self.tag}>")
+
+
+_OWN_PLACE = frozenset(
+    ["folder", "device", "application", "task", "method", "action", "property", "accessor", *_CODE]
+)
+"""Kinds that are written where the standard or CODESYS has a place for them."""
+
+
+def _attributes(attributes: dict[str, str]) -> str:
+    return "".join(f' {name}="{escape_attribute(value)}"' for name, value in attributes.items())
+
+
+def _guid(object_id: str) -> str:
+    return str(uuid.UUID(object_id))
+
+
+def _iso(interval: str) -> str:
+    seconds = duration_ns(interval) / 1e9
+    return f"PT{seconds:.9f}".rstrip("0").rstrip(".") + "S"
+
+
+def _is_body(text: str) -> bool:
+    """Whether a graphical body is the XML that an import kept, and may stand as it is."""
+    if not text.startswith("<body>") or not is_legal(text):
+        return False
+    try:
+        root = read_xml("body", text.encode())
+    except ExchangeError:
+        return False
+    return xml_text(root) == text
