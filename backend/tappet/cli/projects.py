@@ -1,4 +1,4 @@
-"""`tappet import` and `tappet export`: projects as folders and as archives of folders."""
+"""`tappet import` and `tappet export`: project archives, and the files of other systems."""
 
 from __future__ import annotations
 
@@ -7,34 +7,109 @@ from typing import Annotated
 
 import typer
 
-from tappet.cli.inputs import load_project
-from tappet.cli.output import UsageError
+from tappet.cli.inputs import is_project, load_project
+from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
 from tappet.project import folder
 from tappet.project.errors import ProjectError
+from tappet.project.exchange import ImportReport, import_files, is_importable
+from tappet.project.exchange.plcopen_write import write_plcopen
+from tappet.project.folder.archive import unpack
+from tappet.project.folder.layout import PROJECT_FILE
+from tappet.project.model import Project
 
 
 def import_project(
-    archive: Annotated[Path, typer.Argument(metavar="FILE.zip", help="archive of a project folder")],
-    to: Annotated[Path, typer.Option("--to", metavar="DIR", help="new folder for the project")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE...",
+            help="PLCopen XML, TwinCAT .plcproj or single .Tc* files, CoDeSys .EXP, .st, folders of these, "
+            "or the archive of a project",
+        ),
+    ],
+    to: Annotated[
+        Path, typer.Option("--to", metavar="DIR", help="new folder, or project folder to import into")
+    ],
+    output: FormatOption = OutputFormat.TEXT,
 ) -> None:
-    """Unpack a project archive into a new folder, checking every name and size in it."""
-    if not archive.is_file():
-        raise UsageError(f"{archive} does not exist")
-    if to.exists() and any(to.iterdir()):
-        raise UsageError(f"{to} is not empty; import into a new folder")
+    """Import a project, or files of other systems, and report what came in, what was changed and what not."""
+    for path in files:
+        if not path.exists():
+            raise UsageError(f"{path} does not exist")
+    existing = is_project(to)
+    if to.exists() and (not to.is_dir() or (any(to.iterdir()) and not existing)):
+        raise UsageError(f"{to} is not empty; import into a new folder or into a project folder")
+    report = ImportReport()
     try:
-        project = folder.read_zip(archive.read_bytes())
+        found = _files(files)
+        if any(path.rpartition("/")[2] == PROJECT_FILE for path in found):
+            if existing:
+                raise UsageError(f"{to} holds a project; import the archive of a project into a new folder")
+            project = folder.read_zip(files[0].read_bytes())
+        else:
+            into = load_project(to) if existing else None
+            imported = import_files(found, into, name="" if existing else _name(files))
+            project, report = imported.project, imported.report
         folder.save(project, to)
     except ProjectError as error:
-        raise UsageError(f"{archive}: {error}") from error
-    typer.echo(f"{project.name}: {len(project.objects)} objects in {to}")
+        raise UsageError(str(error)) from error
+    _show(project, report, to, output)
+
+
+def _name(files: list[Path]) -> str:
+    """The name of a project of several files: that of their folder; of one file says the file."""
+    if len(files) == 1:
+        return files[0].resolve().name if files[0].is_dir() else ""
+    return files[0].resolve().parent.name
+
+
+def _files(paths: list[Path]) -> dict[str, bytes]:
+    """The files to import by path; those beside a `.plcproj` belong to it, archives are unpacked."""
+    found: dict[str, bytes] = {}
+    for path in paths:
+        if path.suffix.lower() == ".zip":
+            found |= unpack(path.read_bytes())
+        elif path.is_dir():
+            found |= _below(path, path)
+        elif path.suffix.lower() == ".plcproj":
+            found |= _below(path.parent, path.parent, only_project=path.name)
+        else:
+            found[path.name if path.name not in found else str(path)] = path.read_bytes()
+    return found
+
+
+def _below(top: Path, base: Path, only_project: str | None = None) -> dict[str, bytes]:
+    found: dict[str, bytes] = {}
+    for path in sorted(top.rglob("*")):
+        name = path.relative_to(base).as_posix()
+        hidden = any(part.startswith(".") for part in Path(name).parts)
+        other = only_project is not None and (
+            path.suffix.lower() in (".plcproj", ".xml", ".st", ".txt", ".exp") and name != only_project
+        )
+        if path.is_file() and not path.is_symlink() and not hidden and not other and is_importable(path.name):
+            found[name] = path.read_bytes()
+    return found
+
+
+def _show(project: Project, report: ImportReport, to: Path, output: OutputFormat) -> None:
+    if output is OutputFormat.JSON:
+        show_json({"project": project.name, "objects": len(project.objects), **report.model_dump()})
+        return
+    for entry in report.noteworthy():
+        typer.echo(str(entry))
+    said = f" ({report.summary()})" if report.entries else ""
+    typer.echo(f"{project.name}: {len(project.objects)} objects in {to}{said}")
 
 
 def export_project(
     source: Annotated[Path, typer.Argument(metavar="DIR", help="project folder")],
-    to: Annotated[Path, typer.Option("--to", metavar="FILE.zip", help="archive to write")],
+    to: Annotated[
+        Path, typer.Option("--to", metavar="FILE", help="FILE.xml: PLCopen XML; FILE.zip: archive")
+    ],
 ) -> None:
-    """Pack a project folder into one archive, as the workbench exports and imports it."""
+    """Write a project as PLCopen XML for other systems, or as an archive for the workbench."""
     project = load_project(source)
-    to.write_bytes(folder.write_zip(project))
+    if to.suffix.lower() not in (".xml", ".zip"):
+        raise UsageError(f"{to}: the name should end in .xml (PLCopen XML) or .zip (archive of the folder)")
+    to.write_bytes(write_plcopen(project) if to.suffix.lower() == ".xml" else folder.write_zip(project))
     typer.echo(f"{project.name}: {len(project.objects)} objects in {to}")
