@@ -1,4 +1,4 @@
-"""One manual page for each diagnostic, made from `diagnostics.csv` and the docstrings of the rules.
+"""One manual page for each diagnostic, made from `diagnostics.csv`, the docstrings of the rules and the samples.
 
 `python -m tappet.lang.diagnostic_pages [DIR]` writes `<code>.md` for every code and an index to DIR, by
 default
@@ -7,14 +7,14 @@ docs/diagnostics, and removes pages of codes that are gone. A test fails when th
 
 from __future__ import annotations
 
-import inspect
 import re
 import sys
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 
 from tappet.lang.diagnostics import TABLE, Entry
-from tappet.lang.rules import RULES
+from tappet.lang.rules import ALL_RULES
+from tappet.lang.sample_texts import RuleText, Sample, samples, text_of_rule
 
 _GROUPS = {
     "E00": "Characters and literals",
@@ -33,40 +33,19 @@ _GROUPS = {
     "W13": "Addresses",
     "W14": "Tasks",
     "W15": "Texts",
+    "S10": "Coding rules: names",
+    "S11": "Coding rules: comments and declarations",
+    "S12": "Coding rules: statements and expressions",
+    "S13": "Coding rules: size and structure",
+    "S14": "Coding rules: tasks and data",
 }
-_SECTION = re.compile(r"^(Passes|Fails):\n", re.MULTILINE)
-
-
-@dataclass(frozen=True, slots=True)
-class Sample:
-    """A piece of ST from the docstring of a rule."""
-
-    passes: bool
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class RuleText:
-    """The docstring of a rule in its parts."""
-
-    explanation: str
-    samples: tuple[Sample, ...]
-
-
-def rule_text(docstring: str) -> RuleText:
-    """Takes the docstring of a rule apart: prose first, then Passes and Fails samples."""
-    parts = _SECTION.split(inspect.cleandoc(docstring) + "\n")
-    samples = tuple(
-        Sample(kind == "Passes", inspect.cleandoc(text) + "\n")
-        for kind, text in zip(parts[1::2], parts[2::2], strict=True)
-    )
-    return RuleText(parts[0].strip(), samples)
 
 
 def pages() -> dict[str, str]:
     """Text of every page by file name."""
-    rules = {code: rule_text(inspect.getdoc(rule) or "") for rule in RULES for code in rule.CODES}
-    made = {f"{code}.md": _page(entry, rules.get(code)) for code, entry in TABLE.items()}
+    rules = {code: text_of_rule(rule) for rule in ALL_RULES for code in rule.CODES}
+    found = samples()
+    made = {f"{code}.md": _page(entry, rules.get(code), found.get(code, ())) for code, entry in TABLE.items()}
     made["README.md"] = _index()
     return made
 
@@ -75,7 +54,7 @@ def _plain(template: str) -> str:
     return template.replace("{{", "{").replace("}}", "}")
 
 
-def _page(entry: Entry, rule: RuleText | None) -> str:
+def _page(entry: Entry, rule: RuleText | None, shown: Sequence[Sample]) -> str:
     lines = [f"# {entry.code}: {entry.name.replace('_', ' ')}", ""]
     lines += [f"**{entry.severity.capitalize()}**: {_plain(entry.message)}", ""]
     lines += [f"**What to do**: {_plain(entry.advice)}", ""]
@@ -83,18 +62,16 @@ def _page(entry: Entry, rule: RuleText | None) -> str:
         lines += [f"CODESYS V3 reports the same as {entry.alias}.", ""]
     if rule is not None:
         lines += [rule.explanation, ""]
-        for sample in rule.samples:
-            if not sample.passes and entry.code not in sample.text:
-                continue
-            lines += [
-                "Accepted:" if sample.passes else "Reported:",
-                "",
-                "```iecst",
-                sample.text.rstrip(),
-                "```",
-                "",
-            ]
+    for sample in shown:
+        lines += ["Accepted:" if sample.passes else "Reported:", ""]
+        lines += ["```iecst", _as_text(sample.text), "```", ""]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _as_text(text: str) -> str:
+    """A sample as a reader takes it: the `@` lines become comments."""
+    lines = text.rstrip().splitlines()
+    return "\n".join(f"// {line[1:]}" if line.startswith("@") else line for line in lines)
 
 
 def _index() -> str:

@@ -108,6 +108,8 @@ class AnalysisOptions:
     """Bytes of the areas I, Q and M."""
     main_program: str = "PLC_PRG"
     """Program that runs when there is no task configuration."""
+    static: frozenset[str] = frozenset()
+    """Codes of the optional coding rules (S1xxx) that are switched on."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -52,8 +52,12 @@ RULES: tuple[ModuleType, ...] = (
     unused_variable,
 )
 """Every rule has CODES, and the function of its kind: `check_statement` with NODES, `check_expression` with
-NODES,
-`check_list` (statements that follow each other), `check_pou`, or `check_program`."""
+NODES, `check_list` (statements that follow each other), `check_pou`, or `check_program`."""
+
+CODING_RULES: tuple[ModuleType, ...] = ()
+"""The optional coding rules: they run when `AnalysisOptions.static` names one of their codes."""
+
+ALL_RULES = RULES + CODING_RULES
 
 Check = Callable[[Any, Any], None]
 
