@@ -214,9 +214,15 @@ def _call(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr], 
     if external is not None:
         declare_external(b, target, external)
         return ir.Call(scalar, external, values)
-    if virtual:
+    if virtual and not _is_fixed(target):
         return dispatch(b, target, scalar, values)
     return ir.Call(scalar, b.program.function(target), values)
+
+
+def _is_fixed(target: PouSymbol) -> bool:
+    """Whether no derived block replaces `target`: an action of a block with no_virtual_actions (LSFC-26)."""
+    owner = target.owner
+    return target.kind == "ACTION" and owner is not None and target.name.upper() not in owner.vtable
 
 
 def dispatch(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr]) -> ir.Expr:

@@ -158,6 +158,10 @@ def _hold(b: Body, s: ast.Hold) -> None:
     b.held[s.slot] = place
 
 
+def _when_declared(b: Body, s: ast.WhenDeclared) -> None:
+    lower_statements(b, s.chosen)
+
+
 def _held_value(b: Body, e: ast.Held) -> ir.Expr:
     return ir.Load(require_scalar(carried_type(e)), b.held[e.slot])
 
@@ -188,6 +192,7 @@ _STATEMENTS: dict[type, Callable[..., None]] = {
     ast.Return: _return,
     ast.Jump: _jump,
     ast.Hold: _hold,
+    ast.WhenDeclared: _when_declared,
     ast.Try: _try,
 }
 VALUES[ast.Held] = _held_value

@@ -356,6 +356,20 @@ class PragmaStmt(Stmt):
 
 
 @dataclass(slots=True, kw_only=True)
+class WhenDeclared(Stmt):
+    """`body` where every one of `names` is a variable here, else `otherwise`: what a chart becomes depends on
+    the flags that are declared, and on whether an association names an action or a BOOL variable."""
+
+    names: list[str]
+    body: list[Stmt]
+    otherwise: list[Stmt]
+    step: str | None = None
+    """The step that names an action: an unknown name is an error then."""
+    # resolved
+    chosen: list[Stmt] = field(default_factory=list)
+
+
+@dataclass(slots=True, kw_only=True)
 class Try(Stmt):
     """__TRY ... __CATCH(variable) ... __FINALLY ... __ENDTRY."""
 

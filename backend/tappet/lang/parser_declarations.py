@@ -6,11 +6,16 @@ from pathlib import PurePosixPath
 from typing import Final
 
 from tappet.lang import ast
+from tappet.lang.diagnostics import report
 from tappet.lang.il.reader import read_body
 from tappet.lang.il.recognise import is_instruction_list
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import BODY_END, CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS, Opener
 from tappet.lang.parser_type_blocks import TypeBlockParser
+from tappet.lang.sfc.chart import Chart
+from tappet.lang.sfc.reader import begins_step, begins_transition, read_step, read_transition
+from tappet.lang.sfc.translate import translate
+from tappet.lang.source import Span, split_lines
 
 _ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
@@ -217,8 +222,15 @@ class Parser(TypeBlockParser):
         kinds = self.kinds
         end = ENDS[opener[0]]
         begun = False  # whether a statement has been read
+        chart = Chart()
         while True:
             kind = kinds[self.i]
+            if kind is ID and not pou.body and pou.kind in _HOLDERS and begins_step(self):
+                read_step(self, chart)
+                continue
+            if kind == "TRANSITION" and chart.steps and begins_transition(self):
+                read_transition(self, chart)
+                continue
             if kind == end or kind is END:
                 if self.i in self.trivia and not pou.body:
                     pou.body += self.statements()  # pragmas alone
@@ -246,6 +258,23 @@ class Parser(TypeBlockParser):
                 begun = begun or any(not isinstance(item, ast.PragmaStmt) for item in body)
                 if self.i == at and not self._foreign_end(kind):
                     break
+        if chart.steps:
+            self._chart(pou, chart)
+
+    def _chart(self, pou: ast.Pou, chart: Chart) -> None:
+        """Give a POU the variables and statements of its chart."""
+        lines = split_lines(self.source.text)
+
+        def report_at(code: str, span: Span, **fields: object) -> None:
+            self.diagnostics.append(report(code, self.source.uri, span, **fields))
+
+        def text_of(span: Span) -> str:
+            last = span.end_column if span.end_line == span.line else None
+            return lines[span.line][span.column : last]
+
+        blocks, pou.body = translate(pou, chart, report_at, text_of)
+        pou.blocks += blocks
+        pou.language = "SFC"
 
     def _reads_rows(self) -> bool:
         """Whether the body that begins here is written in IL."""

@@ -238,7 +238,9 @@ class _Views:
             return
         if base is not None:
             pou.vtable.update(base.vtable)
-        entries: dict[str, PouSymbol] = {**pou.methods, **pou.actions}
+        pragmas = pou.pou.attributes if pou.pou is not None else []
+        fixed = attribute(pragmas, "no_virtual_actions") is not None  # LSFC-26
+        entries: dict[str, PouSymbol] = {**pou.methods, **({} if fixed else pou.actions)}
         for property_ in pou.properties.values():
             for accessor in (property_.getter, property_.setter):
                 if accessor is not None:

@@ -21,6 +21,7 @@ from tappet.lang.analysis.incremental import reanalyse
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.attributes import attribute
+from tappet.lang.sfc.library import with_types
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
@@ -41,6 +42,8 @@ def analyse(
     `previous` is used up then, its symbols live on in the result.
     """
     options = options or AnalysisOptions()
+    earlier = previous.state.units if previous is not None and isinstance(previous.state, State) else ()
+    units = with_types(units, earlier)
     if previous is not None:
         again = reanalyse(previous, units, options)
         if again is not None:

@@ -281,6 +281,15 @@ def _hold(b: Body, s: ast.Hold) -> None:
     value(b, s.value)
 
 
+def _when_declared(b: Body, s: ast.WhenDeclared) -> None:
+    found = [b.lookup(entry) for entry in s.names]
+    s.chosen = s.body if all(isinstance(symbol, VarSymbol) for symbol in found) else s.otherwise
+    if s.step is not None and None in found:
+        b.report("E0826", s.span, step=s.step, name=s.names[0], hint=b.suggest(s.names[0]))
+        s.chosen = []
+    statements(b, s.chosen)
+
+
 def _held(b: Body, e: ast.Held) -> None:
     kept = b.held.get(e.slot)
     e.type = e.carried = e.constant = None
@@ -333,6 +342,7 @@ STATEMENTS.update(
         ast.Continue: _exit,
         ast.Jump: _jump,
         ast.Hold: _hold,
+        ast.WhenDeclared: _when_declared,
         ast.Try: _try,
     }
 )

@@ -1,0 +1,180 @@
+"""Textual SFC of IEC 61131-3: STEP, INITIAL_STEP and TRANSITION among the actions of a POU.
+
+Besides the IEC form a step may have step, entry and exit actions, `Act(STEP)`, `Act(ENTRY)`, `Act(EXIT)`,
+and `MIN_TIME := T#1s;`, `MAX_TIME := T#5s;`: what a drawn chart has as attributes (LSFC-04, LSFC-11, LSFC-24).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from tappet.lang import ast
+from tappet.lang.diagnostics import report
+from tappet.lang.lexer import END, ID, INT
+from tappet.lang.parser_core import BODY_END, OBJECT_HEADS
+from tappet.lang.sfc.chart import QUALIFIERS, ROLES, TIMED, Association, Chart, Step, Transition
+from tappet.lang.source import Span
+
+if TYPE_CHECKING:
+    from tappet.lang.parser_statements import StatementParser
+
+_TIMES: Final = ("MIN_TIME", "MAX_TIME")
+
+
+def begins_step(parser: StatementParser) -> bool:
+    """Whether a step begins at the next token."""
+    i = parser.i
+    kinds = parser.kinds
+    if parser.word() not in ("STEP", "INITIAL_STEP"):
+        return False
+    return kinds[i + 1] is ID and kinds[i + 2] == ":"
+
+
+def begins_transition(parser: StatementParser) -> bool:
+    """Whether TRANSITION here belongs to a chart: FROM follows, behind a name and a priority."""
+    i = parser.i + 1
+    kinds = parser.kinds
+    if kinds[i] is ID and parser.texts[i].upper() != "FROM":
+        i += 1
+    if kinds[i] == "(":
+        while kinds[i] != ")" and kinds[i] not in BODY_END and kinds[i] != ";":
+            i += 1
+        i += 1
+    return kinds[i] is ID and parser.texts[i].upper() == "FROM"
+
+
+def read_step(parser: StatementParser, chart: Chart) -> None:
+    """`STEP name: associations END_STEP`."""
+    p = parser
+    start = p.i
+    initial = p.word() == "INITIAL_STEP"
+    p.i += 3
+    step = Step(p.texts[start + 1], p.span_at(start + 1), p.span_from(start), initial)
+    while p.word() != "END_STEP":
+        if p.kinds[p.i] is not ID or begins_step(p):
+            if p.kinds[p.i] == ";":
+                p.i += 1
+                continue
+            _missing_end(p, "END_STEP", "STEP", start)
+            break
+        _step_entry(p, step)
+    else:
+        p.i += 1
+        p.optional_semicolon()
+    step.span = p.span_from(start)
+    chart.steps.append(step)
+
+
+def _missing_end(p: StatementParser, end: str, begin: str, start: int) -> None:
+    p.error("E0103", end=end, begin=begin, line=p.shown_line(p.lines[start]), found=p.found())
+    while p.kinds[p.i] is not END and p.kinds[p.i] not in OBJECT_HEADS and not begins_step(p):
+        if p.word() == end or p.kinds[p.i] == end:
+            p.i += 1
+            p.optional_semicolon()
+            return
+        if p.kinds[p.i] in BODY_END:
+            return
+        p.i += 1
+
+
+def _step_entry(p: StatementParser, step: Step) -> None:
+    """`action(qualifier, time);` or a time attribute."""
+    start = p.i
+    messages = len(p.diagnostics)
+    name, name_span = p.texts[start], p.span_at(start)
+    p.i += 1
+    if p.kinds[p.i] == ":=" and name.upper() in _TIMES:
+        p.i += 1
+        value = p.expression()
+        if name.upper() == "MIN_TIME":
+            step.minimum = value
+        else:
+            step.maximum = value
+        p.end_of_statement(messages)
+        return
+    qualifier, place = "N", name_span
+    time: ast.Expr | None = None
+    if p.kinds[p.i] == "(":
+        p.i += 1
+        if p.texts[p.i].upper() in (*QUALIFIERS, *ROLES):
+            qualifier, place = p.texts[p.i].upper(), p.span_at(p.i)
+            p.i += 1
+        elif p.kinds[p.i] != ")":
+            known = ", ".join(QUALIFIERS)
+            p.error("E0824", found=p.found(), step=step.name, known=known)
+        if p.kinds[p.i] == ",":
+            p.i += 1
+            time = p.expression()
+        while p.kinds[p.i] == ",":  # indicator variables of IEC say nothing about the execution
+            p.i += 1
+            p.expression()
+        p.take(")")
+    p.end_of_statement(messages)
+    if qualifier in ROLES:
+        step.roles[qualifier] = (name, name_span)
+        return
+    if len(p.diagnostics) == messages:
+        time = _checked_time(p, step, qualifier, time, place)
+    step.associations.append(Association(name, name_span, qualifier, time, p.span_from(start)))
+
+
+def _checked_time(
+    p: StatementParser, step: Step, qualifier: str, time: ast.Expr | None, place: Span
+) -> ast.Expr | None:
+    """LSFC-39: a time where the qualifier needs one, and only there."""
+    if qualifier in TIMED and time is None:
+        p.diagnostics.append(report("E0825", p.source.uri, place, qualifier=qualifier, step=step.name))
+    if qualifier not in TIMED and time is not None:
+        p.diagnostics.append(report("W1119", p.source.uri, time.span, qualifier=qualifier, step=step.name))
+        return None
+    return time
+
+
+def read_transition(parser: StatementParser, chart: Chart) -> None:
+    """`TRANSITION name (PRIORITY := n) FROM step TO step := condition; END_TRANSITION`."""
+    p = parser
+    start = p.i
+    p.i += 1
+    if p.word() not in ("", "FROM"):
+        p.i += 1
+    priority = None
+    if p.kinds[p.i] == "(":
+        p.i += 1
+        p.i += 1 if p.word() == "PRIORITY" else 0
+        p.take(":=", hint="Write (PRIORITY := 1).")
+        if p.kinds[p.i] is INT:
+            priority = int(p.texts[p.i])
+            p.i += 1
+        else:
+            p.expected("A number", "Write (PRIORITY := 1); the lowest number goes first.")
+        p.take(")")
+    p.i += 1 if p.word() == "FROM" else 0
+    sources = _steps(p)
+    p.take("TO")
+    targets = _steps(p)
+    messages = len(p.diagnostics)
+    condition: ast.Expr
+    if p.take(":=", hint="Write ':=' and the condition behind the steps."):
+        condition = p.expression()
+        p.end_of_statement(messages)
+    else:
+        condition = ast.ErrorExpr(span=p.span_at(p.i))
+    if p.kinds[p.i] == "END_TRANSITION":
+        p.i += 1
+        p.optional_semicolon()
+    else:
+        _missing_end(p, "END_TRANSITION", "TRANSITION", start)
+    chart.transitions.append(Transition(sources, targets, condition, p.span_from(start), priority))
+
+
+def _steps(p: StatementParser) -> list[tuple[str, Span]]:
+    """`step` or `(step, step)`."""
+    if p.kinds[p.i] != "(":
+        return [p.name("step")]
+    p.i += 1
+    found = [p.name("step")]
+    while p.kinds[p.i] == ",":
+        p.i += 1
+        found.append(p.name("step"))
+    p.take(")")
+    return found
