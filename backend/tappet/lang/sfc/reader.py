@@ -1,7 +1,7 @@
 """Textual SFC of IEC 61131-3: STEP, INITIAL_STEP and TRANSITION among the actions of a POU.
 
 Besides the IEC form a step may have step, entry and exit actions, `Act(STEP)`, `Act(ENTRY)`, `Act(EXIT)`,
-and `MIN_TIME := T#1s;`, `MAX_TIME := T#5s;`: what a drawn chart has as attributes (LSFC-04, LSFC-11, LSFC-24).
+and `MIN_TIME := T#1s;`, `MAX_TIME := T#5s;`: what a drawn chart has as attributes (LSFC-04, -11, -24).
 """
 
 from __future__ import annotations
