@@ -3,7 +3,7 @@
 import pytest
 
 from tappet.project import edit
-from tappet.project.errors import UnknownObjectError
+from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.model import Project, ProjectObject
 from tappet.project.sources import (
     Place,
@@ -176,3 +176,29 @@ def test_only_an_application_is_compiled() -> None:
     project = new_project("x")
     with pytest.raises(UnknownObjectError, match="is a pou, not an application"):
         application_sources(project, at(project, f"{APP}/PLC_PRG").id)
+
+
+def test_language_of_a_body() -> None:
+    """A body in IL is compiled as such whatever its first row looks like; ST is told by its text."""
+    project = new_project("Plant")
+    (application,) = project.applications()
+    project, rows = edit.add_object(project, application.id, "pou", "Rows", language="IL")
+    project, _ = edit.add_object(project, rows.id, "action", "Clear", language="IL")
+    project, _ = edit.add_object(project, rows.id, "method", "Plain")
+    found = {text.uri: text.language for text in application_sources(project, application.id)}
+    assert found["Rows"] == found["Rows.Clear"] == "IL"
+    assert found["Rows.Plain"] is None
+    with pytest.raises(InvalidDataError, match="possible: ST, IL"):
+        edit.add_object(project, application.id, "pou", "Chart", language="FBD")
+    with pytest.raises(InvalidDataError, match="possible: none"):
+        edit.add_object(project, application.id, "gvl", "Values", language="IL")
+
+
+def test_chart_as_text_is_compiled() -> None:
+    project = new_project("Plant")
+    (application,) = project.applications()
+    chart = "INITIAL_STEP S: END_STEP\nTRANSITION FROM S TO S := TRUE; END_TRANSITION"
+    data = {"declaration": "PROGRAM Chart", "implementation": chart, "language": "SFC"}
+    project, _ = edit.add_object(project, application.id, "pou", "Chart", data=data)
+    found = {text.uri: text.text for text in application_sources(project, application.id)}
+    assert chart in found["Chart"]

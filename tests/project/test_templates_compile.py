@@ -39,6 +39,7 @@ def test_templates_compile() -> None:
             owner=text.owner,
             name=text.name,
             body_line=text.body_line,
+            language=text.language,
         )
         parsed = parse(source)
         assert [found.message for found in parsed.diagnostics] == [], text.text

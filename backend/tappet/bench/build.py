@@ -19,7 +19,7 @@ from tappet.server.build_worker import BuildOrder, Compiler
 POUS = 550
 EDITED = (7, 100, 222, 333, 444)
 """Function blocks edited one after the other."""
-_FIELDS = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line")
+_FIELDS = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line", "language")
 BAR = "cold build of 550 POUs / 30,000 lines under 5 s on 2 cores; one edited POU under 200 ms"
 
 _BLOCK = """FUNCTION_BLOCK FB_Unit{n}

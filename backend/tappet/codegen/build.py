@@ -108,6 +108,8 @@ class SourceLike(Protocol):
     def namespace(self) -> str | None: ...
     @property
     def body_line(self) -> int: ...
+    @property
+    def language(self) -> str | None: ...
 
 
 class BuildSession:
@@ -166,6 +168,7 @@ def as_source(text: Source | SourceLike) -> Source:
         text.library,
         text.namespace,
         text.body_line,
+        text.language,
     )
 
 

@@ -35,10 +35,12 @@ def add_object(
     name: str | None = None,
     *,
     subkind: str | None = None,
+    language: str | None = None,
     data: AnyData | None = None,
     index: int | None = None,
 ) -> tuple[Project, ProjectObject]:
-    """Add an object and what comes with its kind; without `data` it begins with the kind's template.
+    """Add an object and what comes with its kind; without `data` it begins with the kind's template, in the
+    language that is asked for.
 
     `name` None takes a proposed one; `index` None appends. Raises NotPlaceableError, InvalidNameError,
     NameTakenError, InvalidDataError, UnknownObjectError (parent).
@@ -52,7 +54,7 @@ def add_object(
         kind=kind,
         name=name,
         index=len(project.siblings(parent_id, kind)),
-        data=new_data(kind, name, subkind) if data is None else data,
+        data=new_data(kind, name, subkind, language) if data is None else data,
     )
     grown = _with(project, [added])
     if index is not None:

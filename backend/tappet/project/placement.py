@@ -11,6 +11,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from tappet.project.data import Language
 from tappet.project.errors import InvalidNameError, NameTakenError, NotPlaceableError, ProjectError
 from tappet.project.model import Project, ProjectObject, is_pous_root
 from tappet.project.naming import check_free_name, check_identifier, name_key, unique_name
@@ -39,9 +40,13 @@ class PlacementRule(BaseModel):
     names: tuple[str, ...] = Field(default=(), description="The possible names where naming is fixed.")
     proposal: str = Field(default="", description="Name that the dialog proposes.")
     subkinds: tuple[str, ...] = Field(default=(), description="Templates to choose from for a new object.")
+    languages: tuple[Language, ...] = Field(
+        default=(), description="Languages to choose from for the body of a new object; the first is usual."
+    )
 
 
 _CODE_PLACES = ("application", POUS_VIEW)
+_LANGUAGES: tuple[Language, ...] = ("ST", "IL")
 
 RULES: Mapping[str, PlacementRule] = MappingProxyType(
     {
@@ -69,6 +74,7 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 parents=_CODE_PLACES,
                 proposal="POU",
                 subkinds=("program", "function_block", "function"),
+                languages=_LANGUAGES,
             ),
             PlacementRule(kind="interface", parents=_CODE_PLACES, proposal="ITF"),
             PlacementRule(
@@ -84,6 +90,7 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 parents=("pou", "interface"),
                 parent_subkinds=("program", "function_block"),
                 proposal="Meth",
+                languages=_LANGUAGES,
             ),
             PlacementRule(
                 kind="property",
@@ -96,6 +103,7 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 parents=("pou",),
                 parent_subkinds=("program", "function_block"),
                 proposal="Act",
+                languages=_LANGUAGES,
             ),
             PlacementRule(
                 kind="accessor",
@@ -103,6 +111,7 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 in_folders=False,
                 naming="fixed",
                 names=("Get", "Set"),
+                languages=_LANGUAGES,
             ),
             PlacementRule(
                 kind="task_configuration",

@@ -6,6 +6,7 @@ which object and part every line comes from, so that a diagnostic finds its edit
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
@@ -27,6 +28,8 @@ from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of, owner_of
 
 Part = Literal["declaration", "implementation"]
+_CHART_TEXT = re.compile(r"\s*(?:INITIAL_)?STEP\s+\w+\s*:", re.IGNORECASE)
+"""The beginning of a chart written as text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +53,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class SourceText:
-    """One text for the compiler; the first eight fields are those of `lang.source.Source`."""
+    """One text for the compiler; all fields before `object_id` are those of `lang.source.Source`."""
 
     uri: str
     text: str
@@ -60,6 +63,8 @@ class SourceText:
     library: str | None
     namespace: str | None
     body_line: int
+    language: str | None
+    """`IL` for a body in IL; None where the body tells by its first instruction."""
     object_id: str
     segments: tuple[Segment, ...]
 
@@ -236,6 +241,7 @@ def _text(
         library=None,
         namespace=None,
         body_line=body_line,
+        language="IL" if isinstance(data, BodyData | ActionData) and data.language == "IL" else None,
         object_id=item.id,
         segments=tuple(writer.segments),
     )
@@ -254,11 +260,12 @@ def _accessors(project: Project, item: ProjectObject, writer: _Writer) -> None:
 
 def _compiled(name: str, data: BodyData | ActionData) -> str:
     """The implementation as the compiler takes it; an imported graphical body gives an error of its own."""
-    if data.language in ("ST", "IL") or not data.implementation:
+    textual = data.language in ("ST", "IL") or _CHART_TEXT.match(data.implementation) is not None
+    if textual or not data.implementation:
         return data.implementation
     return (
         f"{{error 'The body of {name} is in {data.language}, which cannot be compiled yet; it was imported "
-        "and is kept unchanged. Write it in ST to run it.'}"
+        "and is kept unchanged; write it in ST to run it'}"
     )
 
 

@@ -47,11 +47,23 @@ DEFAULT_DEVICE = "Tappet Soft PLC"
 """Name of the device of a new project."""
 
 
-def new_data(kind: str, name: str, subkind: str | None = None) -> Data:
-    """The data of a new object. `subkind` chooses among the templates of POUs and DUTs, the first by default.
+def new_data(kind: str, name: str, subkind: str | None = None, language: str | None = None) -> Data:
+    """The data of a new object. `subkind` chooses among the templates of POUs and DUTs, the first by default;
+    `language` is the one of its body (FBD-02).
 
-    Raises InvalidDataError for a subkind that the kind does not have.
+    Raises InvalidDataError for a subkind or a language that the kind does not have.
     """
+    data = _template(kind, name, subkind)
+    if language is None:
+        return data
+    offered = RULES[kind].languages if kind in RULES else ()
+    if language not in offered:
+        possible = ", ".join(offered) or "none"
+        raise InvalidDataError(f"A new {kind} cannot be written in '{language}'; possible: {possible}")
+    return data.model_copy(update={"language": language})
+
+
+def _template(kind: str, name: str, subkind: str | None) -> Data:
     subkinds = RULES[kind].subkinds if kind in RULES else ()
     if subkind is not None and subkind not in subkinds:
         offered = ", ".join(subkinds) or "none"

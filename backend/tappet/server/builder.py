@@ -257,7 +257,7 @@ async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict
 
 
 def _source_fields(source: SourceText) -> dict[str, Any]:
-    names = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line")
+    names = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line", "language")
     return {name: getattr(source, name) for name in names}
 
 

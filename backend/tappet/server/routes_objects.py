@@ -40,6 +40,7 @@ def create_object(project_id: str, body: NewObject, who: Engineer, store: StoreD
         body.kind,
         body.name,
         subkind=body.subkind,
+        language=body.language,
         data=body.data,
         index=body.index,
     )

@@ -254,6 +254,7 @@ class Store:
         name: str | None = None,
         *,
         subkind: str | None = None,
+        language: str | None = None,
         data: Mapping[str, Any] | None = None,
         index: int | None = None,
         comment: str = "",
@@ -264,7 +265,14 @@ class Store:
             author,
             "add",
             lambda project: edit.add_object(
-                project, parent_id, kind, name, subkind=subkind, data=data, index=index
+                project,
+                parent_id,
+                kind,
+                name,
+                subkind=subkind,
+                language=language,
+                data=data,
+                index=index,
             ),
             comment,
         )

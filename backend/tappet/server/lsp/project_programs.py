@@ -92,6 +92,7 @@ class ProjectPrograms:
             owner=text.owner,
             name=text.name,
             body_line=text.body_line,
+            language=text.language,
         )
         segments = tuple(
             Segment(

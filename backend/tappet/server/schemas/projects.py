@@ -68,6 +68,7 @@ class NewObject(Request):
         default=None, description="Null takes the name that the placement rule proposes."
     )
     subkind: str | None = Field(default=None, description="Which template, such as `function_block`.")
+    language: str | None = Field(default=None, description="Language of the body, `ST` or `IL`.")
     data: dict[str, Any] | None = None
     index: int | None = Field(default=None, ge=0, description="Place among the siblings; null is the end.")
 
