@@ -257,9 +257,11 @@ async def test_symbols_of_a_document_and_of_all() -> None:
         all_ = await client.ask("workspace/symbol", {"query": "mo"})
         assert {(s["name"], s["location"]["uri"]) for s in all_} == {
             ("FB_Motor", uri("FB_Motor", "declaration")),
-            ("FB_Motor", uri("FB_Motor", "implementation")),
             ("E_Mode", uri("E_Mode", "declaration")),
+            ("motor", HEAD),
         }
+        (first, *_) = await client.ask("workspace/symbol", {"query": "icount"})
+        assert (first["name"], first["containerName"]) == ("iCount", "PLC_PRG")
 
 
 async def test_formatting() -> None:
@@ -273,6 +275,60 @@ async def test_formatting() -> None:
             (1, "  iCount := 2;"),
             (2, "END_IF"),
         ]
+
+
+async def test_formatting_follows_the_settings() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "IF iCount=1 THEN f(1,2); END_IF")
+        chosen = {"keywords": "lower", "operators": False, "commas": False, "other": 1}
+        options = {"tabSize": 4, "insertSpaces": True}
+        for settings, expected in (
+            ({"tappet": {"format": chosen}}, "if iCount=1 then f(1,2); end_if"),
+            (
+                {"tappet": {"format": {"keywords": "shouting", "operators": 3}}},
+                "IF iCount = 1 THEN f(1, 2); END_IF",
+            ),
+            (None, "IF iCount = 1 THEN f(1, 2); END_IF"),
+        ):
+            await client.tell("workspace/didChangeConfiguration", {"settings": settings})
+            (found,) = await client.ask("textDocument/formatting", {**params, "options": options})
+            assert found["newText"] == expected
+
+
+async def test_code_actions_mend_a_message() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "xNew := TRUE;\niCoun := 1;")
+        whole = {"start": {"line": 0, "character": 0}, "end": {"line": 1, "character": 3}}
+        found = await client.ask(
+            "textDocument/codeAction", {**params, "range": whole, "context": {"diagnostics": []}}
+        )
+        by_key = {(a["data"]["key"], a["diagnostics"][0]["range"]["start"]["line"]): a for a in found}
+        declared = by_key["declareAs", 0]["edit"]["changes"]
+        assert declared == {HEAD: [{"range": here(4, 0, 0), "newText": "    xNew : BOOL;\n"}]}
+        assert by_key["declare", 0]["data"]["declare"] == {"name": "xNew", "type": "BOOL"}
+        replaced = by_key["replace", 1]
+        assert replaced["isPreferred"]
+        assert replaced["data"]["values"] == {"name": "iCount"}
+        assert replaced["edit"]["changes"] == {BODY: [{"range": here(1, 0, 5), "newText": "iCount"}]}
+
+
+async def test_cross_references_by_place_and_by_name() -> None:
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "iCount := iCount + 1;")
+        at = {**params, "position": {"line": 0, "character": 2}}
+        by_place = await client.ask("tappet/crossReferences", at)
+        assert [(r["access"], r["uri"], r["symbol"]) for r in by_place] == [
+            ("declaration", HEAD, "PLC_PRG.iCount"),
+            ("write", BODY, "PLC_PRG.iCount"),
+            ("read", BODY, "PLC_PRG.iCount"),
+        ]
+        assert by_place[1]["text"] == "iCount := iCount + 1;"
+        assert by_place == await client.ask("tappet/crossReferences", {"name": "plc_prg.icount"})
+        for bad in ({}, {"name": "x" * 501}, {"textDocument": {"uri": BODY}, "position": 3}):
+            assert (await client.refused("tappet/crossReferences", bad))["code"] == rpc.REQUEST_FAILED
 
 
 async def test_folding() -> None:

@@ -14,6 +14,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from tappet.project.store.records import ChangeEvent
 from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
+from tappet.server.lsp.library_names import libraries_with
 from tappet.server.lsp.project_programs import ProjectPrograms
 from tappet.server.lsp.session import LanguageSession
 
@@ -38,7 +39,7 @@ async def language_server(
     programs = ProjectPrograms(project, lambda: services.store.load(project))
     await socket.accept()
     loop = asyncio.get_running_loop()
-    session = LanguageSession(programs, socket.send_text)
+    session = LanguageSession(programs, socket.send_text, offering=libraries_with)
 
     def changed(event: ChangeEvent) -> None:  # in the thread that has stored it
         if event.project_id == project:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.lang.lexer import KEYWORDS, tokenize
-from tappet.lang.services.formatting import format_text, formatting
+from tappet.lang.services.formatting import Style, format_text, formatting
 from tappet.lang.source import Source
 
 UGLY = """program p
@@ -107,7 +107,20 @@ def test_small_pieces(text: str, expected: str) -> None:
 
 
 def test_tabs_as_indentation() -> None:
-    assert format_text("IF a THEN\n  b();\nEND_IF", "\t") == "IF a THEN\n\tb();\nEND_IF"
+    assert format_text("IF a THEN\n  b();\nEND_IF", Style(indent="\t")) == "IF a THEN\n\tb();\nEND_IF"
+
+
+@pytest.mark.parametrize(
+    ("style", "expected"),
+    [
+        (Style(keywords="lower"), "if a and NOT_ME then b := c + d(1, -2); end_if"),
+        (Style(keywords="keep"), "If a AND NOT_ME then b := c + d(1, -2); End_if"),
+        (Style(operators=False), "IF a AND NOT_ME THEN b := c+d(1, -2); END_IF"),
+        (Style(commas=False), "IF a AND NOT_ME THEN b := c + d(1,-2); END_IF"),
+    ],
+)
+def test_what_can_be_chosen(style: Style, expected: str) -> None:
+    assert format_text("If a AND NOT_ME then b:=c+d( 1 , -2 );End_if", style) == expected
 
 
 def test_edits_are_the_lines_that_change() -> None:
@@ -120,16 +133,46 @@ def test_text_with_something_unclosed_stays(text: str) -> None:
     assert format_text(text) == text
 
 
-MARKS = ["(", ")", "[", "]", ":=", ":", ";", ",", ".", "-", "=", "..", "^", "\n", "\n"]
+MARKS = [
+    "(",
+    ")",
+    "[",
+    "]",
+    ":=",
+    ":",
+    ";",
+    ",",
+    ".",
+    "-",
+    "=",
+    "*",
+    "/",
+    "<",
+    ">",
+    "&",
+    "..",
+    "^",
+    "\n",
+    "\n",
+]
 WORDS = [*sorted(KEYWORDS), *MARKS, "a", "b1", "5", "'s'", "// c\n", "(* c *)", "(* c\n d *)", "T#5s", "{p}"]
 
 
-@given(st.lists(st.sampled_from(WORDS), max_size=60))
-def test_tokens_stay_the_same_and_a_second_pass_changes_nothing(words: list[str]) -> None:
+STYLES = st.builds(
+    Style,
+    indent=st.sampled_from(["    ", "  ", "\t"]),
+    keywords=st.sampled_from(["upper", "lower", "keep"]),
+    operators=st.booleans(),
+    commas=st.booleans(),
+)
+
+
+@given(st.lists(st.sampled_from(WORDS), max_size=60), STYLES)
+def test_tokens_stay_the_same_and_a_second_pass_changes_nothing(words: list[str], style: Style) -> None:
     text = " ".join(words)
-    once = format_text(text)
+    once = format_text(text, style)
     before = [(t.kind, t.text.upper()) for t in tokenize(Source("x", text))]
     after = [(t.kind, t.text.upper()) for t in tokenize(Source("x", once))]
     assert after == before
     assert once.count("\n") == text.count("\n")
-    assert format_text(once) == once
+    assert format_text(once, style) == once

@@ -7,6 +7,7 @@ Source: spec LDEC-17 (keywords in upper case).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from tappet.lang.lexer import END, ID, INT, KEYWORDS, NUMBER, STRING, Lexed, Trivia, lex
 from tappet.lang.parser_core import SECTIONS
@@ -56,10 +57,27 @@ _FLAGS = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"])
 _NO_BLANK_BEFORE = frozenset([";", ",", ")", "]", ".", "^", ".."])
 _NO_BLANK_AFTER = frozenset(["(", "[", ".", ".."])
 _BINARY = frozenset([":=", "=>", "=", "<>", "<", ">", "<=", ">=", "+", "-", "*", "/", "**", "&"])
+_TIGHT = _BINARY - {":=", "=>"}
+"""Operators that a style may write without blanks."""
 _OPERAND_END = frozenset(
     [ID, INT, NUMBER, STRING, "address", ")", "]", "^", "TRUE", "FALSE", "THIS", "SUPER", "NULL"]
 )
 _LABEL_PARTS = frozenset([ID, INT, NUMBER, STRING, ".", ",", "..", "-", "+", "*", "(", ")", "TRUE", "FALSE"])
+
+
+Case = Literal["upper", "lower", "keep"]
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """What can be chosen about the look of a text."""
+
+    indent: str = "    "
+    keywords: Case = "upper"
+    operators: bool = True
+    """Blanks around operators; without them `a := b + c` becomes `a := b+c`."""
+    commas: bool = True
+    """A blank behind a comma."""
 
 
 @dataclass(slots=True)
@@ -76,17 +94,20 @@ class _Piece:
     """Of the token; -1 for trivia."""
 
 
-def format_text(text: str, indent: str = "    ") -> str:
+_USUAL = Style()
+
+
+def format_text(text: str, style: Style = _USUAL) -> str:
     """The text of a document, formatted; unchanged when a comment or string in it is not closed."""
     lexed = lex(text, "")
     if lexed.unclosed_comment or any(d.code in ("E0003", "E0004") for d in lexed.diagnostics):
         return text
-    return _Formatter(text, lexed, indent).run()
+    return _Formatter(text, lexed, style).run()
 
 
-def formatting(document: str, text: str, indent: str = "    ") -> list[Edit]:
+def formatting(document: str, text: str, style: Style = _USUAL) -> list[Edit]:
     """The edits that format a document, one for each line that changes."""
-    before, after = text.split("\n"), format_text(text, indent).split("\n")
+    before, after = text.split("\n"), format_text(text, style).split("\n")
     return [
         Edit(Place(document, Span(number, 0, number, len(old))), new)
         for number, (old, new) in enumerate(zip(before, after, strict=True))
@@ -95,9 +116,10 @@ def formatting(document: str, text: str, indent: str = "    ") -> list[Edit]:
 
 
 class _Formatter:
-    def __init__(self, text: str, lexed: Lexed, indent: str) -> None:
+    def __init__(self, text: str, lexed: Lexed, style: Style) -> None:
         self.lexed = lexed
-        self.indent = indent
+        self.style = style
+        self.indent = style.indent
         self.lines = text.split("\n")
         self.stack: list[str] = []
         """Open constructs; 'label' stands for the branch of a CASE that has begun."""
@@ -303,8 +325,12 @@ class _Formatter:
             return keep if a in KEYWORDS else " " if a in _BINARY else keep
         if b == ":":
             return keep if self.declaring() else ""
-        if a == "-" or a == "+":
-            return "" if self.is_sign(left) else " "
+        if (a == "-" or a == "+") and self.is_sign(left):
+            return ""
+        if not self.style.commas and a == ",":
+            return ""
+        if not self.style.operators and (a in _TIGHT or (b in _TIGHT and a in _OPERAND_END)):
+            return ""
         return " "
 
     def is_sign(self, piece: _Piece) -> bool:
@@ -319,10 +345,15 @@ class _Formatter:
         if piece.kind in KEYWORDS:
             behind_dot = piece.index > 0 and self.lexed.kinds[piece.index - 1] == "."
             is_name = self.lexed.kinds[piece.index + 1] in (":=", "=>") and self.depth > 0
-            return text if behind_dot or is_name else text.upper()
+            return text if behind_dot or is_name else self.written(text)
         behind = self.lexed.kinds[piece.index - 1] if piece.index else ""
         is_type = piece.kind is ID and behind in (":", "OF", "TO") and self.declaring()
-        return text.upper() if is_type and text.upper() in _TYPE_NAMES else text
+        return self.written(text) if is_type and text.upper() in _TYPE_NAMES else text
+
+    def written(self, word: str) -> str:
+        """A keyword in the case of the style."""
+        case = self.style.keywords
+        return word.upper() if case == "upper" else word.lower() if case == "lower" else word
 
     def declaring(self) -> bool:
         """Whether declarations stand here, not statements."""

@@ -23,7 +23,9 @@ from tappet.lang.symbols import (
     VarSymbol,
 )
 
-Role = Literal["declaration", "read", "write"]
+Role = Literal["declaration", "read", "write", "call", "address"]
+"""How a place uses a name; `address`: ADR and REF=, through which it can be read and written."""
+_ADDRESSING = frozenset({"ADR", "BITADR"})
 
 
 class Key(NamedTuple):
@@ -46,8 +48,8 @@ class Occurrence:
 
 
 _SKIPPED = frozenset(
-    {"owner", "init", "expansion", "accumulator", "symbol", "type", "carried", "parameter", "source"}
-    | {"span", "name_span", "target_span"}
+    {"owner", "init", "expansion", "accumulator", "symbol", "type", "carried", "chosen", "parameter"}
+    | {"source", "span", "name_span", "target_span"}
 )
 
 
@@ -169,7 +171,14 @@ class _Finder:
             if isinstance(node, ast.Assign):
                 self.label(node, body)
             push((node.target, "write", body))
-            push((node.value, "read", body))
+            push((node.value, "address" if node.op == "REF=" else "read", body))
+            return
+        if isinstance(node, ast.Call):
+            push((node.callee, "call", body))
+            callee = node.callee
+            taken = isinstance(callee, ast.Name) and callee.name.upper() in _ADDRESSING
+            for argument in node.args:
+                push((argument, "address" if taken else "read", body))
             return
         if isinstance(node, (ast.Index, ast.Deref)):
             push((node.base, role, body))
@@ -186,7 +195,8 @@ class _Finder:
                     node.parameter,
                 )
             if node.value is not None:
-                push((node.value, "write" if node.output else "read", body))
+                changed = node.output or getattr(node.parameter, "section", "") == "VAR_IN_OUT"
+                push((node.value, "write" if changed else role, body))
             return
         if isinstance(node, ast.For):
             push((node.variable, "write", body))

@@ -24,8 +24,14 @@ _KINDS = {
 def outline(snapshot: Snapshot, document: str) -> list[Outline]:
     """What a document declares, nested."""
     view = snapshot.view(document, Position(0, 0))
-    maker = _Maker(view.text, document)
-    return [entry for declaration in view.unit.declarations for entry in maker.declaration(declaration)]
+    return outline_of(snapshot, view.index, document)
+
+
+def outline_of(snapshot: Snapshot, index: int, document: str) -> list[Outline]:
+    """What a text of the program declares in a document."""
+    maker = _Maker(snapshot.program.texts[index], document)
+    unit = snapshot.results[index].unit
+    return [entry for declaration in unit.declarations for entry in maker.declaration(declaration)]
 
 
 class _Maker:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.services.documents import Place
 from tappet.lang.services.results import RelatedReport, Report
 from tappet.lang.services.workspace import Snapshot
 
@@ -20,17 +21,20 @@ def reports(snapshot: Snapshot) -> dict[str, list[Report]]:
         place = text.place(diagnostic.span)
         entries = found.setdefault(place.document, [])
         if len(entries) < MAX_PER_DOCUMENT:
-            entries.append(
-                Report(
-                    place.span,
-                    diagnostic.code,
-                    diagnostic.severity,
-                    diagnostic.message,
-                    diagnostic.advice,
-                    tuple(_related(snapshot, diagnostic)),
-                )
-            )
+            entries.append(report_of(snapshot, diagnostic, place))
     return found
+
+
+def report_of(snapshot: Snapshot, diagnostic: Diagnostic, place: Place) -> Report:
+    """A message as its document shows it."""
+    return Report(
+        place.span,
+        diagnostic.code,
+        diagnostic.severity,
+        diagnostic.message,
+        diagnostic.advice,
+        tuple(_related(snapshot, diagnostic)),
+    )
 
 
 def _related(snapshot: Snapshot, diagnostic: Diagnostic) -> list[RelatedReport]:

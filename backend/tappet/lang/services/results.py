@@ -70,7 +70,19 @@ class Reference:
     """A place that names something."""
 
     place: Place
-    role: Literal["declaration", "read", "write"]
+    role: Literal["declaration", "read", "write", "call", "address"]
+
+
+@dataclass(frozen=True, slots=True)
+class CrossReference:
+    """A place that names something, for a list over the project."""
+
+    place: Place
+    role: Literal["declaration", "read", "write", "call", "address"]
+    symbol: str
+    """What is named, with its owner: `PLC_PRG.iCount`."""
+    text: str
+    """The line of the place, without the blanks around it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +142,41 @@ class Report:
     message: str
     advice: str
     related: tuple[RelatedReport, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NewMember:
+    """A method or property to be made below a block, with its heads as ST."""
+
+    kind: Literal["method", "property"]
+    name: str
+    declaration: str
+    accessors: tuple[str, ...] = ()
+    """`Get`, `Set`: of a property."""
+
+
+@dataclass(frozen=True, slots=True)
+class CodeAction:
+    """Something that mends a message. What is done is `edits`, or what the other fields name."""
+
+    title: str
+    key: str
+    """Short name of the kind of action, so that an editor can say it in the user's language."""
+    values: tuple[tuple[str, str], ...]
+    """What the title names."""
+    report: Report
+    """The message that it mends."""
+    edits: tuple[Edit, ...] = ()
+    preferred: bool = False
+    declare: str = ""
+    """Name to ask the user a declaration for."""
+    type: str = ""
+    """Proposal for its type."""
+    library: str = ""
+    """Library that the application should refer to."""
+    members: tuple[NewMember, ...] = ()
+    """To be made below the object that shows `owner`."""
+    owner: str = ""
 
 
 @dataclass(frozen=True, slots=True)

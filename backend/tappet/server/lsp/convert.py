@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Final
 
 from lsprotocol import types as lsp
 
 from tappet.lang.services.documents import Place, Position
+from tappet.lang.services.formatting import Style
 from tappet.lang.services.results import (
+    CodeAction,
     Completion,
     Edit,
     Fold,
@@ -183,7 +185,9 @@ def highlights(found: Iterable[Reference], line: Line) -> list[lsp.DocumentHighl
     """The places of a name in its document."""
     write, read = lsp.DocumentHighlightKind.Write, lsp.DocumentHighlightKind.Read
     return [
-        lsp.DocumentHighlight(to_range(line, item.place.span), read if item.role == "read" else write)
+        lsp.DocumentHighlight(
+            to_range(line, item.place.span), write if item.role in ("write", "declaration") else read
+        )
         for item in found
     ]
 
@@ -196,6 +200,48 @@ def text_edits(edits: Iterable[Edit], lines: Lines) -> dict[str, list[lsp.TextEd
         change = lsp.TextEdit(to_range(lines(document), edit.place.span), edit.text)
         found.setdefault(document, []).append(change)
     return found
+
+
+def code_action(
+    item: CodeAction, document: str, lines: Lines, spelled: Callable[[str], str]
+) -> lsp.CodeAction:
+    """Something that mends a message. What is more than an edit stands in `data`, for the client to do."""
+    (report,) = diagnostics([item.report], document, lines, False)
+    changes = {spelled(uri): edits for uri, edits in text_edits(item.edits, lines).items()}
+    members = [
+        {"kind": m.kind, "name": m.name, "declaration": m.declaration, "accessors": list(m.accessors)}
+        for m in item.members
+    ]
+    return lsp.CodeAction(
+        title=item.title,
+        kind=lsp.CodeActionKind.QuickFix,
+        diagnostics=[report],
+        is_preferred=item.preferred or None,
+        edit=lsp.WorkspaceEdit(changes) if changes else None,
+        data={
+            "key": item.key,
+            "values": dict(item.values),
+            "declare": {"name": item.declare, "type": item.type} if item.declare else None,
+            "library": item.library or None,
+            "members": {"owner": spelled(item.owner), "items": members} if members else None,
+        },
+    )
+
+
+def style(settings: object) -> Style:
+    """How texts are formatted, from the settings of a client; what is missing or wrong is as usual."""
+    found = settings
+    for name in ("tappet", "format"):
+        found = found.get(name) if isinstance(found, Mapping) else None
+    chosen = found if isinstance(found, Mapping) else {}
+    usual = Style()
+    keywords = chosen.get("keywords")
+    operators, commas = chosen.get("operators"), chosen.get("commas")
+    return Style(
+        keywords=keywords if keywords in ("upper", "lower", "keep") else usual.keywords,
+        operators=operators if isinstance(operators, bool) else usual.operators,
+        commas=commas if isinstance(commas, bool) else usual.commas,
+    )
 
 
 def semantic_tokens(tokens: Sequence[SemanticToken], line: Line) -> lsp.SemanticTokens:

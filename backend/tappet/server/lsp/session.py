@@ -18,29 +18,16 @@ from lsprotocol import types as lsp
 
 from tappet import __version__
 from tappet.lang.services import documents as docs
-from tappet.lang.services.completion import complete
 from tappet.lang.services.documents import Position, Programs
-from tappet.lang.services.folding import folds
-from tappet.lang.services.formatting import formatting
-from tappet.lang.services.hover import hover
-from tappet.lang.services.navigation import (
-    definition,
-    highlights,
-    implementations,
-    references,
-    type_definition,
-)
-from tappet.lang.services.outline import outline
-from tappet.lang.services.rename import rename, renameable
+from tappet.lang.services.fix_site import Offering, nothing_offered
+from tappet.lang.services.formatting import Style
 from tappet.lang.services.reports import reports
-from tappet.lang.services.results import Outline, Report, ServiceError
-from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES, semantic_tokens
-from tappet.lang.services.shorthand import expand
-from tappet.lang.services.signature_help import signature
+from tappet.lang.services.results import Report, ServiceError
+from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.lang.source import split_lines
-from tappet.server.lsp import convert, rpc
-from tappet.server.lsp.positions import Line, apply_change, lines_of, to_position, to_range
+from tappet.server.lsp import convert, questions, rpc
+from tappet.server.lsp.positions import Line, apply_change, lines_of, to_position
 
 DEBOUNCE_S: Final = 0.3
 """Pause in the typing after which messages are worked out anew."""
@@ -50,8 +37,9 @@ READ_DOCUMENT: Final = "tappet/document"
 """Our own request: the text of a document that is not open, such as one of a library."""
 EXPAND_SHORTHAND: Final = "tappet/shorthand"
 """Our own request: `{line}` to the declaration it is short for, or null."""
-MAX_LINE: Final = 10_000
-"""Characters of a line that may be short for a declaration."""
+
+CROSS_REFERENCES: Final = "tappet/crossReferences"
+"""Our own request: every place that names something, see `questions.cross_reference_list`."""
 
 log = logging.getLogger(__name__)
 _CONVERTER = converters.get_converter()
@@ -82,8 +70,10 @@ class LanguageSession:
         debounce_s: float = DEBOUNCE_S,
         advise: bool = False,
         canonical: Callable[[str], str] = str,
+        offering: Offering = nothing_offered,
     ) -> None:
-        """`advise`: advice is part of the message texts. `canonical`: one spelling for each document uri."""
+        """`advise`: advice is part of the message texts. `canonical`: one spelling for each document uri.
+        `offering`: libraries that have something of a name."""
         self.workspace = Workspace(programs)
         self.endpoint = rpc.Endpoint(send, self._find)
         self.exit = asyncio.Event()
@@ -91,7 +81,11 @@ class LanguageSession:
         self._loop = asyncio.get_running_loop()
         self._debounce_s = debounce_s
         self._advise = advise
-        self._canonical = canonical
+        self.canonical = canonical
+        self.offering = offering
+        self.asks = not advise
+        """Whether the client can do what no edit of texts does: ask for a declaration, make objects."""
+        self.style = Style()
         self._state: _State = "new"
         self._open: dict[str, _Document] = {}
         self._names: dict[str, str] = {}
@@ -163,6 +157,7 @@ class LanguageSession:
                 document_symbol_provider=True,
                 workspace_symbol_provider=True,
                 document_formatting_provider=True,
+                code_action_provider=lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix]),
                 folding_range_provider=True,
                 rename_provider=lsp.RenameOptions(prepare_provider=True),
                 semantic_tokens_provider=lsp.SemanticTokensOptions(full, full=True),
@@ -182,6 +177,10 @@ class LanguageSession:
         """The client has ended."""
         self._loop.call_soon_threadsafe(self.exit.set)
 
+    def configuration_changed(self, params: lsp.DidChangeConfigurationParams) -> None:
+        """How texts are formatted: `{tappet: {format: {keywords, operators, commas}}}`."""
+        self.style = convert.style(params.settings)
+
     # -- documents
 
     def did_open(self, params: lsp.DidOpenTextDocumentParams) -> None:
@@ -191,7 +190,7 @@ class LanguageSession:
 
     def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
         """Edits of an open document."""
-        uri = self._canonical(params.text_document.uri)
+        uri = self.canonical(params.text_document.uri)
         known = self._open.get(uri)
         if known is None:
             raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{params.text_document.uri}' is not open")
@@ -202,7 +201,7 @@ class LanguageSession:
 
     def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
         """The stored text counts again."""
-        uri = self._canonical(params.text_document.uri)
+        uri = self.canonical(params.text_document.uri)
         self._open.pop(uri, None)
         self.workspace.close(uri)
         self._schedule_from_worker()
@@ -220,7 +219,7 @@ class LanguageSession:
     def _set(self, spelled: str, text: str, version: int) -> None:
         if len(text) > MAX_DOCUMENT:
             raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{spelled}' has more than {MAX_DOCUMENT} characters")
-        uri = self._canonical(spelled)
+        uri = self.canonical(spelled)
         self._names[uri] = spelled
         self._open[uri] = _Document(text, version)
         self.workspace.open(uri, text)
@@ -228,17 +227,17 @@ class LanguageSession:
 
     # -- places
 
-    def _lines(self, document: str) -> Line:
+    def lines(self, document: str) -> Line:
         """The lines of a document, open or not."""
         if self._split[0] != self.workspace.generation:
             self._split = (self.workspace.generation, {})
         split = self._split[1]
         if document not in split:
             known = self._open.get(document)
-            split[document] = lines_of(known.text if known is not None else self._text(document) or "")
+            split[document] = lines_of(known.text if known is not None else self.text(document) or "")
         return split[document]
 
-    def _text(self, document: str) -> str | None:
+    def text(self, document: str) -> str | None:
         """The text of a document that is part of some program."""
         for program in self.workspace.programs():
             for text in program.texts:
@@ -248,156 +247,29 @@ class LanguageSession:
                     return "\n".join(lines[shown[0] : shown[1]])
         return None
 
-    def _at(self, params: _Positioned) -> tuple[str, Position]:
-        uri = self._canonical(params.text_document.uri)
-        return uri, to_position(self._lines(uri), params.position)
+    def text_now(self, document: str) -> str | None:
+        """The text of a document as the editor shows it, or as it is stored."""
+        known = self._open.get(document)
+        return known.text if known is not None else self.text(document)
 
-    def _snapshot(self, uri: str) -> Snapshot:
+    def at(self, params: _Positioned) -> tuple[str, Position]:
+        """Document and place of a request."""
+        uri = self.canonical(params.text_document.uri)
+        return uri, to_position(self.lines(uri), params.position)
+
+    def snapshot(self, uri: str) -> Snapshot:
+        """The program that shows a document."""
         return self.workspace.snapshot(uri)
 
-    def _spelled(self, uri: str) -> str:
+    def spelled(self, uri: str) -> str:
+        """A uri as the client writes it."""
         return self._names.get(uri, uri)
 
-    def _location(self, place: docs.Place) -> lsp.Location:
-        found = convert.location(place, self._lines)
-        found.uri = self._spelled(found.uri)
+    def location(self, place: docs.Place) -> lsp.Location:
+        """A place as the client names it."""
+        found = convert.location(place, self.lines)
+        found.uri = self.spelled(found.uri)
         return found
-
-    # -- questions
-
-    def completion(self, params: lsp.CompletionParams) -> lsp.CompletionList:
-        """What can be written here."""
-        uri, position = self._at(params)
-        found = complete(self.workspace, uri, position)
-        return convert.completion_list(found, self._lines(uri)(position.line), position)
-
-    def hover(self, params: lsp.HoverParams) -> lsp.Hover | None:
-        """What this is."""
-        uri, position = self._at(params)
-        found = hover(self._snapshot(uri), uri, position)
-        return convert.hover(found, self._lines(uri)) if found is not None else None
-
-    def signature_help(self, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
-        """The parameters of the call."""
-        uri, position = self._at(params)
-        found = signature(self.workspace, uri, position)
-        return convert.signature_help(found) if found is not None else None
-
-    def definition(self, params: lsp.DefinitionParams) -> lsp.Location | None:
-        """Where this is declared."""
-        uri, position = self._at(params)
-        found = definition(self._snapshot(uri), uri, position)
-        return self._location(found) if found is not None else None
-
-    def type_definition(self, params: lsp.TypeDefinitionParams) -> lsp.Location | None:
-        """Where the type of this is declared."""
-        uri, position = self._at(params)
-        found = type_definition(self._snapshot(uri), uri, position)
-        return self._location(found) if found is not None else None
-
-    def implementation(self, params: lsp.ImplementationParams) -> list[lsp.Location]:
-        """What implements or replaces this."""
-        uri, position = self._at(params)
-        return [self._location(place) for place in implementations(self._snapshot(uri), uri, position)]
-
-    def references(self, params: lsp.ReferenceParams) -> list[lsp.Location]:
-        """Where this is used, in every program that shows the document."""
-        uri, position = self._at(params)
-        places: dict[docs.Place, None] = {}
-        for snapshot in self.workspace.snapshots():
-            if snapshot.shows(uri):
-                for item in references(snapshot, uri, position, params.context.include_declaration):
-                    places.setdefault(item.place)
-        return [self._location(place) for place in places]
-
-    def document_highlight(self, params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
-        """Where this is used in the document."""
-        uri, position = self._at(params)
-        return convert.highlights(highlights(self._snapshot(uri), uri, position), self._lines(uri))
-
-    def document_symbol(self, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
-        """The outline."""
-        uri = self._canonical(params.text_document.uri)
-        return convert.document_symbols(outline(self._snapshot(uri), uri), self._lines(uri))
-
-    def workspace_symbol(self, params: lsp.WorkspaceSymbolParams) -> list[lsp.SymbolInformation]:
-        """Objects, types and methods whose name holds the words that are searched for."""
-        wanted = params.query.lower()
-        found: dict[tuple[str, str], lsp.SymbolInformation] = {}
-
-        def collect(document: str, entries: list[Outline], container: str | None) -> None:
-            for entry in entries:
-                symbols = convert.document_symbols([entry], self._lines(document))
-                if wanted in entry.name.lower() and entry.kind not in ("section", "variable", "field"):
-                    place = lsp.Location(self._spelled(document), symbols[0].selection_range)
-                    found.setdefault(
-                        (document, f"{container}.{entry.name}"),
-                        lsp.SymbolInformation(place, entry.name, symbols[0].kind, container_name=container),
-                    )
-                if entry.kind != "section":
-                    collect(document, entry.children, entry.name)
-
-        for snapshot in self.workspace.snapshots():
-            for document in snapshot.documents():
-                if not document.startswith(docs.LIBRARY_SCHEME):
-                    collect(document, outline(snapshot, document), None)
-        return list(found.values())[:500]
-
-    def formatting(self, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
-        """The edits that format a document."""
-        uri = self._canonical(params.text_document.uri)
-        text = self._open[uri].text if uri in self._open else self._text(uri)
-        if text is None:
-            raise ServiceError(f"'{params.text_document.uri}' is not open")
-        options = params.options
-        indent = " " * min(options.tab_size, 16) if options.insert_spaces else "\t"
-        lines = lines_of(text)
-        edits = formatting(uri, text, indent)
-        return [lsp.TextEdit(to_range(lines, edit.place.span), edit.text) for edit in edits]
-
-    def folding_range(self, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
-        """What can be folded."""
-        uri = self._canonical(params.text_document.uri)
-        return convert.folding_ranges(folds(self._snapshot(uri), uri))
-
-    def prepare_rename(self, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
-        """The name that would be renamed; refused with the reason when it cannot be."""
-        uri, position = self._at(params)
-        span = renameable(self._snapshot(uri), uri, position)
-        line = self._lines(uri)
-        return lsp.PrepareRenamePlaceholder(
-            to_range(line, span), line(span.line)[span.column : span.end_column]
-        )
-
-    def rename(self, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
-        """The edits that rename something in every program that shows the document."""
-        uri, position = self._at(params)
-        edits = {}
-        for snapshot in self.workspace.snapshots():
-            if snapshot.shows(uri):
-                edits.update({edit.place: edit for edit in rename(snapshot, uri, position, params.new_name)})
-        changes = convert.text_edits(edits.values(), self._lines)
-        return lsp.WorkspaceEdit({self._spelled(document): found for document, found in changes.items()})
-
-    def semantic_tokens(self, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
-        """What each word is."""
-        uri = self._canonical(params.text_document.uri)
-        return convert.semantic_tokens(semantic_tokens(self._snapshot(uri), uri), self._lines(uri))
-
-    def read_document(self, params: Any) -> dict[str, str]:
-        """The text of a document, for one that is in no editor."""
-        uri = params.get("uri") if isinstance(params, dict) else None
-        text = self._text(self._canonical(uri)) if isinstance(uri, str) else None
-        if text is None:
-            raise ServiceError(f"There is no document '{uri}'")
-        return {"uri": str(uri), "languageId": convert.LANGUAGE_ID, "text": text}
-
-    def expand_shorthand(self, params: Any) -> dict[str, str | None]:
-        """The declaration that a typed line stands for (DECL-61..DECL-66)."""
-        line = params.get("line") if isinstance(params, dict) else None
-        if not isinstance(line, str) or len(line) > MAX_LINE:
-            raise ServiceError("'line' is the text of one line of a declaration editor")
-        return {"line": expand(line)}
 
     # -- messages
 
@@ -445,8 +317,8 @@ class LanguageSession:
             now = found.get(document, [])
             if now != self._published.get(document, []):
                 version = self._open[document].version if document in self._open else None
-                diagnostics = convert.diagnostics(now, document, self._lines, self._advise)
-                params = lsp.PublishDiagnosticsParams(self._spelled(document), diagnostics, version)
+                diagnostics = convert.diagnostics(now, document, self.lines, self._advise)
+                params = lsp.PublishDiagnosticsParams(self.spelled(document), diagnostics, version)
                 out.append(_CONVERTER.unstructure(params))
         self._published = found
         return out
@@ -469,23 +341,25 @@ def _structured(method: str, params: Any) -> Any:
 _REQUESTS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     lsp.INITIALIZE: LanguageSession.initialize,
     lsp.SHUTDOWN: LanguageSession.shutdown,
-    lsp.TEXT_DOCUMENT_COMPLETION: LanguageSession.completion,
-    lsp.TEXT_DOCUMENT_HOVER: LanguageSession.hover,
-    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: LanguageSession.signature_help,
-    lsp.TEXT_DOCUMENT_DEFINITION: LanguageSession.definition,
-    lsp.TEXT_DOCUMENT_TYPE_DEFINITION: LanguageSession.type_definition,
-    lsp.TEXT_DOCUMENT_IMPLEMENTATION: LanguageSession.implementation,
-    lsp.TEXT_DOCUMENT_REFERENCES: LanguageSession.references,
-    lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: LanguageSession.document_highlight,
-    lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: LanguageSession.document_symbol,
-    lsp.WORKSPACE_SYMBOL: LanguageSession.workspace_symbol,
-    lsp.TEXT_DOCUMENT_FORMATTING: LanguageSession.formatting,
-    lsp.TEXT_DOCUMENT_FOLDING_RANGE: LanguageSession.folding_range,
-    lsp.TEXT_DOCUMENT_PREPARE_RENAME: LanguageSession.prepare_rename,
-    lsp.TEXT_DOCUMENT_RENAME: LanguageSession.rename,
-    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: LanguageSession.semantic_tokens,
-    READ_DOCUMENT: LanguageSession.read_document,
-    EXPAND_SHORTHAND: LanguageSession.expand_shorthand,
+    lsp.TEXT_DOCUMENT_COMPLETION: questions.completion,
+    lsp.TEXT_DOCUMENT_HOVER: questions.hover,
+    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: questions.signature_help,
+    lsp.TEXT_DOCUMENT_DEFINITION: questions.definition,
+    lsp.TEXT_DOCUMENT_TYPE_DEFINITION: questions.type_definition,
+    lsp.TEXT_DOCUMENT_IMPLEMENTATION: questions.implementation,
+    lsp.TEXT_DOCUMENT_REFERENCES: questions.references,
+    lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: questions.document_highlight,
+    lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: questions.document_symbol,
+    lsp.WORKSPACE_SYMBOL: questions.workspace_symbol,
+    lsp.TEXT_DOCUMENT_CODE_ACTION: questions.code_action,
+    CROSS_REFERENCES: questions.cross_reference_list,
+    lsp.TEXT_DOCUMENT_FORMATTING: questions.formatting,
+    lsp.TEXT_DOCUMENT_FOLDING_RANGE: questions.folding_range,
+    lsp.TEXT_DOCUMENT_PREPARE_RENAME: questions.prepare_rename,
+    lsp.TEXT_DOCUMENT_RENAME: questions.rename,
+    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: questions.semantic_tokens,
+    READ_DOCUMENT: questions.read_document,
+    EXPAND_SHORTHAND: questions.expand_shorthand,
 }
 _NOTIFICATIONS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     lsp.INITIALIZED: LanguageSession.initialized,
@@ -494,5 +368,6 @@ _NOTIFICATIONS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     lsp.TEXT_DOCUMENT_DID_CHANGE: LanguageSession.did_change,
     lsp.TEXT_DOCUMENT_DID_CLOSE: LanguageSession.did_close,
     lsp.TEXT_DOCUMENT_DID_SAVE: LanguageSession.did_save,
+    lsp.WORKSPACE_DID_CHANGE_CONFIGURATION: LanguageSession.configuration_changed,
     lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: LanguageSession.watched_files_changed,
 }

@@ -1,0 +1,266 @@
+"""What an editor asks, one function a request: from positions to places, through the language services."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final
+
+from lsprotocol import types as lsp
+
+from tappet.lang.services import (
+    code_actions,
+    cross_references,
+    folding,
+    navigation,
+    outline,
+    shorthand,
+)
+from tappet.lang.services import (
+    completion as completions,
+)
+from tappet.lang.services import (
+    documents as docs,
+)
+from tappet.lang.services import (
+    formatting as formatting_service,
+)
+from tappet.lang.services import (
+    hover as hovers,
+)
+from tappet.lang.services import (
+    rename as renaming,
+)
+from tappet.lang.services import (
+    semantic_tokens as tokens,
+)
+from tappet.lang.services import (
+    signature_help as signatures,
+)
+from tappet.lang.services.results import CrossReference, Outline, ServiceError
+from tappet.lang.source import Span
+from tappet.server.lsp import convert
+from tappet.server.lsp.positions import lines_of, to_position, to_range
+
+if TYPE_CHECKING:
+    from tappet.server.lsp.session import LanguageSession
+
+MAX_LINE: Final = 10_000
+"""Characters of a line that may be short for a declaration."""
+MAX_NAME: Final = 500
+MAX_SYMBOLS: Final = 500
+_MEMBERS: Final = frozenset(["variable", "field", "constant", "enum_value"])
+"""What a search for nothing leaves out."""
+
+
+def completion(session: LanguageSession, params: lsp.CompletionParams) -> lsp.CompletionList:
+    """What can be written here."""
+    uri, position = session.at(params)
+    found = completions.complete(session.workspace, uri, position)
+    return convert.completion_list(found, session.lines(uri)(position.line), position)
+
+
+def hover(session: LanguageSession, params: lsp.HoverParams) -> lsp.Hover | None:
+    """What this is."""
+    uri, position = session.at(params)
+    found = hovers.hover(session.snapshot(uri), uri, position)
+    return convert.hover(found, session.lines(uri)) if found is not None else None
+
+
+def signature_help(session: LanguageSession, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+    """The parameters of the call."""
+    uri, position = session.at(params)
+    found = signatures.signature(session.workspace, uri, position)
+    return convert.signature_help(found) if found is not None else None
+
+
+def definition(session: LanguageSession, params: lsp.DefinitionParams) -> lsp.Location | None:
+    """Where this is declared."""
+    uri, position = session.at(params)
+    found = navigation.definition(session.snapshot(uri), uri, position)
+    return session.location(found) if found is not None else None
+
+
+def type_definition(session: LanguageSession, params: lsp.TypeDefinitionParams) -> lsp.Location | None:
+    """Where the type of this is declared."""
+    uri, position = session.at(params)
+    found = navigation.type_definition(session.snapshot(uri), uri, position)
+    return session.location(found) if found is not None else None
+
+
+def implementation(session: LanguageSession, params: lsp.ImplementationParams) -> list[lsp.Location]:
+    """What implements or replaces this."""
+    uri, position = session.at(params)
+    return [
+        session.location(place) for place in navigation.implementations(session.snapshot(uri), uri, position)
+    ]
+
+
+def references(session: LanguageSession, params: lsp.ReferenceParams) -> list[lsp.Location]:
+    """Where this is used, in every program that shows the document."""
+    uri, position = session.at(params)
+    places: dict[docs.Place, None] = {}
+    for snapshot in session.workspace.snapshots():
+        if snapshot.shows(uri):
+            for item in navigation.references(snapshot, uri, position, params.context.include_declaration):
+                places.setdefault(item.place)
+    return [session.location(place) for place in places]
+
+
+def document_highlight(
+    session: LanguageSession, params: lsp.DocumentHighlightParams
+) -> list[lsp.DocumentHighlight]:
+    """Where this is used in the document."""
+    uri, position = session.at(params)
+    return convert.highlights(navigation.highlights(session.snapshot(uri), uri, position), session.lines(uri))
+
+
+def document_symbol(session: LanguageSession, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+    """The outline."""
+    uri = session.canonical(params.text_document.uri)
+    return convert.document_symbols(outline.outline(session.snapshot(uri), uri), session.lines(uri))
+
+
+def workspace_symbol(
+    session: LanguageSession, params: lsp.WorkspaceSymbolParams
+) -> list[lsp.SymbolInformation]:
+    """Objects, their members and variables, types by a part of the name, best match first."""
+    wanted = params.query.lower()
+    found: dict[tuple[str, str], lsp.SymbolInformation] = {}
+
+    def collect(text_name: str, document: str, entries: list[Outline], container: str | None) -> None:
+        for entry in entries:
+            if (
+                wanted in entry.name.lower()
+                and entry.kind != "section"
+                and (wanted or entry.kind not in _MEMBERS)
+            ):
+                (symbol,) = convert.document_symbols([replace(entry, children=[])], session.lines(document))
+                place = lsp.Location(session.spelled(document), symbol.selection_range)
+                found.setdefault(
+                    (text_name, f"{container}.{entry.name}"),
+                    lsp.SymbolInformation(place, entry.name, symbol.kind, container_name=container),
+                )
+            collect(text_name, document, entry.children, container if entry.kind == "section" else entry.name)
+
+    for snapshot in session.workspace.snapshots():
+        for index, text in enumerate(snapshot.program.texts):
+            if text.read_only:
+                continue
+            owner = text.source.owner
+            for document in dict.fromkeys(segment.document for segment in text.segments):
+                collect(text.source.uri, document, outline.outline_of(snapshot, index, document), owner)
+
+    def distance(symbol: lsp.SymbolInformation) -> tuple[int, str]:
+        name = symbol.name.lower()
+        return (0 if name == wanted else 1 if name.startswith(wanted) else 2, name)
+
+    return sorted(found.values(), key=distance)[:MAX_SYMBOLS]
+
+
+def formatting(session: LanguageSession, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+    """The edits that format a document."""
+    uri = session.canonical(params.text_document.uri)
+    text = session.text_now(uri)
+    if text is None:
+        raise ServiceError(f"'{params.text_document.uri}' is not open")
+    options = params.options
+    indent = " " * min(options.tab_size, 16) if options.insert_spaces else "\t"
+    lines = lines_of(text)
+    edits = formatting_service.formatting(uri, text, replace(session.style, indent=indent))
+    return [lsp.TextEdit(to_range(lines, edit.place.span), edit.text) for edit in edits]
+
+
+def folding_range(session: LanguageSession, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+    """What can be folded."""
+    uri = session.canonical(params.text_document.uri)
+    return convert.folding_ranges(folding.folds(session.snapshot(uri), uri))
+
+
+def prepare_rename(session: LanguageSession, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
+    """The name that would be renamed; refused with the reason when it cannot be."""
+    uri, position = session.at(params)
+    span = renaming.renameable(session.snapshot(uri), uri, position)
+    line = session.lines(uri)
+    return lsp.PrepareRenamePlaceholder(to_range(line, span), line(span.line)[span.column : span.end_column])
+
+
+def rename(session: LanguageSession, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+    """The edits that rename something in every program that shows the document."""
+    uri, position = session.at(params)
+    edits = {}
+    for snapshot in session.workspace.snapshots():
+        if snapshot.shows(uri):
+            edits.update(
+                {edit.place: edit for edit in renaming.rename(snapshot, uri, position, params.new_name)}
+            )
+    changes = convert.text_edits(edits.values(), session.lines)
+    return lsp.WorkspaceEdit({session.spelled(document): found for document, found in changes.items()})
+
+
+def semantic_tokens(session: LanguageSession, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+    """What each word is."""
+    uri = session.canonical(params.text_document.uri)
+    return convert.semantic_tokens(tokens.semantic_tokens(session.snapshot(uri), uri), session.lines(uri))
+
+
+def read_document(session: LanguageSession, params: Any) -> dict[str, str]:
+    """The text of a document, for one that is in no editor."""
+    uri = params.get("uri") if isinstance(params, dict) else None
+    text = session.text(session.canonical(uri)) if isinstance(uri, str) else None
+    if text is None:
+        raise ServiceError(f"There is no document '{uri}'")
+    return {"uri": str(uri), "languageId": convert.LANGUAGE_ID, "text": text}
+
+
+def expand_shorthand(session: LanguageSession, params: Any) -> dict[str, str | None]:
+    """The declaration that a typed line stands for (DECL-61..DECL-66)."""
+    line = params.get("line") if isinstance(params, dict) else None
+    if not isinstance(line, str) or len(line) > MAX_LINE:
+        raise ServiceError("'line' is the text of one line of a declaration editor")
+    return {"line": shorthand.expand(line)}
+
+
+def code_action(session: LanguageSession, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+    """What mends the messages of a range."""
+    uri = session.canonical(params.text_document.uri)
+    lines = session.lines(uri)
+    begin, end = to_position(lines, params.range.start), to_position(lines, params.range.end)
+    actions = code_actions.code_actions(session.snapshot(uri), uri, Span(*begin, *end), session.offering)
+    found = [convert.code_action(item, uri, session.lines, session.spelled) for item in actions]
+    return [item for item in found if session.asks or item.edit is not None]
+
+
+def cross_reference_list(session: LanguageSession, params: Any) -> list[dict[str, Any]]:
+    """Where something is declared and used, by `{textDocument, position}` or by `{name}`.
+
+    Each place has `uri`, `range`, `access` (declaration, read, write, call, address), `symbol` and `text`.
+    """
+    name = params.get("name") if isinstance(params, dict) else None
+    places: dict[docs.Place, CrossReference] = {}
+    if isinstance(name, str):
+        if len(name) > MAX_NAME:
+            raise ServiceError(f"A name has at most {MAX_NAME} characters")
+        for snapshot in session.workspace.snapshots():
+            for item in cross_references.cross_references_of(snapshot, name):
+                places.setdefault(item.place, item)
+    else:
+        try:
+            identifier = lsp.TextDocumentIdentifier(str(params["textDocument"]["uri"]))
+            position = lsp.Position(int(params["position"]["line"]), int(params["position"]["character"]))
+        except (KeyError, TypeError, ValueError) as error:
+            raise ServiceError("Give 'name', or 'textDocument' and 'position'") from error
+        uri, inside = session.at(lsp.DefinitionParams(identifier, position))
+        for snapshot in session.workspace.snapshots():
+            if snapshot.shows(uri):
+                for item in cross_references.cross_references(snapshot, uri, inside):
+                    places.setdefault(item.place, item)
+    return [
+        {
+            "uri": session.spelled(item.place.document),
+            "range": to_range(session.lines(item.place.document), item.place.span),
+            "access": item.role,
+            "symbol": item.symbol,
+            "text": item.text,
+        }
+        for item in places.values()
+    ]
