@@ -420,6 +420,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/import-files": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Files As Project
+         * @description Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, or zip archives of them.
+         */
+        post: operations["import_files_as_project"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}": {
         parameters: {
             query?: never;
@@ -546,6 +566,46 @@ export interface paths {
         get: operations["export_project"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/export/plcopen": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Plcopen
+         * @description A project as PLCopen XML (TC6 0201); the same content always gives the same bytes.
+         */
+        get: operations["export_plcopen"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/import-files": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Files Into Project
+         * @description Import files of other systems into a project, as one change; nothing in the project is overwritten.
+         */
+        post: operations["import_files_into_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1444,6 +1504,26 @@ export interface components {
             first_account_needed: boolean;
             user: components["schemas"]["Me"] | null;
         };
+        /** Body_import_files_as_project */
+        Body_import_files_as_project: {
+            /** Files */
+            files: string[];
+            /**
+             * Name
+             * @description Another name than the one in the files.
+             */
+            name?: string | null;
+        };
+        /** Body_import_files_into_project */
+        Body_import_files_into_project: {
+            /**
+             * Application Id
+             * @description The application that takes the objects; null: the first one.
+             */
+            application_id?: string | null;
+            /** Files */
+            files: string[];
+        };
         /** Body_import_project */
         Body_import_project: {
             /** File */
@@ -1826,6 +1906,40 @@ export interface components {
             visible: boolean | components["schemas"]["Threshold"];
         };
         /**
+         * Entry
+         * @description One line of a report.
+         */
+        Entry: {
+            /**
+             * Line
+             * @description Line in the file, from 1; null: the file as a whole.
+             */
+            line?: number | null;
+            /**
+             * Object
+             * @description The object, such as FB_Motor.Start; empty: none.
+             * @default
+             */
+            object: string;
+            /**
+             * Outcome
+             * @description imported: as it was; changed: with a difference that the text tells; kept: stored unchanged but not compiled; refused: not in the project.
+             * @enum {string}
+             */
+            outcome: "imported" | "changed" | "refused" | "kept";
+            /**
+             * Source
+             * @description The file, by the name it was given under.
+             */
+            source: string;
+            /**
+             * Text
+             * @description What was changed or why it could not be read.
+             * @default
+             */
+            text: string;
+        };
+        /**
          * OpenObject
          * @description Tells the others which object one looks at; null for none.
          */
@@ -2061,6 +2175,22 @@ export interface components {
             offset: number;
             /** Size */
             size: number;
+        };
+        /**
+         * ImportReport
+         * @description Everything an import has to say.
+         */
+        ImportReport: {
+            /** Entries */
+            entries?: components["schemas"]["Entry"][];
+        };
+        /**
+         * ImportResult
+         * @description The project that was made or changed, and what the import has to say.
+         */
+        ImportResult: {
+            project: components["schemas"]["ProjectSummary"];
+            report: components["schemas"]["ImportReport"];
         };
         /**
          * InterfaceObject
@@ -2575,6 +2705,11 @@ export interface components {
             /** Kind */
             kind: string;
             /**
+             * Language
+             * @description Language of the body, `ST` or `IL`.
+             */
+            language?: string | null;
+            /**
              * Name
              * @description Null takes the name that the placement rule proposes.
              */
@@ -2898,6 +3033,12 @@ export interface components {
             in_folders: boolean;
             /** Kind */
             kind: string;
+            /**
+             * Languages
+             * @description Languages to choose from for the body of a new object; the first is usual.
+             * @default []
+             */
+            languages: ("ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC")[];
             /**
              * Names
              * @description The possible names where naming is fixed.
@@ -4943,6 +5084,48 @@ export interface operations {
             };
         };
     };
+    import_files_as_project: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_import_files_as_project"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportResult"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     read_project: {
         parameters: {
             query?: never;
@@ -5295,6 +5478,90 @@ export interface operations {
                 };
                 content: {
                     "application/zip": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    export_plcopen: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/xml": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    import_files_into_project: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_import_files_into_project"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportResult"];
                 };
             };
             /** @description The request was refused */

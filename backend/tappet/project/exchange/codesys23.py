@@ -165,6 +165,7 @@ def _tell_language(draft: Draft, report: ImportReport) -> None:
         language = "IL"
     if language is not None:
         draft.data["language"] = language
+    if language not in (None, "IL"):
         note = f"the body in {language} is kept as it is; it cannot be compiled yet"
         report.add("kept", draft.source, note, name=draft.name, line=draft.line)
 

@@ -271,8 +271,6 @@ class _Reader:
         if languages in ({"ST"}, {"IL"}):
             language = languages.pop()
             text = "\n".join(exact_text(part) for part in parts)
-            if language == "IL":
-                self._kept(item, name, language)
             return body(language, text)
         language = next((part.tag for part in parts if part.tag in GRAPHICAL_LANGUAGES), "CFC")
         self._kept(item, name, language)

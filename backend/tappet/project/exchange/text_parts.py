@@ -9,6 +9,7 @@ from tappet.project.declaration_text import Word
 
 NAME = re.compile(r"[^\W\d]\w*")
 """A word that can be a name."""
+_LINE_COMMENT = re.compile(r"[ \t]*(?://[^\n]*|\(\*[^*\n]*\*\)[ \t]*)")
 
 
 def type_parts(text: str, scan: list[Word]) -> Iterator[tuple[str, int, int]]:
@@ -35,7 +36,14 @@ def type_parts(text: str, scan: list[Word]) -> Iterator[tuple[str, int, int]]:
                     end = scan[i].end
                     i += 1
                 break
-        yield text[start.start : start.end], start.start, end
+        yield text[start.start : start.end], start.start, _with_comment(text, end)
+
+
+def _with_comment(text: str, end: int) -> int:
+    """Where the line of an offset ends if only a comment follows there, else the offset itself."""
+    line_end = text.find("\n", end)
+    line_end = len(text) if line_end < 0 else line_end
+    return line_end if _LINE_COMMENT.fullmatch(text, end, line_end) else end
 
 
 def trimmed(text: str) -> str:

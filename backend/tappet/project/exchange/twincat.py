@@ -90,7 +90,7 @@ def _implementation(draft: Draft, item: Element, report: ImportReport, name: str
     else:
         draft.data |= body("SFC" if part.tag == "StateChart" else "FBD", xml_text(held))
     language = draft.data["language"]
-    if language != "ST":
+    if language not in ("ST", "IL"):
         kind = part.tag if part is not None else language
         text = f"the body in {kind} is kept as it is; it cannot be compiled yet"
         report.add("kept", draft.source, text, name=name, line=item.line)

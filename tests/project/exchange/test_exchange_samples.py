@@ -1,0 +1,217 @@
+"""One hand-written sample of each flavour: what comes in, where, with which text, and the report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tappet.project.exchange import ImportReport, import_files
+from tappet.project.exchange.plcopen_write import write_plcopen
+from tappet.project.model import Project, ProjectObject
+from tappet.project.sources import application_sources
+
+SAMPLES = Path(__file__).parent / "samples"
+
+
+def files(name: str) -> dict[str, bytes]:
+    top = SAMPLES / name
+    if top.is_file():
+        return {name: top.read_bytes()}
+    return {p.relative_to(top).as_posix(): p.read_bytes() for p in top.rglob("*") if p.is_file()}
+
+
+def imported(name: str) -> tuple[Project, ImportReport]:
+    done = import_files(files(name))
+    return done.project, done.report
+
+
+def at(project: Project, path: str) -> ProjectObject:
+    found = project.find(path)
+    assert found is not None, [project.path_of(item.id) for item in project.walk()]
+    return found
+
+
+def text(project: Project, path: str, part: str = "declaration") -> str:
+    value = getattr(at(project, path).data, part)
+    assert isinstance(value, str)
+    return value
+
+
+def said(report: ImportReport) -> set[tuple[str, str]]:
+    return {(entry.object, entry.outcome) for entry in report.noteworthy()}
+
+
+@pytest.mark.parametrize(
+    "name", ["codesys_35.xml", "beremiz.xml", "no_namespace.xml", "library.exp", "plain.st", "twincat"]
+)
+def test_what_came_in_goes_out_and_in_again_unchanged(name: str) -> None:
+    project, _ = imported(name)
+    content = write_plcopen(project)
+    again = import_files({"x.xml": content}).project
+    assert dict(again.objects) == dict(project.objects)
+    assert write_plcopen(again) == content
+
+
+def test_codesys_methods_properties_folders_tasks_and_plain_text() -> None:
+    project, report = imported("codesys_35.xml")
+    app = "Controller/PLC Logic/Mixing"
+    assert project.name == "Mixer"
+    assert text(project, "Types/E_State") == (
+        "{attribute 'qualified_only'}\nTYPE E_State :\n"
+        "(\n    Idle := 0,\n    Run := 1 // turning\n);\nEND_TYPE"
+    )
+    assert text(project, f"{app}/Blocks/FB_Base") == (
+        "// Turns.\n// Never stops.\nFUNCTION_BLOCK FB_Base\nVAR\n    fSpeed : LREAL;\nEND_VAR"
+    )
+    assert text(project, f"{app}/Blocks/FB_Base/Faster") == (
+        "METHOD PROTECTED Faster : BOOL\nVAR_INPUT\n    fBy : LREAL := 1;\nEND_VAR"
+    )
+    assert text(project, f"{app}/Blocks/FB_Base/Faster", "implementation").endswith("Faster := fSpeed > 10;")
+    assert text(project, f"{app}/Blocks/FB_Base/Access/Speed") == "PROPERTY Speed : LREAL"
+    assert text(project, f"{app}/Blocks/FB_Base/Access/Speed/Get", "implementation") == "Speed := fSpeed;"
+    mixer = text(project, f"{app}/Blocks/Motors/FB_Mixer")
+    assert mixer.startswith("FUNCTION_BLOCK FB_Mixer EXTENDS FB_Base IMPLEMENTS I_Motor\n")
+    assert "as the engineer wrote it" in mixer
+    assert text(project, f"{app}/Blocks/Motors/FB_Mixer/Count", "implementation") == "nStarts := nStarts + 1;"
+    assert text(project, f"{app}/I_Motor/Stop") == "METHOD Stop : BOOL"
+    assert text(project, f"{app}/GVL") == (
+        "VAR_GLOBAL CONSTANT\n    nLimit : INT := 3;\nEND_VAR\n"
+        "VAR_GLOBAL\n    aTable : ARRAY[0..nLimit] OF INT := [2(7), 8];\nEND_VAR"
+    )
+    assert "pData AT %MW4 : WORD;" in text(project, f"{app}/PLC_PRG")
+    ladder = at(project, f"{app}/Ladder").data.model_dump()
+    assert ladder["language"] == "LD"
+    assert ladder["implementation"].startswith("<body>\n")
+    assert 'formalParameter="none"' in ladder["implementation"]
+    task = at(project, f"{app}/Task Configuration/MainTask").data.model_dump()
+    assert (task["interval"], task["priority"], task["pous"][0]["name"]) == ("t#10ms", 31, "PLC_PRG")
+    assert task["watchdog"] == {"enabled": True, "time": "T#20ms", "sensitivity": 2}
+    assert said(report) == {("Controller", "refused"), ("MainTask", "changed"), ("Ladder", "kept")}
+
+
+def test_a_graphical_body_gives_a_clear_error_when_compiled() -> None:
+    project, _ = imported("codesys_35.xml")
+    (application,) = project.applications()
+    texts = {item.uri: item.text for item in application_sources(project, application.id)}
+    assert "{error 'The body of Ladder is in LD, which cannot be compiled yet" in texts["Ladder"]
+    assert "<body>" not in texts["Ladder"]
+
+
+def test_beremiz_external_variables_il_sfc_and_instances() -> None:
+    project, report = imported("beremiz.xml")
+    app = "config/PLC Logic/resource1"
+    assert text(project, f"{app}/Percent") == "TYPE Percent : INT (0..100) := 50;\nEND_TYPE"
+    heat = text(project, f"{app}/heat")
+    assert "VAR_EXTERNAL\n    level : INT;\nEND_VAR" in heat
+    assert "place : Point := (x := 2.5);" in heat
+    assert "    // shows\n    // the level\n    lamp AT %QX0.0 : BOOL;" in heat
+    assert "level < 10" in text(project, f"{app}/heat", "implementation")
+    assert text(project, f"{app}/ramp").startswith("FUNCTION ramp : REAL\n")
+    assert at(project, f"{app}/old").data.model_dump()["language"] == "IL"
+    assert at(project, f"{app}/steps").data.model_dump()["language"] == "SFC"
+    assert at(project, f"{app}/steps/t1").data.model_dump()["implementation"] == ":= go;"
+    assert text(project, f"{app}/Global_Variables") == "VAR_GLOBAL\n    level : INT := 3;\nEND_VAR"
+    task = at(project, f"{app}/Task Configuration/task0").data.model_dump()
+    assert (task["interval"], task["priority"], task["pous"][0]["name"]) == ("T#20ms", 0, "heat")
+    assert at(project, f"{app}/Task Configuration/idle").data.model_dump()["type"] == "freewheeling"
+    assert said(report) == {("steps", "kept"), ("steps.t1", "kept"), ("idle", "changed")}
+
+
+def test_plcopen_without_the_namespace() -> None:
+    project, report = imported("no_namespace.xml")
+    assert text(project, "Tappet Soft PLC/PLC Logic/Application/Main", "implementation") == (
+        "n := n + 1;\nn := n * 2;"
+    )
+    assert said(report) == set()
+
+
+def test_codesys_23_export() -> None:
+    project, report = imported("library.exp")
+    app = "Tappet Soft PLC/PLC Logic/Application"
+    assert text(project, f"{app}/Math/Trigonometry/TURN").endswith("(* as the name says *) *)")
+    assert text(project, f"{app}/Math/Trigonometry/TURN", "implementation") == (
+        "TURN := ANGLE + 180.0; (* degrees: \u00b0 *)"
+    )
+    assert text(project, f"{app}/Blocks/STORE").startswith("FUNCTIONBLOCK STORE\n")
+    assert text(project, f"{app}/Blocks/STORE", "implementation").startswith("(* walks ( * bytes *)\nNEXT")
+    assert text(project, f"{app}/Blocks/STORE/CLEAR", "implementation") == "I := 0;"
+    assert text(project, f"{app}/LIMITS").startswith("TYPE LIMITS :")
+    assert "NAME_LENGTH" in text(project, f"{app}/Global_Constants")
+    assert "NOON" in text(project, f"{app}/Globals")
+    networks = at(project, f"{app}/NETWORKS").data.model_dump()
+    assert networks["language"] == "FBD"
+    assert networks["implementation"].startswith("_FBD_BODY")
+    assert said(report) == {
+        ("", "changed"),
+        ("LIBRARY", "refused"),
+        ("PLC_CONFIGURATION", "refused"),
+        ("NETWORKS", "kept"),
+        ("Global Constants", "changed"),
+    }
+    lines = {entry.object: entry.line for entry in report.entries}
+    assert (lines["TURN"], lines["STORE.CLEAR"], lines["LIBRARY"]) == (7, 48, 103)
+
+
+def test_plain_text_with_everything() -> None:
+    project, report = imported("plain.st")
+    app = "Tappet Soft PLC/PLC Logic/Application"
+    assert text(project, f"{app}/Mode") == (
+        "(* A file with everything *)\nTYPE\n  Mode : (Off, On); // of a lamp\nEND_TYPE"
+    )
+    assert text(project, f"{app}/Level") == "TYPE   Level : INT (0..10);\nEND_TYPE"
+    assert "MAX_COUNT" in text(project, f"{app}/plain")
+    assert text(project, f"{app}/plain").startswith("{attribute 'qualified_only'}\nVAR_GLOBAL")
+    assert text(project, f"{app}/I_Lamp") == "INTERFACE I_Lamp"
+    assert text(project, f"{app}/FB_Lamp").startswith(
+        "// A lamp.\nFUNCTION_BLOCK FB_Lamp IMPLEMENTS I_Lamp\nVAR"
+    )
+    assert text(project, f"{app}/FB_Lamp", "implementation") == "  Toggle();"
+    assert text(project, f"{app}/FB_Lamp/Switch").startswith(
+        "  // Switches it.\n  METHOD PUBLIC Switch : BOOL"
+    )
+    assert text(project, f"{app}/FB_Lamp/Lit/Get", "implementation") == "      Lit := _bOn;"
+    assert text(project, f"{app}/FB_Lamp/Toggle", "implementation") == "    _bOn := NOT _bOn;"
+    assert "bShared" in text(project, f"{app}/Config_Globals")
+    task = at(project, f"{app}/Task Configuration/Fast").data.model_dump()
+    assert (task["interval"], task["priority"], task["pous"][0]["name"]) == ("T#5ms", 2, "Main")
+    assert said(report) == set()
+
+
+def test_twincat_project() -> None:
+    project, report = imported("twincat")
+    app = "Tappet Soft PLC/PLC Logic/Application"
+    assert (project.name, project.description) == ("Packing line", "Two belts")
+    assert at(project, f"{app}/Empty").kind == "folder"
+    assert "unit: m/s" in text(project, f"{app}/DUTs/ST_Belt")
+    assert text(project, f"{app}/POUs/FB_Belt/Orders_External/Run", "implementation") == (
+        "fNow := fSpeed;\nRun := TRUE;"
+    )
+    assert text(project, f"{app}/POUs/FB_Belt/Now/Get", "implementation") == "Now := fNow;"
+    assert at(project, f"{app}/POUs/FB_Belt").id == "0000000000004000800000000000" + "00a6"
+    main = at(project, f"{app}/POUs/MAIN").data.model_dump()
+    assert main["language"] == "FBD"
+    assert main["implementation"].lstrip().startswith("<Implementation")
+    task = at(project, f"{app}/Task Configuration/PlcTask").data.model_dump()
+    assert (task["interval"], task["priority"], task["pous"][0]["name"]) == ("2000", 20, "MAIN")
+    library = at(project, f"{app}/Library Manager").data.model_dump()["references"]
+    assert list(library) == [{"name": "Standard", "version": "*", "namespace": "Tc2_Standard"}]
+    assert said(report) == {
+        ("MAIN", "kept"),
+        ("POUs/Gone.TcPOU", "refused"),
+        ("VISUs/Screen.TcVIS", "refused"),
+        ("Tc2_Standard", "changed"),
+        ("Orders/External", "changed"),
+    }
+
+
+def test_into_a_project_nothing_is_overwritten() -> None:
+    project, _ = imported("plain.st")
+    done = import_files(files("plain.st"), project)
+    app = "Tappet Soft PLC/PLC Logic/Application"
+    assert (
+        text(done.project, f"{app}/FB_Lamp_1").splitlines()[1] == "FUNCTION_BLOCK FB_Lamp_1 IMPLEMENTS I_Lamp"
+    )
+    assert at(done.project, f"{app}/FB_Lamp").id == at(project, f"{app}/FB_Lamp").id
+    assert {item.id for item in project.walk()} < {item.id for item in done.project.walk()}
+    assert ("FB_Lamp", "changed") in said(done.report)
