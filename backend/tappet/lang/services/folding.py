@@ -8,6 +8,7 @@ from typing import Literal
 from tappet.lang.lexer import PRAGMA
 from tappet.lang.parser_core import ENDS, SECTIONS
 from tappet.lang.services.documents import Position
+from tappet.lang.services.instruction_list import networks
 from tappet.lang.services.results import Fold
 from tappet.lang.services.workspace import Snapshot
 
@@ -54,4 +55,6 @@ def folds(snapshot: Snapshot, document: str) -> list[Fold]:
                 if begin in wanted:
                     add(line, lexed.lines[index], "code")
                     break
+    for start, last in networks(view.unit):
+        add(start, last, "code")
     return sorted(set(found), key=lambda fold: (fold.start, -fold.end))

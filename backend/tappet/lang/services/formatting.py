@@ -12,6 +12,7 @@ from typing import Literal
 from tappet.lang.lexer import END, ID, INT, KEYWORDS, NUMBER, STRING, Lexed, Trivia, lex
 from tappet.lang.parser_core import SECTIONS
 from tappet.lang.services.documents import Place
+from tappet.lang.services.instruction_list import format_rows, holds_rows
 from tappet.lang.services.results import Edit
 from tappet.lang.source import Span
 from tappet.lang.types import ELEMENTARY
@@ -102,6 +103,8 @@ def format_text(text: str, style: Style = _USUAL) -> str:
     lexed = lex(text, "")
     if lexed.unclosed_comment or any(d.code in ("E0003", "E0004") for d in lexed.diagnostics):
         return text
+    if holds_rows(lexed):
+        return format_rows(text)
     return _Formatter(text, lexed, style).run()
 
 

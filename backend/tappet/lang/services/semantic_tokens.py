@@ -8,6 +8,7 @@ from tappet.lang import types as t
 from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, PRAGMA, STRING
 from tappet.lang.services import describe
 from tappet.lang.services.documents import Position
+from tappet.lang.services.instruction_list import bodies, is_operator
 from tappet.lang.services.occurrences import Occurrence, occurrences
 from tappet.lang.services.operators import head_of
 from tappet.lang.services.results import ItemKind
@@ -70,6 +71,7 @@ def semantic_tokens(snapshot: Snapshot, document: str) -> list[SemanticToken]:
         if first <= item.span.line < behind
     }
     inactive = view.result.inactive
+    rows = {line for begin, end, _ in bodies(view.unit) for line in range(begin, end)}
     lexed = view.lexed
     found: list[tuple[Span, str, frozenset[str]]] = []
     for index, kind in enumerate(lexed.kinds):
@@ -84,6 +86,9 @@ def semantic_tokens(snapshot: Snapshot, document: str) -> list[SemanticToken]:
         span = Span(line, column, line, column + len(text))
         if any(part[:2] <= span[:2] < part[2:] for part in inactive):
             found.append((span, "comment", frozenset({"inactive"})))
+            continue
+        if line in rows and is_operator(lexed, index):
+            found.append((span, "keyword", _PLAIN))
             continue
         type_, modifiers = _classify(kind, text, names.get((line, column)))
         if type_:

@@ -1,0 +1,123 @@
+"""Help while rows of IL are written: proposals, colours, networks, columns."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+from marked_texts import Project
+
+from tappet.lang.lexer import tokenize
+from tappet.lang.services.completion import complete
+from tappet.lang.services.folding import folds
+from tappet.lang.services.formatting import format_text
+from tappet.lang.services.hover import hover
+from tappet.lang.services.navigation import references
+from tappet.lang.services.semantic_tokens import semantic_tokens
+from tappet.lang.source import Source
+
+HEAD = """PROGRAM PLC_PRG
+VAR
+    iCount, iTotal : INT;
+    xStart : BOOL;
+END_VAR
+"""
+
+
+def project(body: str) -> Project:
+    return Project(PLC_PRG=f"{HEAD}{body}\nEND_PROGRAM")
+
+
+def labels(body: str) -> list[str]:
+    p = project(body)
+    return [item.label for item in complete(p.workspace, p.document, p.position)]
+
+
+def test_operators_are_proposed_at_the_beginning_of_a_row() -> None:
+    """IL-01: the operator column holds operators, functions, instances."""
+    found = labels("LD iCount\n|\nST iTotal")
+    assert {"LD", "LDN", "ST"} <= set(found[:6])
+    assert {"ADD", "CALC", "JMPCN", "iCount", "SEL"} <= set(found)
+    assert not {"IF", "VAR", "END_IF"} & set(found)
+
+
+def test_operands_and_labels_are_proposed_behind_it() -> None:
+    found = labels("LD |iCount\nST iTotal")
+    assert {"iCount", "xStart", "TRUE"} <= set(found)
+    assert "LDN" not in found
+    assert labels(
+        "LD xStart\nJMPC |\nLD iCount\nST iTotal\nfar:\nLD 1\nST iCount\nnear: LD 2\nST iCount"
+    ) == ["far", "near"]
+
+
+def test_operators_are_coloured_as_keywords() -> None:
+    p = project("|loop: LD iCount\nADD 1\nST iCount\nLT 10\nJMPC loop")
+    tokens = semantic_tokens(p.snapshot, p.document)
+    text = p.objects["PLC_PRG"].split("\n")
+    keywords = [
+        text[t.line][t.column : t.column + t.length] for t in tokens if t.type == "keyword" and t.line > 4
+    ]
+    assert keywords == ["LD", "ADD", "ST", "LT", "JMPC", "END_PROGRAM"]
+    assert [t.type for t in tokens if text[t.line][t.column : t.column + t.length] == "loop"] == [
+        "label",
+        "label",
+    ]
+
+
+def test_networks_fold() -> None:
+    """NET-06: a label begins a network."""
+    p = project("|LD 1\nST iCount\na:\nLD 2\nST iCount\nb:\nLD 3\nST iCount")
+    found = [(fold.start, fold.end) for fold in folds(p.snapshot, p.document)]
+    assert (7, 9) in found
+    assert (10, 12) in found
+
+
+def test_hover_and_references_find_operands() -> None:
+    p = project("LD iCo|unt\nADD iCount\nST iTotal\nST iCount")
+    shown = hover(p.snapshot, p.document, p.position)
+    assert shown is not None
+    assert "INT" in shown.code
+    found = references(p.snapshot, p.document, p.position)
+    assert sorted(item.place.span.line for item in found) == [2, 5, 6, 8]
+
+
+UGLY = """ld   iCount (* load *)
+ add( 1
+mul iTotal,2
+)
+st iTotal
+// a comment
+
+loop: ldn xStart
+jmpc loop
+cal t1( IN:=xStart,
+PT:=T#1s)
+verylonglabel: SEL 1, 2"""
+
+
+def test_columns_are_aligned() -> None:
+    assert format_text(UGLY).split("\n") == [
+        "        LD      iCount (* load *)",
+        "        ADD(    1",
+        "          MUL     iTotal,2",
+        "        )",
+        "        ST      iTotal",
+        "// a comment",
+        "",
+        "loop:   LDN     xStart",
+        "        JMPC    loop",
+        "        CAL     t1( IN:=xStart,",
+        "                PT:=T#1s)",
+        "verylonglabel: SEL     1, 2",
+    ]
+    assert format_text(format_text(UGLY)) == format_text(UGLY)
+
+
+_WORDS = "LD ST iCount l: ( ) , := 1 (*c*) CAL t1( 'a' * (* x"
+
+
+@given(st.lists(st.sampled_from([*_WORDS.split(), "//d\n", "\n", "\n"]), max_size=25))
+def test_columns_change_nothing_else(words: list[str]) -> None:
+    text = "LD iCount\n" + " ".join(words)
+    before = [(t.kind, t.text.upper()) for t in tokenize(Source("a", text))]
+    after = [(t.kind, t.text.upper()) for t in tokenize(Source("a", format_text(text)))]
+    assert after == before
