@@ -113,7 +113,8 @@ async def test_completion() -> None:
         await client.open(BODY, "")
         params = await client.open(BODY, "motor(|")
         found = (await client.ask("textDocument/completion", params))["items"]
-        assert [(i["label"], i["textEdit"]["newText"], i["filterText"]) for i in found[:2]] == [
+        assert [(i["label"], i["textEdit"]["newText"], i["filterText"]) for i in found[:3]] == [
+            ("xOn :=, xRuns =>", "xOn := $1, xRuns => $2", "xOn :=, xRuns =>"),
             ("xOn :=", "xOn := ", "xOn"),
             ("xRuns =>", "xRuns => ", "xRuns"),
         ]

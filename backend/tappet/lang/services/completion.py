@@ -14,6 +14,15 @@ from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol
 from tappet.lang.attributes import attribute
 from tappet.lang.lexer import ID
 from tappet.lang.services import describe
+from tappet.lang.services.completion_calls import (
+    argument_type,
+    case_selector,
+    initial_members,
+    may_reach,
+    parameters,
+    type_before,
+    whole_call,
+)
 from tappet.lang.services.cursor import (
     Cursor,
     EnclosingCall,
@@ -25,6 +34,7 @@ from tappet.lang.services.cursor import (
     region_at,
 )
 from tappet.lang.services.documents import Position
+from tappet.lang.services.instruction_list import JUMPS, in_rows, label_proposals, operator_proposals
 from tappet.lang.services.keywords import (
     ATTRIBUTES,
     DECLARATION_KEYWORDS,
@@ -35,9 +45,9 @@ from tappet.lang.services.keywords import (
     STATEMENT_SNIPPETS,
     TYPE_KEYWORDS,
 )
-from tappet.lang.services.occurrences import children
 from tappet.lang.services.operators import CONVERTIBLE, OPERATOR_HEADS
 from tappet.lang.services.resolution import (
+    Meaning,
     Scope,
     block_members,
     block_of,
@@ -68,6 +78,8 @@ _VALUE_BEFORE = frozenset(
 _STATEMENT_BEFORE = frozenset(
     [";", "THEN", "ELSE", "DO", "REPEAT", ":", "OF", "END_VAR", "__TRY", "__FINALLY"]
 )
+_USUAL = ("BOOL", "INT", "DINT", "REAL", "LREAL", "TIME", "STRING", "BYTE", "WORD", "DWORD", "UINT", "UDINT")
+"""Types that come first."""
 
 
 def complete(workspace: Workspace, document: str, position: Position) -> list[Completion]:
@@ -79,7 +91,7 @@ def complete(workspace: Workspace, document: str, position: Position) -> list[Co
             return [Completion(name, ItemKind.ATTRIBUTE, detail, insert=name) for name, detail in ATTRIBUTES]
         return []
     found = {(item.label.upper(), item.kind): item for item in reversed(list(_proposals(view, cursor)))}
-    return sorted(found.values(), key=lambda item: (item.rank, item.label.upper()))
+    return sorted(found.values(), key=lambda item: (item.rank, item.order, item.label.upper()))
 
 
 def _proposals(view: View, cursor: Cursor) -> Iterator[Completion]:
@@ -116,18 +128,24 @@ def _code(view: View, scope: Scope, cursor: Cursor, before: str, region: str) ->
     """In a body: what fits the type that is expected, parameters, names, operators, keywords."""
     call = enclosing_call(view.lexed, view.source, cursor.previous)
     if call is not None and before in ("(", ","):
-        yield from _parameters(view, scope, call)
+        yield from parameters(scope, call, before == "(")
+    if before in ("(", ","):
+        yield from initial_members(view, scope, cursor.previous)
+    if in_rows(view.unit, view.position.line):
+        yield from _row(view, scope, cursor)
+        return
     expected = _expected_type(view, scope, cursor, before, call)
     if isinstance(expected, t.Enum):
         yield from _enum(view, expected, 0)
     elif isinstance(expected, t.Elementary) and expected.kind is t.Kind.BOOL:
         yield from _keywords(("TRUE", "FALSE"), 2)
     if before in (";", "OF", "") or before.startswith("END_"):
-        selector = _case_selector(view, scope)
-        if selector is not None:
-            yield from _enum(view, selector, 2)
-    yield from _names(scope, expected)
+        selected = case_selector(view, scope, cursor.previous)
+        if selected is not None:
+            values = _enum(view, selected[0], 0 if before == "OF" else 2)
+            yield from (item for item in values if item.label.rpartition(".")[2].upper() not in selected[1])
     at_statement = before in _STATEMENT_BEFORE or before.startswith("END_") or before == ""
+    yield from _names(scope, expected, at_statement and call is None, cursor.word)
     if at_statement and call is None:
         for label, text, detail in STATEMENT_SNIPPETS:
             yield Completion(label, ItemKind.SNIPPET, detail, insert=text, snippet=True, rank=6)
@@ -138,6 +156,20 @@ def _code(view: View, scope: Scope, cursor: Cursor, before: str, region: str) ->
         yield from _keywords(STATEMENT_KEYWORDS, 7)
     yield from _keywords(EXPRESSION_KEYWORDS, 7)
     yield from _operators(cursor.word.upper())
+
+
+def _row(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
+    """In a row of IL: instructions and functions in front, labels behind JMP, operands elsewhere (IL-01)."""
+    lexed = view.lexed
+    previous = cursor.previous
+    if previous < 0 or lexed.lines[previous] != view.position.line or lexed.kinds[previous] == ":":
+        yield from operator_proposals()
+        yield from _operators(cursor.word.upper())
+    elif lexed.texts[previous].upper() in JUMPS:
+        yield from label_proposals(view.unit, view.position.line)
+        return
+    yield from _names(scope, None, False, cursor.word)
+    yield from _keywords(("TRUE", "FALSE"), 7)
 
 
 def _keywords(words: Iterable[str], rank: int) -> Iterator[Completion]:
@@ -157,14 +189,25 @@ def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
         return
     meaning = resolve(scope, operand(view.lexed, view.source, start, cursor.previous))
     block = block_of(meaning.type)
-    without_locals = hides_locals(block)
     own = block is not None and scope.block is not None and block is scope.block
+    begin = view.lexed.kinds[start - 1] if start else ""
+    writes = begin in _STATEMENT_BEFORE or begin.startswith("END_") or begin == ""
+    of_library = block is not None and block.source is not None and block.source.library is not None
+    without_locals = hides_locals(block) or writes or of_library
+    order = 0
     for symbol in members(meaning).values():
         if isinstance(symbol, (AmbiguousSymbol, QualifiedSymbol)) or is_hidden(symbol):
             continue
-        if without_locals and is_local(symbol) and not own:
+        foreign = not own and is_local(symbol) and isinstance(meaning.type, t.FunctionBlock)
+        if foreign and without_locals:  # from outside, locals can be read at most
             continue
-        yield _item(symbol, 5 if is_local(symbol) else 3)
+        if not may_reach(symbol, scope.block):
+            continue
+        yield _item(symbol, _member_rank(symbol, meaning), order)
+        order += 1
+        call = whole_call(symbol, symbol.name, 4, writes) if isinstance(symbol, PouSymbol) else None
+        if call is not None:
+            yield call
     if isinstance(meaning.type, t.Elementary) and meaning.type.is_integer:
         for bit in range(8 * meaning.type.size):
             yield Completion(str(bit), ItemKind.FIELD, "BOOL", rank=6)
@@ -179,7 +222,14 @@ def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
         )
 
 
-def _item(symbol: Symbol, rank: int) -> Completion:
+def _member_rank(symbol: Symbol, meaning: Meaning) -> int:
+    """Inputs and outputs of an instance first, then what can be called, what is inside last."""
+    if isinstance(symbol, VarSymbol) and isinstance(meaning.type, t.FunctionBlock):
+        return 7 if is_local(symbol) else 1 if symbol.section == "VAR_INPUT" else 2
+    return 3
+
+
+def _item(symbol: Symbol, rank: int, order: int = 0) -> Completion:
     pragmas: list[ast.Pragma] = []
     if isinstance(symbol, PouSymbol) and symbol.pou is not None:
         pragmas = symbol.pou.attributes
@@ -192,6 +242,7 @@ def _item(symbol: Symbol, rank: int) -> Completion:
         describe.short(symbol),
         describe.comment_of(symbol),
         rank=rank,
+        order=order,
         deprecated=attribute(pragmas, "obsolete") is not None,
     )
 
@@ -203,12 +254,16 @@ def _offered(symbol: Symbol) -> bool:
 # -- names
 
 
-def _names(scope: Scope, expected: t.Type | None) -> Iterator[Completion]:
+def _names(scope: Scope, expected: t.Type | None, statement: bool, word: str) -> Iterator[Completion]:
+    """What is seen by its plain name; instances and functions with their parameters as well."""
     seen: set[str] = set()
     for key, symbol in scope.locals.items():
         seen.add(key)
         if symbol.name and not symbol.name.startswith("__"):
             yield _item(symbol, _rank(symbol, expected, 3, 1))
+            call = whole_call(symbol, symbol.name, 3, True) if statement else None
+            if call is not None:
+                yield call
     for key, symbol in block_members(scope.block).items():
         if symbol.name and key not in seen and not symbol.name.startswith("__"):
             seen.add(key)
@@ -220,7 +275,12 @@ def _names(scope: Scope, expected: t.Type | None) -> Iterator[Completion]:
     for key, symbol in scope.snapshot.analysis.scope.items():
         if key not in seen and _offered(symbol):
             library = symbol.source is not None and symbol.source.library is not None
-            yield _item(symbol, _rank(symbol, expected, 6 if library else 4, 2))
+            rank = _rank(symbol, expected, 6 if library else 4, 2)
+            yield _item(symbol, rank)
+            # Long lists of calls help only those who have begun to write a name.
+            call = whole_call(symbol, symbol.name, rank, statement) if word else None
+            if call is not None and (statement or isinstance(symbol, PouSymbol)):
+                yield call
 
 
 def _rank(symbol: Symbol, expected: t.Type | None, rank: int, fitting: int) -> int:
@@ -245,35 +305,16 @@ def _operators(word: str) -> Iterator[Completion]:
 
 
 def _enum(view: View, type_: t.Enum, rank: int) -> Iterator[Completion]:
-    for value in enum_values(type_).values():
+    for order, value in enumerate(enum_values(type_).values()):
         assert isinstance(value, EnumValueSymbol)
         plain = view.snapshot.analysis.scope.get(value.name.upper())
         bare = isinstance(plain, EnumValueSymbol) and plain.type is type_
         label = value.name if bare else f"{type_.name}.{value.name}"
-        yield Completion(
-            label, ItemKind.ENUM_VALUE, f"{type_.name} = {value.number}", value.comment, rank=rank
-        )
+        detail = f"{type_.name} = {value.number}"
+        yield Completion(label, ItemKind.ENUM_VALUE, detail, value.comment, rank=rank, order=order)
 
 
 # -- calls
-
-
-def _parameters(view: View, scope: Scope, call: EnclosingCall) -> Iterator[Completion]:
-    pou = callable_pou(resolve(scope, call.callee))
-    if pou is None:
-        return
-    for variable in describe.pins(pou):
-        if variable.name.upper() in call.given:
-            continue
-        arrow = "=>" if variable.section == "VAR_OUTPUT" else ":="
-        yield Completion(
-            f"{variable.name} {arrow}",
-            ItemKind.PARAMETER,
-            f"{variable.section} {describe.type_as_written(variable)}",
-            variable.comment,
-            insert=f"{variable.name} {arrow} ",
-            rank=1 if variable.section != "VAR_OUTPUT" else 2,
-        )
 
 
 def _expected_type(
@@ -281,8 +322,12 @@ def _expected_type(
 ) -> t.Type | None:
     """The type that the place wants, as far as the tokens before it tell."""
     lexed = view.lexed
-    if before in ("IF", "ELSIF", "WHILE", "UNTIL"):
+    if before in ("IF", "ELSIF", "WHILE", "UNTIL", "NOT", "AND", "OR"):
         return t.BOOL
+    if before == "FOR":
+        return t.INT
+    if before in ("(", ",") and call is not None:
+        return argument_type(scope, call)
     if before not in (":=", "=", "<>"):
         return None
     name = cursor.previous - 1
@@ -293,28 +338,7 @@ def _expected_type(
                 if variable.name.upper() == lexed.texts[name].upper():
                     return variable.type
             return None
-    start = chain_before(lexed, cursor.previous)
-    return resolve(scope, operand(lexed, view.source, start, cursor.previous)).type
-
-
-def _case_selector(view: View, scope: Scope) -> t.Enum | None:
-    """The enumeration that the innermost CASE around the position selects by."""
-    position = view.position
-    found: ast.Case | None = None
-    node: ast.Node | None = view.unit
-    while node is not None:
-        inner: ast.Node | None = None
-        for child in children(node):
-            span = child.span
-            if (span.line, span.column) <= position <= (span.end_line, span.end_column):
-                inner = child
-        if isinstance(inner, ast.Case):
-            found = inner
-        node = inner
-    if found is None:
-        return None
-    type_ = resolve(scope, found.selector).type
-    return type_ if isinstance(type_, t.Enum) else None
+    return type_before(view, scope, cursor.previous)
 
 
 # -- types
@@ -353,7 +377,8 @@ def _types(view: View) -> Iterator[Completion]:
             yield _item(symbol, 6)
     for name in sorted({type_.name for type_ in t.ELEMENTARY.values()} | {"TOD", "DT", "STRING", "WSTRING"}):
         if not name.startswith("__"):
-            yield Completion(name, ItemKind.TYPE, "elementary", rank=2)
+            order = _USUAL.index(name) if name in _USUAL else len(_USUAL)
+            yield Completion(name, ItemKind.TYPE, "elementary", rank=2, order=order)
     for label, text in TYPE_KEYWORDS:
         yield Completion(label, ItemKind.KEYWORD, insert=text, snippet=True, rank=5)
 

@@ -170,10 +170,12 @@ def pins(pou: PouSymbol) -> Iterator[VarSymbol]:
     while block is not None and block not in chain:
         chain.append(block)
         block = block.base
+    seen: set[str] = set()
     for entry in reversed(chain):
         for variable in entry.parameters:
             hidden = variable.decl is not None and attribute(variable.decl.attributes, "hide") is not None
-            if variable.section in _PINS and not hidden:
+            if variable.section in _PINS and not hidden and variable.name.upper() not in seen:
+                seen.add(variable.name.upper())
                 yield variable
 
 

@@ -50,7 +50,8 @@ class Completion:
     insert: str | None = None
     snippet: bool = False
     rank: int = 5
-    """0 (fits best) to 9; equal ranks are sorted by label."""
+    """0 (fits best) to 9; equal ranks are sorted by `order`, then by label."""
+    order: int = 0
     deprecated: bool = False
     over: int = 0
     """Characters before the word that the proposal replaces as well."""
