@@ -10,7 +10,7 @@ import sys
 import typer
 
 from tappet import __version__
-from tappet.cli import bench, check, deploy, library, lsp, projects, run, serve
+from tappet.cli import bench, check, deploy, library, lsp, projects, run, serve, unit_tests
 from tappet.cli.output import UsageError, complain
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.command("serve")(serve.serve)
 app.command("runtime", context_settings=serve.FORWARD)(serve.runtime)
 app.command("check")(check.check)
 app.command("run")(run.run)
+app.command("test")(unit_tests.run_unit_tests)
 app.command("import")(projects.import_project)
 app.command("export")(projects.export_project)
 app.add_typer(library.app, name="library")

@@ -18,6 +18,7 @@ from tappet.project import sources as project_sources
 from tappet.project.errors import ProjectError
 from tappet.project.folder.layout import PROJECT_FILE
 from tappet.project.model import Project
+from tappet.runtime.unit_tests.discovery import TEST_LIBRARY, has_suites
 
 BARE_TASK_INTERVAL_NS = 10_000_000
 """A PROGRAM of a bare .st file runs every 10 ms (DESIGN section 3)."""
@@ -129,9 +130,11 @@ def _plain_files(paths: Sequence[Path]) -> ApplicationInput:
     tasks = (
         (TaskSpec("Task", interval_ns=BARE_TASK_INTERVAL_NS, programs=tuple(programs)),) if programs else ()
     )
-    options = BuildOptions(
-        files[0].stem, libraries=tuple(LibraryReference(name) for name in libraries.names())
-    )
+    texts = [source.text for source in sources]
+    # the test library keeps room for the results of many tests: only tests get it
+    names = [n for n in libraries.names() if n != TEST_LIBRARY or has_suites(texts)]
+    references = tuple(LibraryReference(libraries.as_called(name, texts)) for name in names)
+    options = BuildOptions(files[0].stem, libraries=references)
     return ApplicationInput(files[0].stem, tuple(sources), tasks, options)
 
 

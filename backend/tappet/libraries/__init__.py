@@ -6,6 +6,7 @@ One folder a library: `library.json` and one `.st` file a POU. May import lang. 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -50,6 +51,19 @@ def load(name: str, version: str = NEWEST, namespace: str | None = None) -> Libr
     """
     found = repository.find(name, version)
     return _load(found, namespace or repository.namespace_of(found, name))
+
+
+def as_called(name: str, texts: Iterable[str]) -> str:
+    """The name to refer to a library by in texts that qualify by a placeholder, such as `Tc2_Standard.TON`.
+
+    The library's own name qualifies in any case.
+    """
+    item = repository.find(name)
+    for known in item.stands_for:
+        pattern = re.compile(rf"(?<![\w.]){re.escape(known.name)}\s*\.", re.IGNORECASE)
+        if known.name.upper() != item.name.upper() and any(pattern.search(text) for text in texts):
+            return known.name
+    return item.name
 
 
 def resolve(references: Iterable[tuple[str, str, str | None]]) -> tuple[list[Library], list[str]]:
@@ -117,4 +131,4 @@ def _load(item: Installed, space: str) -> Library:
     )
 
 
-__all__ = ["ROOT", "Library", "UnknownLibraryError", "every_version", "load", "names", "resolve"]
+__all__ = ["ROOT", "Library", "UnknownLibraryError", "as_called", "every_version", "load", "names", "resolve"]

@@ -38,6 +38,8 @@ class Level:
 
     label: str
     """'' for application and POUs view, the namespace of a library."""
+    library: str = ""
+    """Name of the library; its own texts and others may qualify by it, too, when the namespace is another."""
     objects: dict[str, Symbol] = field(default_factory=dict)
     gvls: list[GvlSymbol] = field(default_factory=list)
     enum_values: list[tuple[str, bool, EnumValueSymbol]] = field(default_factory=list)
@@ -96,7 +98,7 @@ class Levels:
         if source.scope is Scope.POUS:
             return self.pous
         label = source.namespace or source.library or "Library"
-        return self.libraries.setdefault(label.upper(), Level(label))
+        return self.libraries.setdefault(label.upper(), Level(label, source.library or label))
 
     def seen_by(self, source: Source) -> dict[str, Symbol]:
         """What a text of this source sees by plain name, own locals excepted. Valid once all is collected."""
@@ -108,12 +110,7 @@ class Levels:
         if table is None:
             table = dict(self._library_names())
             if source.scope is Scope.LIBRARY:
-                level = self.of(source)
-                names = level.names()
-                own = (source.library or level.label).upper()
-                if own != level.label.upper():  # loaded under another namespace: its texts know the own one
-                    table[own] = NamespaceSymbol(own, members=names)
-                table.update(names)
+                table.update(self.of(source).names())
             else:
                 table.update(self.pous.names())
                 if source.scope is Scope.APPLICATION:
@@ -128,6 +125,9 @@ class Levels:
             for level in self.libraries.values():
                 names = level.names()
                 table.setdefault(level.label.upper(), NamespaceSymbol(level.label, members=names))
+            for level in self.libraries.values():
+                if level.library.upper() not in table:
+                    table[level.library.upper()] = NamespaceSymbol(level.library, members=level.names())
             for level in self.libraries.values():
                 for key, symbol in level.names().items():
                     old = table.get(key)

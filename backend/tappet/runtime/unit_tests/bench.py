@@ -1,0 +1,225 @@
+"""The variables of the test library seen from Python: what is switched off at a start, and the results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from tappet.codegen.faults import Fault
+from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.local import LocalRuntime
+from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY
+from tappet.runtime.unit_tests.instrument import Mark
+from tappet.runtime.unit_tests.results import Failure, Outcome, SuiteOutcome, TestOutcome
+
+WAITING, RUNNING, PASSED, FAILED, SKIPPED, BROKEN = range(6)
+"""TEST_STATE of the library."""
+_OUTCOMES: dict[int, Outcome] = {PASSED: "passed", FAILED: "failed", SKIPPED: "skipped", BROKEN: "error"}
+NS_PER_S = 1_000_000_000
+_SHOWN_CALLERS = 20
+
+
+@dataclass(slots=True)
+class _Suite:
+    path: str
+    block: str
+    broken: bool = False
+    failures: list[Failure] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class _Test:
+    """One test over all starts of the application."""
+
+    suite: int
+    name: str
+    state: int = WAITING
+    record: dict[str, Any] = field(default_factory=dict)
+    outcome: TestOutcome | None = None
+    """Known for good."""
+
+
+class Bench:
+    """Suites and tests of one application, over all its starts."""
+
+    def __init__(self, symbols: SymbolMap, marks: Sequence[Mark]) -> None:
+        self._symbols = symbols
+        self._marks = marks
+        self._root = _root(symbols)
+        self._suites: list[_Suite] = []
+        self._tests: list[_Test] = []
+        self.complete = False
+        """Every test has its outcome."""
+
+    # -- before a start --------------------------------------------------------------------------------
+
+    def prepare(self, runtime: LocalRuntime, test_filter: str) -> None:
+        """Hands the library the filter and the outcomes of earlier starts."""
+        if not self._suites:
+            self._read_suites(runtime)
+        values: dict[str, Any] = {f"{self._root}.sFilter": test_filter}
+        known = [test for test in self._tests if test.outcome is not None]
+        for number, test in enumerate(known, 1):
+            at = f"{self._root}.aTest[{number}]"
+            values |= {
+                f"{at}.sName": test.name,
+                f"{at}.diSuite": test.suite,
+                f"{at}.eState": test.state,
+                f"{at}.xOrdered": bool(test.record.get("xOrdered")),
+            }
+        values[f"{self._root}.diTests"] = len(known)
+        for number, suite in enumerate(self._suites, 1):
+            values[f"{self._root}.asPath[{number}]"] = suite.path
+            if suite.broken:
+                values[f"{self._root}.axBroken[{number}]"] = True
+        self._tests = known
+        for path, value in values.items():
+            runtime.write(path, value)
+
+    def _read_suites(self, runtime: LocalRuntime) -> None:
+        for number in range(1, self._number(runtime, "diSuites") + 1):
+            # Device.Application.PRG_TEST.fbSuite
+            path = str(runtime.read(f"{self._root}.asPath[{number}]")).split(".", 2)[-1]
+            block = self._symbols.resolve(path).type.name
+            made = path.upper().startswith(f"{PROGRAM}.".upper())
+            self._suites.append(_Suite(block if made else path, block))
+
+    # -- afterwards ------------------------------------------------------------------------------------
+
+    def finished(self, runtime: LocalRuntime) -> bool:
+        """Whether every test has finished."""
+        return bool(runtime.read(f"{self._root}.xFinished"))
+
+    def overflow(self, runtime: LocalRuntime) -> str | None:
+        """A sentence when the library had no room for all tests."""
+        if runtime.read(f"{self._root}.xOverflow"):
+            return "there are more tests or suites than the library has room for; test in parts with a filter"
+        return None
+
+    def collect(self, runtime: LocalRuntime) -> None:
+        """Takes over what the library has recorded in this start."""
+        failures = self._failures(runtime)
+        for number in range(1, self._number(runtime, "diTests") + 1):
+            record: Any = runtime.read(f"{self._root}.aTest[{number}]")
+            if number <= len(self._tests):
+                test = self._tests[number - 1]
+            else:
+                test = _Test(record["diSuite"], record["sName"])
+                self._tests.append(test)
+            if test.outcome is None:
+                test.state, test.record = record["eState"], record
+                if test.state in _OUTCOMES:
+                    test.outcome = self._outcome(test, failures.get(number, []))
+
+    def broken(self, runtime: LocalRuntime, report: ExceptionReport) -> str | None:
+        """Gives the exception to the test, or else the suite, that it happened in."""
+        number = self._number(runtime, "diTest")
+        test = self._tests[number - 1] if 0 < number <= len(self._tests) else None
+        suite = self._number(runtime, "diSuite")
+        failure = _exception(report)
+        if test is not None and test.outcome is None:
+            expected = test.record.get("iExpected", 0)
+            failures = self._failures(runtime).get(number, [])
+            if expected == report.code and not failures:
+                test.state = PASSED
+                test.outcome = replace(self._outcome(test, []), assertions=test.record["diAsserts"] + 1)
+            else:
+                if expected and expected != report.code:
+                    failure = replace(failure, expected=Fault(expected).name, actual=report.name)
+                test.state = BROKEN
+                test.outcome = self._outcome(test, [*failures, failure])
+            test.state = BROKEN  # its code must not run again
+            return None
+        if 0 < suite <= len(self._suites) and not self._suites[suite - 1].broken:
+            self._suites[suite - 1].broken = True
+            self._suites[suite - 1].failures.append(failure)
+            return None
+        place = f" in {failure.pou}, line {failure.line}" if failure.pou else ""
+        return f"the test program ended in an exception outside of a suite: {failure.message}{place}"
+
+    def give_up(self, seconds: float) -> None:
+        """What has not finished by now never will."""
+        self.complete = True
+        for test in self._tests:
+            if test.outcome is None:
+                waiting = "it never was its turn" if test.state == WAITING else "TEST_FINISHED was not called"
+                message = f"not finished after {seconds:g} s of simulated time: {waiting}"
+                test.outcome = TestOutcome(test.name, "error", failures=(Failure(message),))
+        if not any(test.outcome for test in self._tests):
+            for suite in self._suites:
+                suite.failures.append(
+                    Failure("no test of the suite was begun; is RUN called in every cycle?")
+                )
+
+    def suites(self) -> tuple[SuiteOutcome, ...]:
+        """The results so far."""
+        return tuple(
+            SuiteOutcome(
+                suite.path,
+                suite.block,
+                tuple(t.outcome for t in self._tests if t.suite == number and t.outcome is not None),
+                tuple(suite.failures),
+            )
+            for number, suite in enumerate(self._suites, 1)
+        )
+
+    # -- values ----------------------------------------------------------------------------------------
+
+    def _number(self, runtime: LocalRuntime, name: str) -> int:
+        value = runtime.read(f"{self._root}.{name}")
+        assert isinstance(value, int)
+        return value
+
+    def _outcome(self, test: _Test, failures: list[Failure]) -> TestOutcome:
+        record = test.record
+        seconds = max(0, record["tEnd"] - record["tBegin"]) / NS_PER_S
+        return TestOutcome(test.name, _OUTCOMES[test.state], record["diAsserts"], seconds, tuple(failures))
+
+    def _failures(self, runtime: LocalRuntime) -> dict[int, list[Failure]]:
+        """The failed assertions of this start by the number of their test."""
+        found: dict[int, list[Failure]] = {}
+        count = self._number(runtime, "diFailures")
+        room = self._symbols.resolve(f"{self._root}.aFailure").type.bounds[0][1]
+        for number in range(1, min(count, room) + 1):
+            record: Any = runtime.read(f"{self._root}.aFailure[{number}]")
+            mark = record["diMark"]
+            place = self._marks[mark - 1] if 0 < mark <= len(self._marks) else Mark("", "", 0)
+            found.setdefault(record["diTest"], []).append(
+                Failure(
+                    record["sMessage"],
+                    record["sExpected"],
+                    record["sActual"],
+                    pou=place.pou,
+                    uri=place.uri,
+                    line=place.line,
+                )
+            )
+        return found
+
+
+def _root(symbols: SymbolMap) -> str:
+    for name in (f"{TEST_LIBRARY}.TestBench", "TestBench"):
+        try:
+            symbols.resolve(f"{name}.diTests")
+        except SymbolError:
+            continue
+        return name
+    raise SymbolError("the test library is not in the application")
+
+
+def _exception(report: ExceptionReport) -> Failure:
+    callers = [
+        f"{frame.pou}, line {frame.line}"
+        for frame in report.call_stack[1:_SHOWN_CALLERS]
+        if frame.pou != PROGRAM and not frame.pou.startswith(f"{TEST_LIBRARY}.")
+    ]
+    return Failure(
+        report.message,
+        code=report.code,
+        pou=report.pou,
+        uri=report.uri,
+        line=report.line,
+        call_stack=tuple(callers),
+    )

@@ -1,0 +1,166 @@
+"""Builds an application with its tests and runs them on virtual time until all have finished.
+
+An exception or an endless loop ends only the test it happens in: the application is started again without
+that test, and what had finished before keeps its result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+from tappet.codegen.build import BuildOptions, LibraryReference, build_application
+from tappet.codegen.package import CodePackage, TaskSpec
+from tappet.lang.conditional import ParseOptions, parse_sources
+from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.source import Source
+from tappet.libraries import as_called, resolve
+from tappet.runtime.flight import FlightSettings
+from tappet.runtime.local import ApplicationException, LocalRuntime
+from tappet.runtime.unit_tests.bench import Bench
+from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY, discover, program_text
+from tappet.runtime.unit_tests.instrument import Mark, instrument
+from tappet.runtime.unit_tests.results import Report
+
+DEFAULT_INTERVAL_NS = 10_000_000
+NS_PER_S = 1_000_000_000
+CHUNK = 100
+"""Cycles between two looks whether all tests have finished."""
+
+
+@dataclass(frozen=True, slots=True)
+class TestLimits:
+    """When a test counts as endless."""
+
+    cycle_s: float = 2.0
+    """Wall time of one cycle."""
+    simulated_s: float = 600.0
+    """Time of the PLC for all tests."""
+    restarts: int = 1000
+
+    __test__ = False  # no test class of pytest
+
+
+def run_tests(
+    sources: Iterable[Source],
+    tasks: Sequence[TaskSpec] = (),
+    options: BuildOptions | None = None,
+    *,
+    test_filter: str = "",
+    limits: TestLimits | None = None,
+    progress: Callable[[Report], None] | None = None,
+) -> Report:
+    """Run the tests of an application; nothing is raised for what is wrong with it.
+
+    `test_filter` runs only tests with this text in `suite.test` (`*` for any text). `progress` gets a report
+    after each start of the application.
+    """
+    options = with_library(options or BuildOptions(), sources := list(sources))
+    found = discover(result.unit for result in parse_sources(sources, ParseOptions(dict(options.defines))))
+    if not found.suites and not found.programs:
+        return Report(options.application, problem="there are no tests: no block extends FB_TestSuite")
+    marks: list[Mark] = []
+    texts = [instrument(source, marks) for source in sources]
+    programs = found.programs
+    if not programs:
+        texts.append(Source(PROGRAM, program_text(found.suites)))
+        programs = (PROGRAM,)
+    task = TaskSpec("Tests", interval_ns=_interval(tasks, programs), programs=programs)
+    result = build_application(texts, (task,), options)
+    if result.package is None:
+        # as the engineer wrote it: the columns of what was put in are nobody's business
+        plain = build_application(sources, tasks, replace(options, check_only=True))
+        errors = [d for d in (plain.diagnostics or result.diagnostics) if d.severity == "error"]
+        errors = errors or [d for d in result.diagnostics if d.severity == "error"]
+        return Report(options.application, diagnostics=tuple(_fields(d) for d in errors))
+    run = _Run(options.application, result.package, marks, limits or TestLimits(), test_filter)
+    return run.all(progress)
+
+
+def with_library(options: BuildOptions, sources: Iterable[Source]) -> BuildOptions:
+    """Options with the test library, under the name that the texts call it by."""
+    libraries, _ = resolve((r.name, r.version, r.namespace) for r in options.libraries)
+    if any(library.name == TEST_LIBRARY for library in libraries):
+        return options
+    reference = LibraryReference(as_called(TEST_LIBRARY, [source.text for source in sources]))
+    return replace(options, libraries=(*options.libraries, reference))
+
+
+def _interval(tasks: Sequence[TaskSpec], programs: Sequence[str]) -> int:
+    """That of the task which calls the tests in the application."""
+    wanted = {name.upper() for name in programs}
+    for task in tasks:
+        if task.interval_ns and wanted & {name.upper() for name in task.programs}:
+            return task.interval_ns
+    return DEFAULT_INTERVAL_NS
+
+
+def _fields(diagnostic: Diagnostic) -> dict[str, object]:
+    span = diagnostic.span
+    return {
+        "file": diagnostic.uri,
+        "line": span.line + 1,
+        "column": span.column + 1,
+        "end_line": span.end_line + 1,
+        "end_column": span.end_column + 1,
+        "severity": diagnostic.severity,
+        "code": diagnostic.code,
+        "message": diagnostic.message,
+        "advice": diagnostic.advice,
+    }
+
+
+class _Run:
+    """The starts of one application until every test has an outcome."""
+
+    def __init__(
+        self,
+        application: str,
+        package: CodePackage,
+        marks: Sequence[Mark],
+        limits: TestLimits,
+        test_filter: str,
+    ) -> None:
+        self.application = application
+        self.package = package
+        self.limits = limits
+        self.bench = Bench(package.symbols, marks)
+        self.filter = test_filter
+
+    def all(self, progress: Callable[[Report], None] | None) -> Report:
+        bench = self.bench
+        for _ in range(self.limits.restarts):
+            problem = self._start()
+            report = Report(self.application, bench.suites(), problem)
+            if problem is not None or bench.complete:
+                return report
+            if progress is not None:
+                progress(report)
+        return Report(self.application, bench.suites(), f"given up after {self.limits.restarts} exceptions")
+
+    def _start(self) -> str | None:
+        """One start: runs until all tests have finished or one ends in an exception."""
+        bench = self.bench
+        no_flight = FlightSettings(memory=0)  # nobody looks back here, and the results make a large image
+        limit = self.limits.cycle_s
+        with LocalRuntime(self.package, start=False, cycle_limit_s=limit, flight=no_flight) as runtime:
+            if runtime.exception is not None:
+                return f"the application does not start: {ApplicationException(runtime.exception)}"
+            bench.prepare(runtime, self.filter)
+            runtime.start()
+            end_ns = runtime.now_ns + int(self.limits.simulated_s * NS_PER_S)
+            cycles = 1
+            try:
+                while not bench.finished(runtime):
+                    if runtime.now_ns >= end_ns:
+                        bench.collect(runtime)
+                        bench.give_up(self.limits.simulated_s)
+                        return None
+                    runtime.run(cycles)
+                    cycles = CHUNK
+            except ApplicationException as error:
+                bench.collect(runtime)
+                return bench.broken(runtime, error.report)
+            bench.collect(runtime)
+            bench.complete = True
+            return bench.overflow(runtime)
