@@ -298,7 +298,8 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
             elif retype(right, lt):
                 rt = lt
         if lt == rt:
-            e.operand_type = lt
+            # a narrow result of arithmetic is held in DINT and not stored here (LOPR-03)
+            e.operand_type = t.DINT if lt.is_integer and lt.size < 4 else lt
             return
         meeting = conversion.OPERANDS.get((lt.name, rt.name))
         if meeting is not None:

@@ -1,0 +1,78 @@
+"""Runs one program on the compiler and on the reference and tells where they differ."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import reference
+import write_st
+from arithmetic import Fault, same
+from typed_tree import Program, base_of
+
+from tappet.codegen.build import BuildOptions, BuildSession, build_application
+from tappet.codegen.jit import ApplicationFault, LoadedApplication
+from tappet.lang.source import Source
+
+SESSION = BuildSession()
+
+
+class RefusedError(AssertionError):
+    """The compiler gave errors for a program that is right."""
+
+
+def compiled(program: Program, level: int) -> tuple[dict[str, Any], str | None]:
+    """Values by path after the cycles, and the fault that ended the program."""
+    text = write_st.program(program)
+    result = build_application([Source("a.st", text)], (), BuildOptions(level=level), session=SESSION)
+    errors = [f"{d.span.line + 1}: {d.code} {d.message}" for d in result.diagnostics if d.severity == "error"]
+    if result.package is None:
+        raise RefusedError("\n".join([*errors, text]))
+    application = LoadedApplication(result.package)
+    fault = None
+    try:
+        application.start()
+        try:
+            for _ in range(program.cycles):
+                application.cycle()
+        except ApplicationFault as raised:
+            fault = str(raised)
+        return {
+            path: _value(application, path, t) for path, t, _ in write_st.paths(program.variables, "PLC_PRG")
+        }, fault
+    finally:
+        application.close()
+
+
+def _value(application: LoadedApplication, path: str, type_: Any) -> Any:
+    value = application.read(path)
+    if base_of(type_) is not None and isinstance(value, str) and not hasattr(base_of(type_), "length"):
+        return dict(type_.members)[value]  # an enumeration by name
+    return value
+
+
+def expected(program: Program) -> tuple[dict[str, Any], bool]:
+    """Values after the cycles, and whether the program ended in a fault. Raises reference.TooLong."""
+    machine = reference.Machine(program)
+    fault = False
+    try:
+        for _ in range(program.cycles):
+            machine.cycle()
+    except Fault:
+        fault = True
+    values = {}
+    for path, _, keys in write_st.paths(program.variables, "PLC_PRG"):
+        value: Any = machine.variables
+        for key in keys:
+            value = value[key]
+        values[path] = value
+    return values, fault
+
+
+def differences(program: Program, level: int) -> list[str]:
+    """What differs, empty when both agree."""
+    values, fault = expected(program)
+    actual, ended = compiled(program, level)
+    found = [f"fault expected {fault}, got {ended}"] if fault != (ended is not None) else []
+    return found + [
+        f"{p}: expected {v!r}, got {actual[p]!r}" for p, v in values.items() if not same(v, actual[p])
+    ]

@@ -1,0 +1,461 @@
+"""Random well-typed expressions. `r` is a random.Random, or that of hypothesis, which then shrinks."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+import typed_tree as tree
+from typed_tree import (
+    BOOL,
+    DATE,
+    DINT,
+    DT,
+    INT,
+    INTEGERS,
+    LDT,
+    LINT,
+    LTIME,
+    NUMBERS,
+    REAL,
+    REALS,
+    TIME,
+    TOD,
+    ULINT,
+    Array,
+    Binary,
+    Bit,
+    Block,
+    Builtin,
+    Clock,
+    Enum,
+    Expr,
+    Index,
+    Literal,
+    Member,
+    Name,
+    Scalar,
+    Struct,
+    Text,
+    Type,
+    Unary,
+    Variable,
+    base_of,
+    bit_type,
+    common,
+    comparable,
+    meet,
+)
+
+COMPARISONS = ("=", "<>", "<", ">", "<=", ">=")
+CLOCKS = (TIME, LTIME, DATE, DT, TOD, LDT)
+CONVERTED_CLOCKS = {TIME: (LTIME,), LTIME: (TIME,), DATE: (DT,), TOD: (DT,), DT: (LDT,), LDT: (DT,)}
+MEETINGS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in NUMBERS}
+COMMONS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in NUMBERS}
+BITS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in INTEGERS}
+for _left in NUMBERS:
+    for _right in NUMBERS:
+        MEETINGS[meet(_left, _right)[0]].append((_left, _right))
+        COMMONS[common(_left, _right)].append((_left, _right))
+        if _left.integer and _right.integer:
+            BITS[bit_type(_left, _right)].append((_left, _right))
+_FLOATS = [0.0, -0.0, 1.0, -1.0, 0.5, 1.5, -2.5, 0.1, 3.0, 100.0, 1e10, 16777217.0, -1e-3, 127.5, 65535.5]
+_SINGLE = [1.1754944e-38, 1.4e-45, 3.4028235e38, -3.4028235e38, 2147483648.0]
+_DOUBLE = [5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, -1e300, 9007199254740993.0, 9.3e18]
+_TEXTS = ["", "a", "A", "abc", "12", "TRUE", "x y", "zz9", "hello world", "0"]
+
+
+def single(value: float) -> float:
+    return float(struct.unpack("<f", struct.pack("<f", value))[0])
+
+
+@dataclass
+class Maker:
+    """Expressions over the variables of one scope."""
+
+    r: Random
+    variables: list[Variable] = field(default_factory=list)
+    fixed: set[str] = field(default_factory=set)
+    """Variables nothing is assigned to: counters and guards of loops."""
+    texts: bool = True
+
+    def chance(self, percent: int) -> bool:
+        return self.r.randrange(100) < percent
+
+    # -- leaves -------------------------------------------------------------------------------------
+
+    def literal_value(self, type_: Type) -> Any:
+        """A value of a simple type; limits and small numbers are frequent."""
+        r = self.r
+        if isinstance(type_, Enum):
+            return r.choice(type_.members)[1]
+        if isinstance(type_, Text):
+            return r.choice(_TEXTS)[: type_.length]
+        if isinstance(type_, tree.Subrange):
+            return r.randint(type_.low, type_.high)
+        assert isinstance(type_, Scalar)
+        if type_ == BOOL:
+            return bool(r.randrange(2))
+        if type_.kind == "real":
+            value = r.choice(_FLOATS + (_SINGLE if type_ == REAL else _SINGLE + _DOUBLE))
+            return single(value) if type_ == REAL else value
+        if type_.kind in ("time", "date"):
+            number = r.choice(
+                [0, 1, 7, 999, 1000, 12345, 86_399_999, 100_000, type_.high // type_.unit_ns // 3]
+            )
+            if type_ == DATE:
+                return number // 86_400 * 86_400
+            if type_.bits == 64:
+                number = r.choice([0, 1, 999_999, 1_000_000, 123_456_789_012, 86_400_000_000_000, 2**40])
+                return number // 1_000_000_000 * 1_000_000_000 if type_ == LDT else number
+            return number % 86_400_000 if type_ == TOD else number
+        near = [0, 1, 2, 3, 7, 100, type_.high, type_.low, type_.high - 1, type_.low + 1, type_.high // 2]
+        if type_.low < 0:
+            near += [-1, -2, -7]
+        return r.choice(near) if self.chance(70) else r.randint(type_.low, type_.high)
+
+    def literal(self, type_: Type, value: Any = None) -> Literal:
+        if value is None:
+            value = self.literal_value(type_)
+        return Literal(type_, base_of(type_), True, value)
+
+    def places(self, wanted: Any, writable: bool = False, depth: int = 2) -> list[Expr]:
+        """All places of a kind: `wanted` is a test of the type."""
+        found: list[Expr] = []
+        for v in self.variables:
+            if writable and v.name in self.fixed:
+                continue
+            self._descend(Name(v.type, base_of(v.type), False, v.name), wanted, depth, found, writable)
+        return found
+
+    def _descend(self, e: Expr, wanted: Any, depth: int, found: list[Expr], writable: bool) -> None:
+        if wanted(e.type):
+            found.append(e)
+        if depth == 0:
+            return
+        if isinstance(e.type, Struct):
+            for name, type_ in e.type.members:
+                self._descend(
+                    Member(type_, base_of(type_), False, e, name), wanted, depth - 1, found, writable
+                )
+        elif isinstance(e.type, Array):
+            element = Index(e.type.element, base_of(e.type.element), False, e, [])
+            self._descend(element, wanted, depth - 1, found, writable)
+        elif isinstance(e.type, Block) and not writable:
+            for v in e.type.outputs:
+                self._descend(
+                    Member(v.type, base_of(v.type), False, e, v.name), wanted, depth - 1, found, writable
+                )
+
+    def filled(self, e: Expr, depth: int) -> Expr:
+        """A place with the indices its arrays need."""
+        if isinstance(e, Member):
+            return Member(e.type, e.held, False, self.filled(e.base, depth), e.name)
+        if isinstance(e, Index):
+            base = self.filled(e.base, depth)
+            assert isinstance(base.type, Array)
+            return Index(e.type, e.held, False, base, [self.index(*b, depth) for b in base.type.bounds])
+        return e
+
+    def index(self, low: int, high: int, depth: int) -> Expr:
+        """An index, nearly always inside the bounds."""
+        if depth <= 0 or self.chance(40):
+            return self.literal(DINT, self.r.randint(low, high))
+        if self.chance(4):
+            return self.moving(self.r.choice(INTEGERS), depth - 1)
+        type_ = self.r.choice((INT, DINT, LINT))
+        args: list[Expr] = [
+            self.literal(type_, low),
+            self.moving(type_, depth - 1),
+            self.literal(type_, high),
+        ]
+        return Builtin(type_, type_, False, "LIMIT", args, [type_] * 3)
+
+    def variable(self, type_: Type, depth: int) -> Expr | None:
+        """A place whose type counts as `type_`."""
+        base = base_of(type_)
+        exact = isinstance(type_, Enum)
+        found = self.places(lambda t: t is type_ if exact else base_of(t) == base)
+        return self.filled(self.r.choice(found), depth) if found else None
+
+    def leaf(self, type_: Type, depth: int = 0) -> Expr:
+        if self.chance(75):
+            found = self.variable(type_, depth)
+            if found is not None:
+                return found
+        return self.literal(type_)
+
+    def moving(self, type_: Type, depth: int) -> Expr:
+        """An expression that is no constant."""
+        for _ in range(2):
+            e = self.expr(type_, depth)
+            if not e.constant:
+                return e
+        found = self.variable(type_, 0)
+        if found is not None:
+            return found
+        other = self.places(lambda t: base_of(t) in NUMBERS)
+        if isinstance(type_, Scalar) and type_ in (*NUMBERS, BOOL) and other:
+            return self.converted(self.filled(self.r.choice(other), 0), type_)
+        return self.literal(type_)
+
+    # -- compound -----------------------------------------------------------------------------------
+
+    def expr(self, type_: Type, depth: int) -> Expr:
+        """An expression whose static type counts as `type_`."""
+        if depth <= 0 or self.chance(12):
+            return self.leaf(type_)
+        if isinstance(type_, Text):
+            return self._text(type_, depth)
+        if isinstance(type_, Enum):
+            return self.selection(type_, depth) if self.chance(30) else self.leaf(type_, depth)
+        base = base_of(type_)
+        if base == BOOL:
+            return self._boolean(depth)
+        if base.kind in ("time", "date"):
+            return self._clock(base, depth)
+        return self._number(base, depth)
+
+    def _number(self, type_: Scalar, depth: int) -> Expr:
+        choice = self.r.randrange(100)
+        if choice < 45:
+            return self._arithmetic(type_, depth)
+        if choice < 52:
+            return self.selection(type_, depth)
+        if choice < 62:
+            return self._extreme(type_, depth)
+        if choice < 75:
+            source = self.r.choice(NUMBERS) if self.chance(85) else self.r.choice((BOOL, TIME, LTIME))
+            return self.converted(self.expr(source, depth - 1), type_)
+        if choice < 80:
+            operand = self.expr(type_, depth - 1)
+            return Builtin(type_, type_, operand.constant, "ABS", [operand], [type_])
+        if choice < 84:
+            return self._negative(self.expr(type_, depth - 1))
+        if not type_.integer:
+            operand = self.expr(type_, depth - 1)
+            return Builtin(type_, type_, operand.constant, "SQRT", [operand], [type_])
+        if choice < 92:
+            return self._bits(type_, depth)
+        if choice < 94 and type_ == DINT:
+            operand = self.moving(self.r.choice(REALS), depth - 1)
+            return Builtin(DINT, DINT, False, "TRUNC", [operand], [base_of(operand.type)])
+        if choice < 95 and self.texts and type_ == INT:
+            return Builtin(INT, INT, False, "LEN", [self.moving_text(depth - 1)], [Text(255)])
+        return self._shift(type_, depth)
+
+    def _arithmetic(self, type_: Scalar, depth: int) -> Expr:
+        pair = (type_, type_) if self.chance(60) else self.r.choice(MEETINGS[type_])
+        op = self.r.choice(("+", "-", "*", "/", "MOD") if type_.integer else ("+", "-", "*", "/"))
+        left = self.expr(pair[0], depth - 1)
+        right = (
+            self._divisor(pair[1], depth)
+            if op in ("/", "MOD") and type_.integer
+            else self.expr(pair[1], depth - 1)
+        )
+        if not left.constant and base_of(left.type) == pair[1] and self.chance(20):
+            right = self._untyped(pair[1], nonzero=op in ("/", "MOD"))
+        computed = meet(base_of(left.type), base_of(right.type))
+        return Binary(
+            computed[0], computed[1], left.constant and right.constant, op, left, right, computed[1]
+        )
+
+    def _untyped(self, type_: Scalar, nonzero: bool = False) -> Literal:
+        """A literal without prefix, which takes the type of the other side."""
+        if type_.kind == "real":
+            value: Any = self.r.choice([0.0, 1.0, 0.5, 2.25, 1000.0, 0.1])
+            value = single(value) if type_ == REAL else value
+        else:
+            value = self.r.choice(
+                [1, 2, 3, 10, 100, type_.high] if nonzero else [0, 1, 2, 3, 10, 100, type_.high]
+            )
+        return Literal(type_, type_, True, value, untyped=True)
+
+    def _divisor(self, type_: Scalar, depth: int) -> Expr:
+        if self.chance(50):
+            low = type_.low if type_.low < 0 else 1
+            return self.literal(type_, self.r.choice([1, 2, 3, 7, type_.high, low, -1 if low < 0 else 5]))
+        divisor = self.moving(type_, depth - 1)
+        if divisor.constant:
+            return self.literal(type_, 3)
+        if self.chance(8) or base_of(divisor.type) != type_:
+            return divisor
+        return Builtin(type_, type_, False, "MAX", [divisor, self.literal(type_, 1)], [type_, type_])
+
+    def _negative(self, operand: Expr) -> Expr:
+        base = base_of(operand.type)
+        computed = DINT if base.integer and base.bits < 32 else base
+        if base in (tree.UDINT, tree.DWORD):
+            computed = LINT
+        return Unary(base, computed, operand.constant, "-", operand)
+
+    def _bits(self, type_: Scalar, depth: int) -> Expr:
+        if self.chance(25):
+            operand = self.expr(type_, depth - 1)
+            return Unary(type_, type_, operand.constant, "NOT", operand)
+        pair = (type_, type_) if self.chance(60) else self.r.choice(BITS[type_])
+        left, right = (self.expr(t, depth - 1) for t in pair)
+        constant = left.constant and right.constant
+        return Binary(type_, type_, constant, self.r.choice(("AND", "OR", "XOR")), left, right, type_)
+
+    def _shift(self, type_: Scalar, depth: int) -> Expr:
+        name = self.r.choice(("SHL", "SHR", "ROL", "ROR"))
+        operand = self.expr(type_, depth - 1)
+        count_type = self.r.choice((tree.USINT, INT, DINT, tree.BYTE, LINT, ULINT))
+        count: Expr = self.literal(
+            count_type, self.r.choice([0, 1, 3, 7, 8, 15, 16, 31, 32, 33, 63, 64, 65, 100])
+        )
+        if self.chance(40):
+            count = self.moving(count_type, depth - 1)
+            if base_of(count.type).kind == "signed" and self.chance(70):
+                limits = (self.literal(count_type, 0), self.literal(count_type, 70))
+                count = Builtin(
+                    count_type, count_type, False, "LIMIT", [limits[0], count, limits[1]], [count_type] * 3
+                )
+        return Builtin(
+            type_, type_, operand.constant and count.constant, name, [operand, count], [type_, ULINT]
+        )
+
+    def _extreme(self, type_: Scalar, depth: int) -> Expr:
+        name = self.r.choice(("MIN", "MAX", "LIMIT"))
+        if name == "LIMIT" or self.chance(50) or not COMMONS[type_]:
+            count = 3 if name == "LIMIT" else 2
+            args = [self.expr(type_, depth - 1) for _ in range(count)]
+        else:
+            args = [self.moving(t, depth - 1) for t in self.r.choice(COMMONS[type_])]
+        return Builtin(type_, type_, all(a.constant for a in args), name, args, [type_] * len(args))
+
+    def selection(self, type_: Type, depth: int) -> Expr:
+        held = base_of(type_)
+        if self.chance(50):
+            lead, count = self.expr(BOOL, depth - 1), 2
+        else:
+            lead, count = self.moving(self.r.choice(INTEGERS), depth - 1), self.r.randint(2, 4)
+        args = [self.expr(type_, depth - 1) for _ in range(count)]
+        constant = lead.constant and all(a.constant for a in args)
+        name = "SEL" if base_of(lead.type) == BOOL else "MUX"
+        return Builtin(type_, held, constant, name, [lead, *args], [base_of(lead.type), *[held] * count])
+
+    def converted(self, operand: Expr, target: Scalar) -> Expr:
+        source = base_of(operand.type)
+        return Builtin(target, target, operand.constant, "convert", [operand], [source])
+
+    def _boolean(self, depth: int) -> Expr:
+        choice = self.r.randrange(100)
+        if choice < 45:
+            return self.comparison(depth)
+        if choice < 60:
+            left, right = self.expr(BOOL, depth - 1), self.expr(BOOL, depth - 1)
+            return Binary(
+                BOOL,
+                BOOL,
+                left.constant and right.constant,
+                self.r.choice(("AND", "OR", "XOR")),
+                left,
+                right,
+                BOOL,
+            )
+        if choice < 75:
+            left, right = self.moving(BOOL, depth - 1), self.moving(BOOL, depth - 1)
+            return Binary(BOOL, BOOL, False, self.r.choice(("AND_THEN", "OR_ELSE")), left, right, BOOL)
+        if choice < 82:
+            operand = self.expr(BOOL, depth - 1)
+            return Unary(BOOL, BOOL, operand.constant, "NOT", operand)
+        if choice < 88:
+            return self.converted(self.moving(self.r.choice((*NUMBERS, TIME)), depth - 1), BOOL)
+        if choice < 94:
+            found = self.bit_place(depth)
+            if found is not None:
+                return found
+        return self.selection(BOOL, depth)
+
+    def bit_place(self, depth: int, writable: bool = False) -> Bit | None:
+        """One bit of an integer variable."""
+        found = self.places(lambda t: isinstance(t, Scalar) and t.integer, writable)
+        if not found:
+            return None
+        place = self.filled(self.r.choice(found), depth)
+        return Bit(BOOL, BOOL, False, place, self.r.randrange(base_of(place.type).bits))
+
+    def comparison(self, depth: int) -> Expr:
+        op = self.r.choice(COMPARISONS)
+        choice = self.r.randrange(100)
+        if choice < 10 and self.texts:
+            left, right = self.moving_text(depth - 1), self.moving_text(depth - 1)
+            constant = left.constant and right.constant
+            return Binary(BOOL, BOOL, constant, op, left, right, Text(255))  # type: ignore[arg-type]
+        if choice < 20:
+            clock = self.r.choice(CLOCKS)
+            left, right = self.moving(clock, depth - 1), self.expr(clock, depth - 1)
+            return Binary(BOOL, BOOL, left.constant and right.constant, op, left, right, clock)
+        first = self.r.choice(NUMBERS)
+        left = self.moving(first, depth - 1)
+        if self.chance(25) and base_of(left.type) == first and first.integer:
+            right: Expr = self._untyped(first)
+        else:
+            right = self.expr(first if self.chance(60) else self.r.choice(NUMBERS), depth - 1)
+        computed = comparable(base_of(left.type), base_of(right.type))
+        return Binary(BOOL, BOOL, left.constant and right.constant, op, left, right, computed)
+
+    def _clock(self, type_: Scalar, depth: int) -> Expr:
+        choice = self.r.randrange(100)
+        if choice < 15:
+            return self.selection(type_, depth)
+        if choice < 25 and type_ in CONVERTED_CLOCKS:
+            source = self.r.choice(CONVERTED_CLOCKS[type_])
+            return self.converted(self.moving(source, depth - 1), type_)
+        if type_ in (TIME, LTIME):
+            return self._duration(type_, depth)
+        if type_ == DATE:
+            return self.leaf(type_, depth)
+        span = LTIME if type_ == LDT else TIME
+        left, right = self.moving(type_, depth - 1), self.moving(span, depth - 1)
+        return self.clock(type_, self.r.choice("+-"), left, right)
+
+    def clock(self, type_: Scalar, op: str, left: Expr, right: Expr) -> Clock:
+        return Clock(type_, type_, left.constant and right.constant, op, left, right)
+
+    def _duration(self, type_: Scalar, depth: int) -> Expr:
+        choice = self.r.randrange(100)
+        left = self.moving(type_, depth - 1)
+        if choice < 50:
+            right = self.expr(type_, depth - 1)
+            constant = left.constant and right.constant
+            return Binary(type_, type_, constant, self.r.choice("+-"), left, right, type_)
+        if choice < 70:
+            number = self.moving(self.r.choice(INTEGERS[:7] + REALS), depth - 1)
+            return self.clock(type_, "*", left, number)
+        if choice < 85:
+            divisor: Expr = self._divisor(self.r.choice(INTEGERS), depth)
+            if divisor.constant and not isinstance(divisor, Literal):
+                divisor = self.literal(INT, 7)
+            return self.clock(type_, "/", left, divisor)
+        date = LDT if type_ == LTIME else self.r.choice((DT, TOD, DATE))
+        return self.clock(type_, "-", self.moving(date, depth - 1), self.moving(date, depth - 1))
+
+    def moving_text(self, depth: int) -> Expr:
+        found = self.places(lambda t: isinstance(t, Text))
+        return self.filled(self.r.choice(found), 0) if found else self.literal(Text(20))
+
+    def _text(self, type_: Text, depth: int) -> Expr:
+        choice = self.r.randrange(100)
+        long = Text(255)
+        if choice < 35:
+            return self.moving_text(depth) if self.chance(70) else self.literal(Text(20))
+        if choice < 60:
+            args = [self.expr(type_, depth - 1), self.expr(type_, depth - 1)]
+            return Builtin(long, long, False, "CONCAT", args, [long, long])
+        if choice < 80:
+            count = self.literal(INT, self.r.randint(0, 6))
+            return Builtin(
+                long,
+                long,
+                False,
+                self.r.choice(("LEFT", "RIGHT")),
+                [self.expr(type_, depth - 1), count],
+                [long, INT],
+            )
+        source = self.r.choice(INTEGERS)
+        return Builtin(Text(80), Text(80), False, "text", [self.moving(source, depth - 1)], [source])

@@ -1,0 +1,218 @@
+"""A program as ST."""
+
+from __future__ import annotations
+
+import datetime
+from typing import Any
+
+import typed_tree as tree
+from typed_tree import (
+    Array,
+    Block,
+    Enum,
+    Function,
+    Literal,
+    Program,
+    Scalar,
+    Struct,
+    Text,
+    Type,
+    Variable,
+    base_of,
+)
+
+
+def literal(type_: Type, value: Any, untyped: bool = False) -> str:
+    """A literal of a simple type."""
+    if isinstance(type_, Enum):
+        names = {number: name for name, number in type_.members}
+        return f"{type_.name}.{names[value]}"
+    base = base_of(type_)
+    if isinstance(base, Text):
+        return "'" + value + "'"
+    if base == tree.BOOL:
+        return "TRUE" if value else "FALSE"
+    if base.kind == "real":
+        text = repr(value)
+        mantissa, _, exponent = text.partition("e")
+        text = (mantissa if "." in mantissa else mantissa + ".0") + (f"E{exponent}" if exponent else "")
+        return text if untyped else f"{base.name}#{text}"
+    if base.unit_ns:
+        return _clock(base, value)
+    return str(value) if untyped else f"{base.name}#{value}"
+
+
+def _clock(type_: Scalar, value: int) -> str:
+    if type_.kind == "time":
+        return f"T#{value}ms" if type_ == tree.TIME else f"LTIME#{value}ns"
+    moment = datetime.datetime(1970, 1, 1) + datetime.timedelta(microseconds=value * type_.unit_ns // 1000)
+    if type_ == tree.DATE:
+        return f"D#{moment:%Y-%m-%d}"
+    if type_ == tree.TOD:
+        return f"TOD#{moment:%H:%M:%S}.{moment.microsecond // 1000:03}"
+    return f"{type_.name}#{moment:%Y-%m-%d-%H:%M:%S}"
+
+
+def expression(e: Any) -> str:
+    """An expression, with parentheses around every operation."""
+    if isinstance(e, Literal):
+        return literal(e.type, e.value, e.untyped)
+    if isinstance(e, tree.Name):
+        return e.name
+    if isinstance(e, tree.Member):
+        return f"{expression(e.base)}.{e.name}"
+    if isinstance(e, tree.Index):
+        return f"{expression(e.base)}[{', '.join(expression(i) for i in e.indices)}]"
+    if isinstance(e, tree.Bit):
+        return f"{expression(e.base)}.{e.bit}"
+    if isinstance(e, tree.Unary):
+        return f"({e.op} {expression(e.operand)})"
+    if isinstance(e, tree.Binary | tree.Clock):
+        return f"({expression(e.left)} {e.op} {expression(e.right)})"
+    args = ", ".join(expression(a) for a in e.args)
+    if e.name in ("convert", "text"):
+        target = e.type.name if e.name == "convert" else "STRING"
+        return f"{e.taken[0].name}_TO_{target}({args})"
+    return f"{e.name}({args})"
+
+
+def statements(body: list[Any], indent: str = "") -> list[str]:
+    """Lines of a body."""
+    lines: list[str] = []
+    deeper = indent + "    "
+    for s in body:
+        if isinstance(s, tree.Assign):
+            lines.append(f"{indent}{expression(s.target)} := {expression(s.value)};")
+        elif isinstance(s, tree.If):
+            word = "IF"
+            for condition, inner in s.branches:
+                lines += [f"{indent}{word} {expression(condition)} THEN", *statements(inner, deeper)]
+                word = "ELSIF"
+            lines += [f"{indent}ELSE", *statements(s.otherwise, deeper)] if s.otherwise else []
+            lines.append(f"{indent}END_IF")
+        elif isinstance(s, tree.Case):
+            lines.append(f"{indent}CASE {expression(s.selector)} OF")
+            for ranges, inner in s.branches:
+                labels = ", ".join(str(a) if a == z else f"{a}..{z}" for a, z in ranges)
+                lines += [f"{indent}{labels}:", *statements(inner, deeper)]
+            lines += [f"{indent}ELSE", *statements(s.otherwise, deeper)] if s.otherwise else []
+            lines.append(f"{indent}END_CASE")
+        elif isinstance(s, tree.For):
+            by = f" BY {s.step}" if s.step != 1 else ""
+            lines.append(
+                f"{indent}FOR {s.counter.name} := {expression(s.start)} TO {expression(s.stop)}{by} DO"
+            )
+            lines += [*statements(s.body, deeper), f"{indent}END_FOR"]
+        elif isinstance(s, tree.While):
+            lines += _while(s, indent)
+        elif isinstance(s, tree.Jump):
+            lines.append(f"{indent}{s.word};")
+        elif isinstance(s, tree.CallFunction):
+            args = [f"{v.name} := {expression(e)}" for v, e in zip(s.function.inputs, s.inputs, strict=True)]
+            args += [
+                f"{v.name} := {expression(e)}" for v, e in zip(s.function.in_outs, s.in_outs, strict=True)
+            ]
+            callee = f"{expression(s.instance)}.{s.function.name}" if s.instance else s.function.name
+            lines.append(f"{indent}{expression(s.target)} := {callee}({', '.join(args)});")
+        else:
+            args = [f"{name} := {expression(e)}" for name, e in s.inputs]
+            lines.append(f"{indent}{expression(s.instance)}({', '.join(args)});")
+    return lines
+
+
+def _while(s: tree.While, indent: str) -> list[str]:
+    deeper, guard = indent + "    ", s.guard.name
+    body = [f"{deeper}{guard} := {guard} + 1;", *statements(s.body, deeper)]
+    head = f"{indent}{guard} := 0;"
+    condition = expression(s.condition)
+    if s.until:
+        return [
+            head,
+            f"{indent}REPEAT",
+            *body,
+            f"{indent}UNTIL {condition} OR_ELSE {guard} >= {s.limit}",
+            f"{indent}END_REPEAT",
+        ]
+    return [head, f"{indent}WHILE {condition} AND_THEN {guard} < {s.limit} DO", *body, f"{indent}END_WHILE"]
+
+
+def _section(word: str, variables: list[Variable]) -> list[str]:
+    if not variables:
+        return []
+    lines = [word]
+    for v in variables:
+        initial = "" if v.initial is None else f" := {literal(v.type, v.initial)}"
+        lines.append(f"    {v.name} : {v.type.name}{initial};")
+    return [*lines, "END_VAR"]
+
+
+def _function(f: Function, word: str) -> list[str]:
+    return [
+        f"{word} {f.name} : {f.result.name}",
+        *_section("VAR_INPUT", f.inputs),
+        *_section("VAR_IN_OUT", f.in_outs),
+        *_section("VAR", f.locals),
+        *statements(f.body),
+        f"END_{word}",
+    ]
+
+
+def _block(b: Block) -> list[str]:
+    lines = [
+        f"FUNCTION_BLOCK {b.name}",
+        *_section("VAR_INPUT", b.inputs),
+        *_section("VAR_OUTPUT", b.outputs),
+        *_section("VAR", b.locals),
+        *statements(b.body),
+    ]
+    for method in b.methods:
+        lines += _function(method, "METHOD")
+    return [*lines, "END_FUNCTION_BLOCK"]
+
+
+def program(p: Program) -> str:
+    """The whole text; the program is PLC_PRG."""
+    lines: list[str] = []
+    for t in p.types:
+        if isinstance(t, Enum):
+            members = ", ".join(f"{name} := {number}" for name, number in t.members)
+            lines.append(f"TYPE {t.name} : ({members}) {t.base.name}; END_TYPE")
+        else:
+            assert isinstance(t, Struct)
+            members = " ".join(f"{name} : {m.name};" for name, m in t.members)
+            lines.append(f"TYPE {t.name} : STRUCT {members} END_STRUCT END_TYPE")
+    for f in p.functions:
+        lines += _function(f, "FUNCTION")
+    for b in p.blocks:
+        lines += _block(b)
+    lines += ["PROGRAM PLC_PRG", *_section("VAR", p.variables), *statements(p.body), "END_PROGRAM"]
+    return "\n".join(lines) + "\n"
+
+
+def paths(variables: list[Variable], prefix: str) -> list[tuple[str, Type, list[Any]]]:
+    """All simple variables: path, type, and the keys that lead to it in the reference."""
+    found: list[tuple[str, Type, list[Any]]] = []
+    for v in variables:
+        _paths(f"{prefix}.{v.name}", v.type, [v.name], found)
+    return found
+
+
+def _paths(path: str, type_: Type, keys: list[Any], found: list[tuple[str, Type, list[Any]]]) -> None:
+    if isinstance(type_, Array):
+        (low, high), rest = type_.bounds[0], type_.bounds[1:]
+        if rest:
+            (low2, high2) = rest[0]
+            for i in range(low, high + 1):
+                for j in range(low2, high2 + 1):
+                    _paths(f"{path}[{i},{j}]", type_.element, [*keys, i - low, j - low2], found)
+            return
+        for i in range(low, high + 1):
+            _paths(f"{path}[{i}]", type_.element, [*keys, i - low], found)
+    elif isinstance(type_, Struct):
+        for name, member in type_.members:
+            _paths(f"{path}.{name}", member, [*keys, name], found)
+    elif isinstance(type_, Block):
+        for v in type_.members:
+            _paths(f"{path}.{v.name}", v.type, [*keys, v.name], found)
+    else:
+        found.append((path, type_, keys))
