@@ -161,7 +161,7 @@ def test_constants_adapt(body: str, expected: list[str]) -> None:
         ("p - q", t.UDINT, t.LINT),
         ("i < ui", t.BOOL, t.DINT),
         ("di < ud", t.BOOL, t.LINT),
-        ("i = 5", t.BOOL, t.INT),
+        ("i = 5", t.BOOL, t.DINT),
         ("str < 'abc'", t.BOOL, t.String(80)),
         ("p = 0", t.BOOL, t.LWORD),
         ("re ** 2", t.REAL, t.REAL),

@@ -146,6 +146,9 @@ class ExpressionEmitter(PlaceEmitter):
         name = f"{sign}{expr.op}"
         divisor = expr.right
         if isinstance(divisor, ir.Const):
+            if divisor.value == 0:
+                self.fault_if("true", Fault.DIV_ZERO, [])
+                return "0"
             if divisor.value == -1 and expr.type.signed:
                 return self.value(f"sub {t} 0, {left}") if expr.op == "div" else "0"
             return self.value(f"{name} {t} {left}, {right}")
@@ -233,7 +236,7 @@ class ExpressionEmitter(PlaceEmitter):
         return self.resize(operand, source, target)
 
     def float_to_integer(self, operand: str, source: ir.Scalar, target: ir.Scalar, mode: str) -> str:
-        """Saturating; through 64 bits for narrow targets, which then lose their upper bytes (LOPR-73)."""
+        """Rounded or cut to a whole number, which is held within the limits of the target (LTYP-26)."""
         s, t = llvm_type(source), llvm_type(target)
         if mode == "round":
             self.state.intrinsics.add(f"declare {s} @llvm.round.f{source.bits}({s})")
@@ -299,9 +302,12 @@ class ExpressionEmitter(PlaceEmitter):
         return self.invoke(expr.type, pointer, args, "")
 
     def invoke(self, result: ir.Scalar, callee: str, args: list[str], name: str) -> str:
-        """A call, with promoted variables written back around it where the callee may see them."""
+        """A call; promoted variables are written before it, and read again where the callee reaches them.
+
+        A fault in a callee that cannot reach them must find them in memory, too (decision 2).
+        """
         barriers = [p for p in self.promoted if name not in p.free]
-        for promoted in barriers:
+        for promoted in self.promoted:
             self.store_promoted(promoted)
         t = llvm_type(result)
         text = f"call {t} {callee}({', '.join(args)}){self.location}"
@@ -406,7 +412,8 @@ class ExpressionEmitter(PlaceEmitter):
 def _cannot_be_minimum(expr: ir.Expr) -> bool:
     """Whether a signed dividend is surely not the smallest number of its type."""
     if isinstance(expr, ir.Convert):
-        return expr.operand.type.bits < expr.type.bits
+        source = expr.operand.type
+        return not source.floating and source.bits < expr.type.bits
     if isinstance(expr, ir.Const):
         return expr.value != -(1 << (expr.type.bits - 1))
     return False

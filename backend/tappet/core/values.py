@@ -186,6 +186,8 @@ def _time_arithmetic(b: Body, e: ast.Binary) -> ir.Expr:
         if right.type.floating:
             product = ir.Binary(ir.F64, _ARITHMETIC[e.op], convert(left, ir.F64), convert(right, ir.F64))
             return convert(convert(product, ir.I64), result)
+        if e.op == "/" and left.type.bits == 64:
+            return _divided_long_time(b, left, right)
         wide = convert(right, ir.I64)
         checked = e.op == "/" and not (isinstance(wide, ir.Const) and wide.value)
         return convert(ir.Binary(ir.I64, _ARITHMETIC[e.op], convert(left, ir.I64), wide, checked), result)
@@ -196,6 +198,31 @@ def _time_arithmetic(b: Body, e: ast.Binary) -> ir.Expr:
         return convert(rescale(difference, left_unit, unit), result)
     wide_right = rescale(wide_right, right_unit, unit)
     return convert(ir.Binary(ir.U64, _ARITHMETIC[e.op], wide_left, wide_right), result)
+
+
+def _divided_long_time(b: Body, left: ir.Expr, right: ir.Expr) -> ir.Expr:
+    """A 64 bit time has no sign; the quotient by a negative number wraps."""
+    if isinstance(right, ir.Const) or not right.type.signed:
+        divisor = convert(right, ir.U64)
+        if not isinstance(right, ir.Const):
+            return ir.Binary(ir.U64, "div", left, divisor, True)
+        if right.value >= 0:
+            return ir.Binary(ir.U64, "div", left, divisor, not right.value)
+        size = ir.Const(ir.U64, -int(right.value))
+        return ir.Unary(ir.U64, "neg", ir.Binary(ir.U64, "div", left, size))
+    local = b.temp(ir.I64)
+    number = ir.Load(ir.I64, ir.Place(local))
+    negative = ir.Compare(ir.BOOL, "lt", number, ir.Const(ir.I64, 0))
+    size_of = convert(ir.Unary(ir.I64, "abs", number), ir.U64)
+    held = b.temp(ir.U64)
+    quotient = ir.Load(ir.U64, ir.Place(held))
+    steps: list[ir.Stmt] = [
+        ir.Store(ir.Place(local), convert(right, ir.I64)),
+        ir.Store(ir.Place(held), ir.Binary(ir.U64, "div", left, size_of, True)),
+    ]
+    return ir.Sequence(
+        ir.U64, steps, ir.Select(ir.U64, negative, ir.Unary(ir.U64, "neg", quotient), quotient)
+    )
 
 
 VALUES.update(

@@ -152,9 +152,13 @@ def _typed(text: str, prefix: str, body: str) -> Decoded:
     return Decoded("int", prefix, magnitude)
 
 
+_HALF_STEP_OF_REAL = 1.0141204801825834e31
+"""What is less than this beyond the largest REAL is rounded to it."""
+
+
 def _real(text: str, prefix: str, value: float, size: int) -> Decoded:
-    limit = 3.402823466e38 if size == 4 else 1.7976931348623157e308
-    if abs(value) > limit:
+    limit = 3.4028234663852886e38 if size == 4 else 1.7976931348623157e308
+    if abs(value) > limit + (_HALF_STEP_OF_REAL if size == 4 else 0.0):
         fields = {"text": text, "type": prefix, "low": -limit, "high": limit}
         return Decoded("real", prefix, None, "E0014", fields)
     if size == 4:

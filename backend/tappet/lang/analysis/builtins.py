@@ -246,6 +246,10 @@ def _abs(b: Body, e: ast.Call, name: str) -> None:
         e.is_constant = True
         e.untyped = untyped
         e.constant = abs(operand.constant)
+        if not untyped:  # the operand is handed over in its type
+            content = folding.wrap(operand.constant, base)
+            assert isinstance(content, (int, float))
+            e.constant = abs(content)
         if untyped and isinstance(e.constant, int):
             e.type = conversion.smallest_integer(e.constant)
         elif not untyped:

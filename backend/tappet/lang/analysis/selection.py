@@ -83,6 +83,9 @@ def _choose(e: ast.Call, name: str, lead: Sequence[Type | None], found: list[ast
     if not all(x.is_constant and x.constant is not None for x in found):
         return
     values = [x.constant for x in found]
+    untyped = all(x.untyped for x in found[len(lead) :])
+    if not untyped and isinstance(type_, Elementary):  # handed over in their common type
+        values = values[: len(lead)] + [folding.wrap(v, type_) for v in values[len(lead) :]]
     chosen: ast.Constant = None
     if name == "SEL":
         chosen = values[2] if values[0] else values[1]
@@ -99,17 +102,15 @@ def _choose(e: ast.Call, name: str, lead: Sequence[Type | None], found: list[ast
             chosen = pick(chosen, other)
     e.is_constant = True
     e.constant = chosen
-    e.untyped = all(x.untyped for x in found[len(lead) :])
-    if not e.untyped and isinstance(type_, Elementary):
-        e.constant = folding.wrap(chosen, type_)
+    e.untyped = untyped
 
 
 def _larger(left: ast.Constant, right: ast.Constant) -> ast.Constant:
-    return left if folding.compare(">", left, right) else right
+    return right if folding.compare(">", right, left) else left
 
 
 def _smaller(left: ast.Constant, right: ast.Constant) -> ast.Constant:
-    return left if folding.compare("<", left, right) else right
+    return right if folding.compare("<", right, left) else left
 
 
 def _sel(b: Body, e: ast.Call, name: str) -> None:
