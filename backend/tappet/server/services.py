@@ -25,6 +25,7 @@ from tappet.server.project_events import ProjectEvents
 from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.server.tables import runtimes as runtimes_table
+from tappet.server.test_runs import TestRuns
 from tappet.server.views import ViewRegistry
 
 HOUSEKEEPING_S = 3600.0
@@ -44,6 +45,7 @@ class Services:
     runtimes: RuntimeRegistry
     commissioning: Commissioning
     views: ViewRegistry = field(default_factory=ViewRegistry)
+    test_runs: TestRuns = field(default_factory=TestRuns)
     metrics: Metrics = field(default_factory=Metrics)
     first_account_token: str | None = field(default=None, repr=False)
     """Shown on the console at start-up while there is no account."""

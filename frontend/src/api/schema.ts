@@ -552,6 +552,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/applications/{application_id}/tests": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Run Tests
+         * @description Run the test suites of the application as it is stored, on simulated time, beside the server.
+         */
+        post: operations["run_tests"];
+        /**
+         * Cancel Tests
+         * @description End the running tests; who waits for them gets what is known.
+         */
+        delete: operations["cancel_tests"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/export": {
         parameters: {
             query?: never;
@@ -3912,6 +3936,120 @@ export interface components {
             status: string;
         };
         /**
+         * TestFailure
+         * @description Why a test is not good: an assertion that did not hold, or an exception, and where.
+         */
+        TestFailure: {
+            /** Actual */
+            actual: string | null;
+            /** Call Stack */
+            call_stack: string[];
+            /**
+             * Code
+             * @description Number of the exception; 0 for assertions.
+             */
+            code: number;
+            /** Expected */
+            expected: string | null;
+            /** Line */
+            line: number | null;
+            /** Message */
+            message: string;
+            /**
+             * Object Id
+             * @description Null for library texts and where the place is not known.
+             */
+            object_id: string | null;
+            /** Object Path */
+            object_path: string;
+            part: components["schemas"]["Part"] | null;
+            /** Pou */
+            pou: string;
+        };
+        /**
+         * TestOrder
+         * @description What is to be run.
+         */
+        TestOrder: {
+            /**
+             * Filter
+             * @description Only tests with this in suite.test; * is any text.
+             * @default
+             */
+            filter: string;
+        };
+        /**
+         * TestReport
+         * @description All suites of an application.
+         */
+        TestReport: {
+            /**
+             * Diagnostics
+             * @description Errors of the program; nothing was run then.
+             */
+            diagnostics: components["schemas"]["Diagnostic"][];
+            /** Error */
+            error: number;
+            /** Failed */
+            failed: number;
+            /** Ok */
+            ok: boolean;
+            /** Passed */
+            passed: number;
+            /**
+             * Problem
+             * @description Why nothing, or not everything, was run.
+             */
+            problem: string | null;
+            /** Skipped */
+            skipped: number;
+            /** Suites */
+            suites: components["schemas"]["TestSuite"][];
+            /** Total */
+            total: number;
+        };
+        /**
+         * TestResult
+         * @description One test.
+         */
+        TestResult: {
+            /** Assertions */
+            assertions: number;
+            /** Failures */
+            failures: components["schemas"]["TestFailure"][];
+            /** Name */
+            name: string;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "passed" | "failed" | "error" | "skipped";
+            /**
+             * Seconds
+             * @description Simulated time from its begin to its end.
+             */
+            seconds: number;
+        };
+        /**
+         * TestSuite
+         * @description One instance of a suite.
+         */
+        TestSuite: {
+            /** Block */
+            block: string;
+            /**
+             * Failures
+             * @description What went wrong outside of a test.
+             */
+            failures: components["schemas"]["TestFailure"][];
+            /** Name */
+            name: string;
+            /** Object Id */
+            object_id: string | null;
+            /** Tests */
+            tests: components["schemas"]["TestResult"][];
+        };
+        /**
          * Threshold
          * @description TRUE while the variable is at least as large; BOOL counts as 0 or 1.
          */
@@ -5419,6 +5557,90 @@ export interface operations {
         };
     };
     log_out: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    run_tests: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cancel_tests: {
         parameters: {
             query?: never;
             header?: never;

@@ -1,0 +1,89 @@
+"""Unit tests of a stored application over REST."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+PROJECTS = "/api/v1/projects"
+
+
+@pytest.fixture
+def project(admin: TestClient) -> dict[str, str]:
+    """A project with one suite; the ids of what is in it by name."""
+    project_id = admin.post(PROJECTS, json={"name": "Tested"}).json()["id"]
+    objects = admin.get(f"{PROJECTS}/{project_id}/objects").json()
+    application = next(item["id"] for item in objects if item["kind"] == "application")
+    suite = _add(
+        admin,
+        project_id,
+        application,
+        "pou",
+        "FB_Sum_Test",
+        "FUNCTION_BLOCK FB_Sum_Test EXTENDS TcUnit.FB_TestSuite",
+        "Good();\nBad();\nWorse();",
+    )
+    ids = {"project": project_id, "application": application, "suite": suite}
+    bodies = {
+        "Good": "TEST('Good');\nAssertEquals_INT(2, 1 + 1, 'sum');\nTEST_FINISHED();",
+        "Bad": "TEST('Bad');\nAssertEquals_INT(3, 1 + 1, 'sum');\nTEST_FINISHED();",
+        "Worse": "TEST('Worse');\nzero := 1 / zero;\nTEST_FINISHED();",
+    }
+    for name, body in bodies.items():
+        declaration = f"METHOD PRIVATE {name}\nVAR\n    zero : INT;\nEND_VAR"
+        ids[name] = _add(admin, project_id, suite, "method", name, declaration, body)
+    return ids
+
+
+def _add(client: TestClient, project_id: str, parent: str, kind: str, name: str, head: str, body: str) -> str:
+    data = {"declaration": head, "implementation": body}
+    new = {"parent_id": parent, "kind": kind, "name": name, "data": data}
+    answer = client.post(f"{PROJECTS}/{project_id}/objects", json=new)
+    assert answer.status_code == 201, answer.text
+    return str(answer.json()["id"])
+
+
+def run(client: TestClient, ids: dict[str, str], test_filter: str = "") -> dict[str, Any]:
+    url = f"{PROJECTS}/{ids['project']}/applications/{ids['application']}/tests"
+    answer = client.post(url, json={"filter": test_filter})
+    assert answer.status_code == 200, answer.text
+    report: dict[str, Any] = answer.json()
+    return report
+
+
+def test_the_results_tree_leads_to_the_places(admin: TestClient, project: dict[str, str]) -> None:
+    report = run(admin, project)
+    assert (report["problem"], report["diagnostics"]) == (None, [])
+    assert {key: report[key] for key in ("ok", "total", "passed", "failed", "error")} == {
+        "ok": False,
+        "total": 3,
+        "passed": 1,
+        "failed": 1,
+        "error": 1,
+    }
+    (suite,) = report["suites"]
+    assert (suite["name"], suite["object_id"]) == ("FB_Sum_Test", project["suite"])
+    tests = {test["name"]: test for test in suite["tests"]}
+    (failure,) = tests["Bad"]["failures"]
+    assert (failure["expected"], failure["actual"]) == ("3", "2")
+    assert (failure["object_id"], failure["part"], failure["line"]) == (project["Bad"], "implementation", 2)
+    (failure,) = tests["Worse"]["failures"]
+    assert (failure["code"], failure["object_id"], failure["line"]) == (1, project["Worse"], 2)
+    assert failure["call_stack"] == ["FB_Sum_Test, line 4"]
+    report = run(admin, project, "good")
+    assert (report["ok"], report["passed"], report["skipped"]) == (True, 1, 2)
+
+
+def test_errors_of_the_program_are_diagnostics(admin: TestClient, project: dict[str, str]) -> None:
+    _add(admin, project["project"], project["suite"], "method", "Wrong", "METHOD Wrong", "TEST('x'); y := 1;")
+    report = run(admin, project)
+    assert not report["ok"]
+    found = [(d["code"], d["part"], d["line"], d["column"]) for d in report["diagnostics"]]
+    assert found == [("E0201", "implementation", 1, 12)]
+
+
+def test_tests_that_do_not_run_cannot_be_cancelled(admin: TestClient, project: dict[str, str]) -> None:
+    url = f"{PROJECTS}/{project['project']}/applications/{project['application']}/tests"
+    assert admin.delete(url).status_code == 404
