@@ -296,7 +296,7 @@ class _RemanentWalk:
 def instance_paths(
     data: list[ProgramData], objects: Mapping[str, DataObject], prefix: str
 ) -> Iterator[tuple[int, t.String, str]]:
-    """Offset, type and text of every STRING with attribute instance-path, behind `prefix`."""
+    """Offset, type and text of every STRING with attribute instance-path or init_namespace."""
     known: dict[int, bool] = {}
 
     def wants(type_: t.Type) -> bool:
@@ -308,7 +308,8 @@ def instance_paths(
         if found is None:
             known[id(type_)] = False
             found = known[id(type_)] = any(
-                _has_path(m) or (m.section != "VAR_IN_OUT" and wants(m.type)) for m in type_.members.values()
+                _path_attribute(m) or (m.section != "VAR_IN_OUT" and wants(m.type))
+                for m in type_.members.values()
             )
         return found
 
@@ -320,8 +321,10 @@ def instance_paths(
                 yield from walk(f"{path}[{index}]", offset + number * type_.element.size, type_.element)
         elif isinstance(type_, t.FunctionBlock):
             for member in type_.members.values():
-                if _has_path(member) and isinstance(member.type, t.String):
-                    yield offset + member.offset, member.type, path
+                name = _path_attribute(member)
+                if name is not None and isinstance(member.type, t.String):
+                    shown = path if name == "instance-path" else path.removeprefix(f"{prefix}.")
+                    yield offset + member.offset, member.type, shown
                 elif member.section != "VAR_IN_OUT":
                     yield from walk(f"{path}.{member.name}", offset + member.offset, member.type)
 
@@ -336,8 +339,13 @@ def instance_paths(
             yield from walk(root, base, item.owner.instance)
 
 
-def _has_path(member: t.Member) -> bool:
-    return member.decl is not None and attribute_value(member.decl.attributes, "instance-path") is not None
+def _path_attribute(member: t.Member) -> str | None:
+    """The attribute that gives a STRING the path of its instance: with the device in front or without
+    (LPRG-27, LPRG-29)."""
+    if member.decl is None:
+        return None
+    names = ("instance-path", "init_namespace")
+    return next((n for n in names if attribute_value(member.decl.attributes, n) is not None), None)
 
 
 def _not_initialised(decl: ast.VarDecl) -> bool:

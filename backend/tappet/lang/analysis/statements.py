@@ -312,8 +312,37 @@ def _try(b: Body, s: ast.Try) -> None:
     statements(b, s.final)
 
 
+def _blocks(s: ast.Stmt) -> list[list[ast.Stmt]]:
+    """The lists of statements inside a statement."""
+    found: list[list[ast.Stmt]] = []
+    if isinstance(s, ast.If):
+        found = [body for _, body in s.branches]
+    elif isinstance(s, ast.Case):
+        found = [branch.body for branch in s.branches]
+    elif isinstance(s, (ast.For, ast.While, ast.RepeatUntil)):
+        found = [s.body]
+    elif isinstance(s, ast.Try):
+        found = [s.body, s.handler, s.final]
+    if isinstance(s, (ast.If, ast.Case)) and s.otherwise is not None:
+        found.append(s.otherwise)
+    return found
+
+
+def _check_ways(b: Body, body: list[ast.Stmt], around: frozenset[str]) -> None:
+    """LST-35: a jump may leave loops and branches but not enter one. `around`: labels it may go to."""
+    seen = around | {s.label.upper() for s in body if s.label is not None}
+    for s in body:
+        if isinstance(s, ast.Jump) and s.target.upper() in b.labels and s.target.upper() not in seen:
+            hint = f"'{s.target}' is inside a loop or a branch; a jump can only leave these."
+            b.report("E0802", s.span, name=s.target, hint=hint)
+        for inner in _blocks(s):
+            _check_ways(b, inner, seen)
+
+
 def check_jumps(b: Body) -> None:
     """Reports jumps to labels that the body does not have; call it after the whole body."""
+    if b.jumps and b.labels and b.pou is not None and b.pou.pou is not None:
+        _check_ways(b, b.pou.pou.body, frozenset())
     targets = set()
     for jump in b.jumps:
         key = jump.target.upper()
