@@ -64,7 +64,7 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
             index += 1
         for item in (draft, *draft.children):
             _tell_language(item, report)
-        batch.loose.below(path).children.append(draft)
+        batch.loose.below(path, source).children.append(draft)
     read_configurations(split, batch.loose, report)
 
 

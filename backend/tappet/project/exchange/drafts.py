@@ -19,20 +19,20 @@ class Draft:
     id: str | None = None
     """32 hexadecimal digits, where the file has an id."""
 
-    def folder(self, name: str) -> Draft:
+    def folder(self, name: str, source: str = "") -> Draft:
         """The child folder with this name, made if it is missing."""
         for child in self.children:
             if child.kind == "folder" and child.name.casefold() == name.casefold():
                 return child
-        made = Draft("folder", name, source=self.source)
+        made = Draft("folder", name, source=source or self.source)
         self.children.append(made)
         return made
 
-    def below(self, folders: tuple[str, ...]) -> Draft:
+    def below(self, folders: tuple[str, ...], source: str = "") -> Draft:
         """The folder at a path of names below this draft, made as far as it is missing."""
         place = self
         for name in folders:
-            place = place.folder(name)
+            place = place.folder(name, source)
         return place
 
 

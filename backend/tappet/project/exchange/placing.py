@@ -136,7 +136,7 @@ class _Placer:
                 self._merge_data(draft, there)
                 self.children(draft, there.id)
                 return
-        misplaced = self._misplaced(draft.kind, parent_id)
+        misplaced = self._misplaced(draft.kind, draft.name, parent_id)
         if misplaced:
             self.report.add("refused", draft.source, misplaced, name=draft.name, line=draft.line)
             return
@@ -152,7 +152,7 @@ class _Placer:
             self.report.add("imported", draft.source, name=f"{prefix}{item.name}", line=draft.line)
         self.children(draft, item.id)
 
-    def _misplaced(self, kind: str, parent_id: str | None) -> str | None:
+    def _misplaced(self, kind: str, name: str, parent_id: str | None) -> str | None:
         """Why an object of this kind cannot be below this parent; the rules of `placement`."""
         rule = RULES.get(kind)
         owner_id = self._owners[parent_id]
@@ -168,8 +168,10 @@ class _Placer:
                 return f"a {subkind} such as '{owner.name}' has no {kind}"
         if not rule.in_folders and parent_id != owner_id:
             return f"a {kind} cannot be in a folder"
-        if rule.once and any(self.objects[item].kind == kind for item in self._children.get(parent_id, ())):
-            return f"only one {kind} is possible in this place"
+        same = [self.objects[item] for item in self._children.get(parent_id, ())]
+        same = [item for item in same if item.kind == kind]
+        if (rule.once and same) or (rule.naming == "fixed" and any(item.name == name for item in same)):
+            return f"there is a {kind} in this place already"
         return None
 
     def _like(self, draft: Draft, parent_id: str | None) -> ProjectObject | None:

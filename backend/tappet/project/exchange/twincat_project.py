@@ -40,7 +40,7 @@ def read_project(
     for item in root.walk():
         include = unquote(item.get("Include")).replace("\\", "/")
         if item.tag == "Folder" and include:
-            application.below(_folders(include))
+            application.below(_folders(include), source)
         elif item.tag in ("Compile", "None", "Content", "EmbeddedResource") and include:
             link = item.child("Link")
             path = by_key.get(
@@ -73,7 +73,7 @@ def _add(
         report.add("refused", error.source, str(error).partition(": ")[2], line=error.line)
         return
     for draft in drafts:
-        parent = task_configuration(application) if draft.kind == "task" else application.below(folders)
+        parent = task_configuration(application) if draft.kind == "task" else application.below(folders, path)
         parent.children.append(draft)
 
 
