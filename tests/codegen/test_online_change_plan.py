@@ -129,3 +129,38 @@ def test_type_numbers_are_kept():
     old = build(text())
     new = build(text() + "FUNCTION_BLOCK FB_A METHOD M END_METHOD END_FUNCTION_BLOCK", old)
     assert {k: v for k, v in new.type_ids.items() if k in old.type_ids} == old.type_ids
+
+
+ATTRIBUTED = """
+FUNCTION_BLOCK FB_Marked
+VAR_OUTPUT
+    kept : INT := 1;
+    {{attribute 'no_copy'}}
+    anew : INT := 1;
+    {{attribute 'init_on_onlchange'}}
+    always : INT := 1;
+END_VAR
+VAR {more} END_VAR
+kept := kept + {add}; anew := anew + {add}; always := always + {add};
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR one : FB_Marked; row : ARRAY[0..1] OF FB_Marked; END_VAR
+one(); row[1]();
+END_PROGRAM
+"""
+
+
+def test_attributes_decide_what_an_online_change_initialises():
+    """LPRG-28, LPRG-35: no_copy counts where the instance moves, init_on_onlchange always."""
+    for more, anew in (("", 3), ("x : LREAL;", 1)):
+        old = build(ATTRIBUTED.format(more="", add=1))
+        new = build(ATTRIBUTED.format(more=more, add=0), old)
+        with running(old) as application:
+            application.cycle()
+            application.cycle()
+            changed = change_over(application, new)
+            changed.cycle()
+            for path in ("one", "row[1]"):
+                values = [changed.read(f"PLC_PRG.{path}.{name}") for name in ("kept", "anew", "always")]
+                assert values == [3, anew, 1]
+            changed.close()

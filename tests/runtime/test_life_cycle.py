@@ -216,3 +216,40 @@ def test_fb_exit_runs_before_a_download() -> None:
     assert application.run_exit() is None
     assert get(plc, ("Persistent.left",)) == [1]
     plc.close()
+
+
+def test_instances_can_be_left_out_of_fb_exit() -> None:
+    """LPRG-36, language_pragmas.md EX-10."""
+    text = """
+    FUNCTION_BLOCK POU
+    VAR_INPUT n : INT; END_VAR
+    METHOD FB_Exit : BOOL
+    VAR_INPUT bInCopyCode : BOOL; END_VAR
+    left := left * 10 + n;
+    END_METHOD
+    END_FUNCTION_BLOCK
+    FUNCTION_BLOCK Outer
+    VAR
+        a : POU := (n := 3);
+        {attribute 'no-exit'}
+        b : POU := (n := 4);
+    END_VAR
+    END_FUNCTION_BLOCK
+    PROGRAM PLC_PRG
+    VAR
+        POU1 : POU := (n := 1);
+        {attribute 'symbol' := 'no-exit'}
+        POU2 : POU := (n := 2);
+        inner : Outer;
+    END_VAR
+    POU1(); POU2(); inner();
+    END_PROGRAM
+    """
+    lists = {"Persistent": "VAR_GLOBAL PERSISTENT left : DINT; END_VAR"}
+    plc = SoftPlc(None)
+    plc.load(build(text, gvls=lists))
+    application = plc.application
+    assert application is not None
+    assert application.run_exit() is None
+    assert get(plc, ("Persistent.left",)) == [13]
+    plc.close()

@@ -1,8 +1,8 @@
 """Every numbered rule of the language documents is bound to a test.
 
 `data/language_ids.csv` lists the rules. `shown_by` names the language cases or the tests that show a rule;
-where it is empty, a test has to name the rule itself, in its docstring, a comment or a parameter. `convention`
-marks naming advice without behaviour. `open: ...` says what is missing: no test may name such a rule.
+where it is empty, a test names the rule itself: in its docstring, a comment, a parameter. `convention` marks
+naming advice without behaviour. `open: ...` says what is missing: no test may name such a rule.
 """
 
 from __future__ import annotations

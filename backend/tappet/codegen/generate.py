@@ -12,10 +12,10 @@ from tappet.codegen import layout as image_layout
 from tappet.codegen.compile_pool import Compilation, is_warm
 from tappet.codegen.emit_module import EmitOptions, emit_module
 from tappet.codegen.identity import code_id
-from tappet.codegen.online import plan_online_change
+from tappet.codegen.online import code_change, plan_online_change
 from tappet.codegen.online_code import add_online_change
 from tappet.codegen.optimise import ObjectCache, OptimiseOptions
-from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, OnlineChange, TaskSpec
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, TaskSpec
 from tappet.codegen.partition import Part, copies_for, partition
 from tappet.codegen.symbols_build import (
     Remanence,
@@ -185,7 +185,7 @@ class Generator:
         if self.previous is not None:
             if self.previous.data_id != last.placed.data_id or self.previous.type_ids != program.type_ids:
                 return None
-            change = OnlineChange(self.previous.code_id, self.previous.data_id)
+            change = code_change(self.previous, last.package.symbols)
         with self.timed("lower"):
             lowered.module.functions.pop(ONLINE_CHANGE_SYMBOL, None)
             fresh = relower(lowered, last.effects, changed)

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from tappet.codegen.layout import Layout
 from tappet.codegen.package import CodePackage, OnlineChange
-from tappet.codegen.symbol_map import SymbolMap, TypeInfo
+from tappet.codegen.symbol_map import MemberInfo, SymbolMap, TypeInfo
+
+NO_COPY = "NO_COPY"
+"""Flag of a variable that an online change does not copy (LPRG-35)."""
+INIT = "INIT_ON_CHANGE"
+"""Flag of a variable that every online change initialises (LPRG-28)."""
 
 
 def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> OnlineChange:
@@ -12,6 +17,9 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> 
     plan = _Plan(old.symbols, symbols)
     for symbol, place in placed.objects.items():
         if symbol in placed.kept:
+            root = symbols.roots.get(symbol.rpartition("tappet.data.")[2])
+            if root is not None:
+                plan.fresh += _marked(symbols, symbols.types[root.type], root.offset)
             continue
         before = old.data_objects.get(symbol)
         name = symbol.rpartition("tappet.data.")[2]
@@ -39,6 +47,38 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> 
     )
 
 
+def code_change(old: CodePackage, symbols: SymbolMap) -> OnlineChange:
+    """An online change of code alone: what is marked to be initialised at every change still is."""
+    ranges = [
+        r for root in symbols.roots.values() for r in _marked(symbols, symbols.types[root.type], root.offset)
+    ]
+    return OnlineChange(old.code_id, old.data_id, initialise=tuple(sorted(ranges)))
+
+
+def _marked(symbols: SymbolMap, type_: TypeInfo, at: int) -> list[tuple[int, int]]:
+    """Places of the variables inside an object that every online change initialises (LPRG-28)."""
+    found: list[tuple[int, int]] = []
+    for member in type_.members:
+        inner = symbols.types[member.type]
+        if member.absolute or member.bit is not None or member.section == "VAR_IN_OUT":
+            continue
+        start = at + member.offset
+        if INIT in member.flags:
+            found.append((start, inner.size))
+        elif inner.kind == "array" and inner.elem is not None:
+            element = symbols.types[inner.elem]
+            for offset in range(0, inner.size, element.size) if element.members else ():
+                found += _marked(symbols, element, start + offset)
+        elif inner.members:
+            found += _marked(symbols, inner, start)
+    return found
+
+
+def _starts_anew(member: MemberInfo) -> bool:
+    """Whether a variable is initialised where its object moves (LPRG-28, LPRG-35)."""
+    return NO_COPY in member.flags or INIT in member.flags
+
+
 class _Plan:
     """Matches old and new variables by path and type."""
 
@@ -57,7 +97,7 @@ class _Plan:
             before = known.get(member.name.upper())
             if before is None or member.absolute or before.absolute or before.bit != member.bit:
                 continue
-            if member.name.upper() == "__VFTABLE" or member.bit is not None:
+            if member.name.upper() == "__VFTABLE" or member.bit is not None or _starts_anew(member):
                 continue
             self.value(before.type, old_at + before.offset, member.type, new_at + member.offset)
 
@@ -123,6 +163,7 @@ class _Plan:
         return all(
             a.name.upper() == b.name.upper()
             and (a.offset, a.bit, a.absolute) == (b.offset, b.bit, b.absolute)
+            and not _starts_anew(b)
             and self.equal(a.type, b.type)
             for a, b in zip(old.members, new.members, strict=True)
         )

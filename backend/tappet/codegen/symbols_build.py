@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from tappet.codegen.display import FLAG as DISPLAY_FLAG
 from tappet.codegen.display import MODES
 from tappet.codegen.layout import Signatures
+from tappet.codegen.online import INIT, NO_COPY
 from tappet.codegen.package import DataObject, RemanentRange
 from tappet.codegen.symbol_export import FLAG as SYMBOL_FLAG
 from tappet.codegen.symbol_export import right_of
@@ -123,6 +124,10 @@ def marks(decl: ast.VarDecl | None) -> set[str]:
     mode = MODES.get((attribute_value(decl.attributes, "displaymode") or "").lower())
     if mode is not None:
         found.add(f"{DISPLAY_FLAG}{mode.upper()}")
+    if attribute_value(decl.attributes, "no_copy") is not None:
+        found.add(NO_COPY)
+    if attribute_value(decl.attributes, "init_on_onlchange") is not None:
+        found.add(INIT)
     right = right_of(attribute_value(decl.attributes, "symbol"))
     if right is not None:
         found.add(f"{SYMBOL_FLAG}{right.upper()}")

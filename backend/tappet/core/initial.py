@@ -444,7 +444,7 @@ def destruct_all(b: Body, place: ir.Place, type_: t.Type) -> None:
         destruct(b, place, type_)
     if isinstance(type_, t.FunctionBlock | t.Struct):
         for member in type_.members.values():
-            if member.section != "VAR_IN_OUT":
+            if member.section != "VAR_IN_OUT" and not without_exit(member.decl):
                 destruct_all(b, places.at(place, member.offset), member.type)
     elif isinstance(type_, t.Array):
         counter = b.temp(ir.I64, once=False)
@@ -456,6 +456,15 @@ def destruct_all(b: Body, place: ir.Place, type_: t.Type) -> None:
             destruct_all(b, element, type_.element)
         last = ir.Const(ir.I64, type_.count - 1)
         b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
+
+
+def without_exit(decl: ast.VarDecl | None) -> bool:
+    """Whether FB_Exit is not called for an instance: {attribute 'symbol' := 'no-exit'} (LPRG-36)."""
+    pragmas = decl.attributes if decl is not None else []
+    return any(
+        p.attribute == "no-exit" or (p.attribute == "symbol" and (p.value or "").lower() == "no-exit")
+        for p in pragmas
+    )
 
 
 def has_exit(type_: t.Type, seen: set[int]) -> bool:

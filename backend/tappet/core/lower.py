@@ -169,11 +169,17 @@ def _exit_function(program: Program, data: list[DataObject]) -> None:
 
 
 def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
-    if isinstance(owner, GvlSymbol):
-        return [(m.offset, m.type) for m in owner.members.values() if m.type and m.storage is Storage.GLOBAL]
-    if owner.instance is None:
-        return []
-    return [(m.offset, m.type) for m in owner.instance.members.values() if m.section != "VAR_IN_OUT"]
+    found = (
+        [m for m in owner.members.values() if m.storage is Storage.GLOBAL]
+        if isinstance(owner, GvlSymbol)
+        else []
+    )
+    members = owner.instance.members.values() if isinstance(owner, PouSymbol) and owner.instance else found
+    return [
+        (m.offset, m.type)
+        for m in members
+        if m.type is not None and m.section != "VAR_IN_OUT" and not initial.without_exit(m.decl)
+    ]
 
 
 # -- tasks ------------------------------------------------------------------------------------------
@@ -223,9 +229,11 @@ def _transfer(item: ConfiguredAddress, to_area: bool) -> ir.Stmt:
 
 
 def _export_functions(program: Program) -> None:
-    """Functions with attribute tappet_export are roots too."""
+    """Functions with attribute tappet_export are roots, too, and every object with linkalways (LPRG-30)."""
     for pou in program.analysis.pous:
-        if pou.kind == "FUNCTION" and export_name(pou) is not None:
+        pragmas = pou.pou.attributes if pou.pou is not None else []
+        always = attribute_value(pragmas, "linkalways") is not None
+        if always or (pou.kind == "FUNCTION" and export_name(pou) is not None):
             program.function(pou)
 
 
