@@ -1,0 +1,78 @@
+"""`tappet import` and `tappet export` with the files of other systems."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from tappet.cli import app
+from tappet.cli.output import UsageError
+
+SAMPLES = Path(__file__).parents[1] / "project" / "exchange" / "samples"
+
+
+def tappet(*arguments: object) -> tuple[int, str]:
+    done = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    if isinstance(done.exception, UsageError):
+        return 2, str(done.exception)
+    return done.exit_code, done.output
+
+
+def test_a_twincat_project_comes_in_with_a_report_and_compiles(tmp_path: Path) -> None:
+    code, said = tappet("import", SAMPLES / "twincat" / "Line.plcproj", "--to", tmp_path / "line")
+    assert code == 0, said
+    assert "Line.plcproj:11: refused POUs/Gone.TcPOU: the project lists this file" in said
+    assert "Packing line: " in said.splitlines()[-1]
+    code, said = tappet("check", tmp_path / "line", "--format", "json")
+    errors = [item for item in json.loads(said)["diagnostics"] if item["severity"] == "error"]
+    assert [(item["file"], item["code"]) for item in errors] == [("MAIN", "E0433")]
+    assert errors[0]["message"].startswith("The body of MAIN is in FBD, which cannot be compiled yet")
+
+
+def test_codesys_23_and_plain_texts_compile_as_they_are(tmp_path: Path) -> None:
+    files = (SAMPLES / "plain.st", SAMPLES / "beremiz.xml", SAMPLES / "library.exp")
+    for file, broken in zip(files, (set(), {"steps"}, {"NETWORKS"}), strict=True):
+        folder = tmp_path / file.stem
+        assert tappet("import", file, "--to", folder)[0] == 0
+        found = json.loads(tappet("check", folder, "--format", "json")[1])["diagnostics"]
+        assert {item["file"] for item in found if item["severity"] == "error"} == broken, found
+
+
+def test_export_and_import_of_plcopen_xml_give_the_same_folder(tmp_path: Path) -> None:
+    first, second, file = tmp_path / "first", tmp_path / "second", tmp_path / "mixer.xml"
+    assert tappet("import", SAMPLES / "codesys_35.xml", "--to", first)[0] == 0
+    assert tappet("export", first, "--to", file)[0] == 0
+    assert tappet("import", file, "--to", second)[0] == 0
+    left = {p.relative_to(first): p.read_bytes() for p in first.rglob("*") if p.is_file()}
+    right = {p.relative_to(second): p.read_bytes() for p in second.rglob("*") if p.is_file()}
+    assert right == left
+
+
+def test_into_a_project_and_the_report_for_machines(tmp_path: Path) -> None:
+    folder = tmp_path / "p"
+    assert tappet("import", SAMPLES / "plain.st", "--to", folder)[0] == 0
+    code, said = tappet("import", SAMPLES / "library.exp", "--to", folder, "--format", "json")
+    answer = json.loads(said)
+    assert code == 0
+    assert answer["project"] == "plain"
+    assert {"source", "line", "object", "outcome", "text"} == set(answer["entries"][0])
+    assert (folder / "Devices/Tappet Soft PLC/PLC Logic/Application/Blocks/STORE.st").is_file()
+    assert (folder / "Devices/Tappet Soft PLC/PLC Logic/Application/FB_Lamp.st").is_file()
+
+
+def test_wrong_usage_says_what_would_be_right(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.xml"
+    bad.write_bytes(b"<project>\n<")
+    assert tappet("import", bad, "--to", tmp_path / "a") == (
+        2,
+        "bad.xml:2: is no sound XML (unclosed token)",
+    )
+    assert tappet("import", tmp_path / "nothing.xml", "--to", tmp_path / "a")[0] == 2
+    full = tmp_path / "full"
+    full.mkdir()
+    (full / "note.txt").write_text("x")
+    assert "is not empty" in tappet("import", SAMPLES / "plain.st", "--to", full)[1]
+    tappet("import", SAMPLES / "plain.st", "--to", tmp_path / "p")
+    assert ".xml (PLCopen XML) or .zip" in tappet("export", tmp_path / "p", "--to", tmp_path / "x.txt")[1]
