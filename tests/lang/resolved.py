@@ -9,8 +9,8 @@ from tappet.lang.source import Source
 from tappet.lang.symbols import VarSymbol
 from tappet.lang.types import Type
 
-QUIET = frozenset({"W1103", "W1116", "W1209", "W1206"})
-"""Codes about unused things, which short samples are full of."""
+QUIET = frozenset({"W1103", "W1116", "W1121", "W1135", "W1140", "W1141", "W1204", "W1206", "W1209"})
+"""Codes about unused and equally named things, which short samples are full of."""
 
 
 def analysed(*texts: str | Source, options: AnalysisOptions | None = None) -> Analysis:

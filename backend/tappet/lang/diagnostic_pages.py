@@ -1,4 +1,4 @@
-"""One manual page for each diagnostic, made from `diagnostics.csv`, the docstrings of the rules and the samples.
+"""One manual page for each diagnostic, made from `diagnostics.csv`, the docstrings of the rules and samples.
 
 `python -m tappet.lang.diagnostic_pages [DIR]` writes `<code>.md` for every code and an index to DIR, by
 default

@@ -1,7 +1,7 @@
 """The samples of every message: those in the docstrings of rules, and those in `samples/*.txt`.
 
-A sample is one or more objects, or the declarations and statements of a program, with types before them. Lines
-that begin with `@` set the stage:
+A sample is one or more objects, or the declarations and statements of a program, with types before them.
+Lines that begin with `@` set the stage:
 
     @source NAME [pous | library NAMESPACE | owner POU]    another text begins
     @task NAME KIND INTERVAL_MS PRIORITY EVENT|- PROGRAM ...

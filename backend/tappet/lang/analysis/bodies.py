@@ -12,8 +12,10 @@ from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.statements import check_jumps, statements
+from tappet.lang.analysis.suppression import kept
 from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.rules import POU_RULES
+from tappet.lang.rules import LIBRARY_POU_RULES, POU_RULES, coding_checks
+from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol
 
 
@@ -67,9 +69,31 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
         body.report("E0812", node.name_span, name=pou.name)
     check_jumps(body)
     session.calls[id(pou)] = body.called
-    for check in POU_RULES:
+    library = body.source.scope is Scope.LIBRARY
+    for check in LIBRARY_POU_RULES if library else POU_RULES:
         check(body)
+    chosen = session.options.static
+    if chosen and not library:
+        for coding_check in coding_checks("check_pou", chosen):
+            coding_check(body, chosen)
+    for e in body.unreadable:
+        body.report("E0424", e.span, name=e.name, what="Get", verb="read")
+    body.unreadable.clear()
     return record
+
+
+def _coding_rules(state: State) -> None:
+    """The optional rules that look at whole texts or at the whole program."""
+    session = state.session
+    chosen = session.options.static
+    if not chosen:
+        return
+    for check in coding_checks("check_unit", chosen):
+        for unit in state.units:
+            if unit.source.scope is not Scope.LIBRARY:
+                check(session, unit)
+    for check in coding_checks("check_program", chosen):
+        check(session, chosen)
 
 
 def finish(state: State) -> Analysis:
@@ -81,6 +105,7 @@ def finish(state: State) -> Analysis:
     session.called = set().union(*(record.called for record in records))
     session.diagnostics = []
     program.check(session, state.found, state.declarations)
+    _coding_rules(state)
     found = session.diagnostics
     for record in records:
         found += record.messages
@@ -90,7 +115,7 @@ def finish(state: State) -> Analysis:
     last = len(order)
     found.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code))
     analysis = session.analysis
-    analysis.diagnostics = found
+    analysis.diagnostics = kept(found, state.units)
     analysis.called = session.called
     analysis.state = state
     return analysis

@@ -63,6 +63,7 @@ class Body:
         "pou",
         "session",
         "source",
+        "unreadable",
         "uri",
     )  # fmt: skip
 
@@ -83,6 +84,8 @@ class Body:
         self.assigned: ast.Expr | None = None
         """The value of the assignment being resolved: `__NEW` is legal only there."""
         self.loop_writes: list[tuple[Symbol, Span]] = []
+        self.unreadable: list[ast.Name | ast.Member] = []
+        """Properties without Get that are not assigned, as far as is known."""
         self.held: dict[int, ast.Expr] = {}
         """What the accumulator of IL holds, by the number of its place."""
 

@@ -215,6 +215,8 @@ def resolve_object(b: Body, e: ast.Name | ast.Member, symbol: Symbol) -> None:
         e.type, e.constant, e.is_constant = symbol.type, symbol.number, True
     elif isinstance(symbol, PropertySymbol):
         e.type = symbol.type.base if isinstance(symbol.type, t.Reference) else symbol.type
+        if symbol.getter is None:
+            b.unreadable.append(e)
     elif isinstance(symbol, AmbiguousSymbol):
         e.symbol = None
         choices = ", ".join(dict.fromkeys(symbol.choices))

@@ -23,6 +23,7 @@ from tappet.lang.symbols import (
     InterfaceSymbol,
     NamespaceSymbol,
     PouSymbol,
+    PropertySymbol,
     Symbol,
     TypeSymbol,
     VarSymbol,
@@ -112,17 +113,24 @@ def find_member(pou: PouSymbol, key: str) -> Symbol | None:
 
 
 def _check_access(b: Body, e: ast.Member, member: Symbol, pou: PouSymbol) -> None:
+    what, name = "Method", member.name
+    if isinstance(member, PropertySymbol):
+        what = "Property"
+        accessor = member.getter or member.setter
+        if accessor is None:
+            return
+        member = accessor
     if not isinstance(member, PouSymbol) or member.pou is None:
         return
     access = member.pou.access
     own = b.block
     if access == "PRIVATE" and own is not member.owner:
-        b.report("E0213", e.name_span, what="Method", name=member.name, type=pou.name, access="PRIVATE")
+        b.report("E0213", e.name_span, what=what, name=name, type=pou.name, access="PRIVATE")
     elif access == "PROTECTED":
         while own is not None and own is not member.owner:
             own = own.base
         if own is None:
-            b.report("E0213", e.name_span, what="Method", name=member.name, type=pou.name, access="PROTECTED")
+            b.report("E0213", e.name_span, what=what, name=name, type=pou.name, access="PROTECTED")
 
 
 def _member_of_interface(b: Body, e: ast.Member, type_: t.Interface) -> None:

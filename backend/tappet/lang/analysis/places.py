@@ -119,6 +119,8 @@ def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -
         if symbol.setter is None:
             b.report("E0424", target.span, name=symbol.name, what="Set", verb="write")
             return False
+        if b.unreadable:
+            b.unreadable = [other for other in b.unreadable if other is not target]
         return True
     hint = "Only a variable can be assigned."
     if isinstance(symbol, EnumValueSymbol):

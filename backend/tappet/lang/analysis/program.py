@@ -16,7 +16,7 @@ from tappet.lang.analysis.members import find_member
 from tappet.lang.analysis.result import ConfiguredAddress
 from tappet.lang.rules import PROGRAM_RULES
 from tappet.lang.source import Scope, Source, Span
-from tappet.lang.symbols import InterfaceSymbol, PouSymbol, Storage, VarSymbol
+from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, Storage, VarSymbol
 from tappet.lang.types import Type
 
 _FB_INIT_FIXED = 2
@@ -114,8 +114,11 @@ def _interfaces(session: Session, pou: PouSymbol) -> None:
             else:
                 _compare(session, own, head, interface.name)
         for key, property_ in interface.properties.items():
-            if find_member(pou, key) is None:
+            own_property = find_member(pou, key)
+            if own_property is None:
                 _missing(session, source, node, interface, "property", property_.name)
+            elif isinstance(own_property, PropertySymbol):
+                _compare_property(session, own_property, property_, interface.name)
 
 
 def _missing(
@@ -163,6 +166,21 @@ def _compare(session: Session, own: PouSymbol, base: PouSymbol, base_name: str) 
     if reason and own.source is not None and own.span is not None:
         session.report(
             "E0419", own.source.uri, own.span, what="Method", name=own.name, base=base_name, reason=reason
+        )
+
+
+def _compare_property(session: Session, own: PropertySymbol, head: PropertySymbol, interface: str) -> None:
+    """A property that implements one of an interface has its type and its accessors."""
+    reason = ""
+    if own.type is not None and head.type is not None and own.type != head.type:
+        reason = f"it is '{own.type}' instead of '{head.type}'"
+    elif head.getter is not None and own.getter is None:
+        reason = "it has no Get"
+    elif head.setter is not None and own.setter is None:
+        reason = "it has no Set"
+    if reason and own.source is not None and own.span is not None:
+        session.report(
+            "E0419", own.source.uri, own.span, what="Property", name=own.name, base=interface, reason=reason
         )
 
 

@@ -11,6 +11,7 @@ from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import evaluate
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.scope import describe
+from tappet.lang.analysis.task_access import check_shared
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.parser import parse_expression
 from tappet.lang.source import NOWHERE, Scope, Source
@@ -84,6 +85,7 @@ def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
     if not any(task.kind in ("cyclic", "freewheeling") for task in tasks):
         found.append(report("W1401", "", NOWHERE))
     found += _programs_without_task(tasks, analysis)
+    found += check_shared(tasks, analysis)
     return found
 
 

@@ -1,61 +1,34 @@
 """Checks of good practice, one per file: each opens with what it checks, its source, and samples.
 
-Imports only `lang`. `STATEMENT_RULES` run while a body is resolved, the others after it; `RULES` lists all.
-The Passes and Fails samples of the docstrings are run by a test and shown in the manual.
+Imports only `lang`. `STATEMENT_RULES` run while a body is resolved, the others after it; `RULES` lists all;
+`coding` holds the optional ones. Samples of the docstrings are run by a test and shown in the manual.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
+from pkgutil import iter_modules
 from types import ModuleType
 from typing import Any
 
-from tappet.lang.rules import (
-    address_overlap,
-    assignment_to_itself,
-    case_covers_enum,
-    comparison_always,
-    constant_condition,
-    endless_for,
-    init_order,
-    loop_variable_written,
-    missing_return_value,
-    no_effect,
-    output_never_written,
-    pragma_messages,
-    reserved_name,
-    retain_no_effect,
-    shift_width,
-    string_argument_cut,
-    unreachable,
-    unused_variable,
-)
+from tappet.lang.rules import coding
 
-RULES: tuple[ModuleType, ...] = (
-    address_overlap,
-    assignment_to_itself,
-    case_covers_enum,
-    comparison_always,
-    constant_condition,
-    endless_for,
-    init_order,
-    loop_variable_written,
-    missing_return_value,
-    no_effect,
-    output_never_written,
-    pragma_messages,
-    reserved_name,
-    retain_no_effect,
-    shift_width,
-    string_argument_cut,
-    unreachable,
-    unused_variable,
-)
+
+def _modules_of(package: ModuleType) -> tuple[ModuleType, ...]:
+    names = sorted(m.name for m in iter_modules(package.__path__) if not m.ispkg)
+    found = (import_module(f"{package.__name__}.{name}") for name in names)
+    return tuple(module for module in found if hasattr(module, "CODES"))
+
+
+RULES = _modules_of(import_module(__name__))
 """Every rule has CODES, and the function of its kind: `check_statement` with NODES, `check_expression` with
-NODES, `check_list` (statements that follow each other), `check_pou`, or `check_program`."""
+NODES, `check_list` (statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with
+OWN_CODE_ONLY leaves libraries out."""
 
-CODING_RULES: tuple[ModuleType, ...] = ()
-"""The optional coding rules: they run when `AnalysisOptions.static` names one of their codes."""
+CODING_RULES = _modules_of(coding)
+"""The optional coding rules: they run when `AnalysisOptions.static` names one of their codes, on what the
+project itself declares. They have `check_pou`, `check_program`, or `check_unit` (one text)."""
 
 ALL_RULES = RULES + CODING_RULES
 
@@ -76,6 +49,18 @@ STATEMENT_RULES = _by_node("check_statement")
 EXPRESSION_RULES = _by_node("check_expression")
 LIST_RULES: tuple[Check, ...] = tuple(r.check_list for r in RULES if hasattr(r, "check_list"))
 POU_RULES: tuple[Callable[[Any], None], ...] = tuple(r.check_pou for r in RULES if hasattr(r, "check_pou"))
+LIBRARY_POU_RULES: tuple[Callable[[Any], None], ...] = tuple(
+    r.check_pou for r in RULES if hasattr(r, "check_pou") and not getattr(r, "OWN_CODE_ONLY", False)
+)
 PROGRAM_RULES: tuple[Callable[[Any], None], ...] = tuple(
     r.check_program for r in RULES if hasattr(r, "check_program")
 )
+
+
+def coding_checks(name: str, chosen: frozenset[str]) -> tuple[Check, ...]:
+    """The functions `name` of the coding rules of which a code is switched on."""
+    return tuple(
+        getattr(rule, name)
+        for rule in CODING_RULES
+        if hasattr(rule, name) and chosen.intersection(rule.CODES)
+    )

@@ -1,0 +1,56 @@
+"""A value that is assigned is not overwritten by the next statement.
+
+Source: spec LST-20.
+
+Passes:
+    VAR a : INT; END_VAR
+    a := 1;
+    a := a + 1;
+Fails:
+    VAR a, b : INT; END_VAR
+    a := b;
+    a := 2;                        (* W1140: the value before is lost *)
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tappet.lang import ast
+from tappet.lang.diagnostics import Related
+from tappet.lang.symbols import Storage, VarSymbol
+from tappet.lang.types import Reference
+from tappet.lang.walk import expressions
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.context import Body
+
+CODES = ("W1140",)
+
+
+def check_list(b: Body, body: list[ast.Stmt]) -> None:
+    """Reports two assignments to one variable that follow each other."""
+    before: ast.Assign | None = None
+    for s in body:
+        if s.__class__ is not ast.Assign or s.target.__class__ is not ast.Name:  # type: ignore[attr-defined]
+            before = None
+            continue
+        assert isinstance(s, ast.Assign)
+        target = s.target
+        assert isinstance(target, ast.Name)
+        if before is not None and s.label is None and s.op == ":=" == before.op:
+            symbol = target.symbol
+            if symbol is before.target.symbol and isinstance(symbol, VarSymbol):  # type: ignore[attr-defined]
+                _check(b, symbol, before, s)
+        before = s
+
+
+def _check(b: Body, symbol: VarSymbol, before: ast.Assign, s: ast.Assign) -> None:
+    if before.value.type is None or s.value.type is None:
+        return  # what is wrong there has been reported
+    if symbol.home in (Storage.DIRECT, Storage.GLOBAL) or isinstance(symbol.type, Reference):
+        return
+    for e in expressions(s.value):
+        if isinstance(e, (ast.Call, ast.Deref)) or (isinstance(e, ast.Name) and e.symbol is symbol):
+            return
+    b.report("W1140", s.target.span, [Related("assigned here", b.uri, before.span)], name=symbol.name)
