@@ -7,7 +7,6 @@ standard has no place for (devices, libraries, scenes) is in additional data of 
 
 from __future__ import annotations
 
-import base64
 import json
 import uuid
 from collections.abc import Iterator
@@ -26,8 +25,8 @@ from tappet.project.exchange.plcopen_declarations import CODESYS
 from tappet.project.exchange.plcopen_read import PRODUCT, TAPPET
 from tappet.project.exchange.plcopen_type_xml import type_element, value_element
 from tappet.project.exchange.report import ExchangeError
+from tappet.project.exchange.xml_lines import OpenElement, XmlLines
 from tappet.project.exchange.xml_tree import (
-    XHTML,
     escape_attribute,
     escape_text,
     is_legal,
@@ -56,47 +55,46 @@ def write_plcopen(project: Project) -> bytes:
     return _Writer(project).whole().encode()
 
 
-class _Writer:
+class _Writer(XmlLines):
     def __init__(self, project: Project) -> None:
+        super().__init__()
         self.project = project
-        self._lines: list[str] = []
-        self._depth = 0
 
     def whole(self) -> str:
         project = self.project
-        self._lines.append('<?xml version="1.0" encoding="utf-8"?>')
-        with self._tag("project", xmlns=NAMESPACE):
-            self._empty(
+        self.lines.append('<?xml version="1.0" encoding="utf-8"?>')
+        with self.tag("project", xmlns=NAMESPACE):
+            self.empty(
                 "fileHeader",
                 companyName="",
                 productName=PRODUCT,
                 productVersion="1",
                 creationDateTime=_DATE,
             )
-            with self._tag("contentHeader", name=project.name, modificationDateTime=_DATE):
+            with self.tag("contentHeader", name=project.name, modificationDateTime=_DATE):
                 if project.description:
-                    self._text("Comment", project.description, html=False)
-                with self._tag("coordinateInfo"):
+                    self.text_element("Comment", project.description, html=False)
+                with self.tag("coordinateInfo"):
                     for language in ("fbd", "ld", "sfc"):
-                        with self._tag(language):
-                            self._empty("scaling", x="1", y="1")
+                        with self.tag(language):
+                            self.empty("scaling", x="1", y="1")
             pool = [item for item in self._code(None) if not self._application_of(item)]
-            with self._tag("types"):
-                with self._tag("dataTypes"):
+            with self.tag("types"):
+                with self.tag("dataTypes"):
                     self._objects(pool, "dut")
-                with self._tag("pous"):
+                with self.tag("pous"):
                     self._objects(pool, "pou")
-            with self._tag("instances"), self._tag("configurations"):
+            with self.tag("instances"), self.tag("configurations"):
                 for device in project.find_kind("device"):
                     self._device(device)
-            with self._tag("addData"):
+            with self.tag("addData"):
                 self._added_code(pool)
                 for item in project.walk():
                     if item.kind not in _OWN_PLACE:
                         self._object_data(item, item.data.model_dump(mode="json"))
-                with self._data("projectstructure"), self._tag("ProjectStructure"):
+                with self._data("projectstructure"), self.tag("ProjectStructure"):
                     self._structure()
-        return "\n".join(self._lines) + "\n"
+        return "\n".join(self.lines) + "\n"
 
     # -- where objects stand
 
@@ -129,20 +127,20 @@ class _Writer:
     def _device(self, device: ProjectObject) -> None:
         assert isinstance(device.data, DeviceData)
         applications = [item for item in self.project.walk(device.id) if item.kind == "application"]
-        with self._tag("configuration", name=device.name):
+        with self.tag("configuration", name=device.name):
             for application in applications:
                 self._application(application)
-            with self._tag("addData"):
+            with self.tag("addData"):
                 self._object_id(device)
                 self._object_data(device, device.data.model_dump(mode="json"))
 
     def _application(self, application: ProjectObject) -> None:
         code = self._code(application.id)
-        with self._tag("resource", name=application.name):
+        with self.tag("resource", name=application.name):
             for item in self.project.walk(application.id):
                 if isinstance(item.data, TaskData) and self._application_of(item) == application.id:
                     self._task(item, item.data)
-            with self._tag("addData"):
+            with self.tag("addData"):
                 self._added_code(code, ("dut", "pou"))
                 self._object_id(application)
 
@@ -150,10 +148,10 @@ class _Writer:
         for item in self.project.children(parent_id):
             tag = "Folder" if item.kind == "folder" else "Object"
             if self.project.children(item.id):
-                with self._tag(tag, Name=item.name, ObjectId=_guid(item.id)):
+                with self.tag(tag, Name=item.name, ObjectId=_guid(item.id)):
                     self._structure(item.id)
             else:
-                self._empty(tag, Name=item.name, ObjectId=_guid(item.id))
+                self.empty(tag, Name=item.name, ObjectId=_guid(item.id))
 
     # -- programming objects
 
@@ -172,18 +170,18 @@ class _Writer:
         kind = _POU_TYPES.get(item.subkind or "", "program")
         children = list(self._members(item))
         actions = [child for child in children if isinstance(child.data, ActionData)]
-        with self._tag("pou", name=item.name, pouType=kind):
+        with self.tag("pou", name=item.name, pouType=kind):
             self._interface_of(item.data.declaration, kind == "function")
             if actions:
-                with self._tag("actions"):
+                with self.tag("actions"):
                     for action in actions:
                         assert isinstance(action.data, ActionData)
-                        with self._tag("action", name=action.name):
+                        with self.tag("action", name=action.name):
                             self._body(action.data)
-                            with self._tag("addData"):
+                            with self.tag("addData"):
                                 self._object_id(action)
             self._body(item.data)
-            with self._tag("addData"):
+            with self.tag("addData"):
                 self._plain_text(item.data.declaration)
                 self._children(children)
                 self._object_id(item)
@@ -201,7 +199,7 @@ class _Writer:
         for child in children:
             data = child.data
             if child.kind == "method" and isinstance(data, BodyData):
-                with self._data("method"), self._tag("Method", name=child.name, ObjectId=_guid(child.id)):
+                with self._data("method"), self.tag("Method", name=child.name, ObjectId=_guid(child.id)):
                     self._interface_of(data.declaration, True)
                     self._body(data)
                     self._plain_text_element(data.declaration)
@@ -210,11 +208,11 @@ class _Writer:
                     self._property(child, data)
 
     def _property(self, item: ProjectObject, data: DeclarationData) -> None:
-        with self._tag("Property", name=item.name, ObjectId=_guid(item.id)):
+        with self.tag("Property", name=item.name, ObjectId=_guid(item.id)):
             self._interface_of(data.declaration, True)
             for accessor in self._members(item):
                 if isinstance(accessor.data, AccessorData):
-                    with self._tag(f"{accessor.name}Accessor", ObjectId=_guid(accessor.id)):
+                    with self.tag(f"{accessor.name}Accessor", ObjectId=_guid(accessor.id)):
                         self._interface_of(accessor.data.declaration, False)
                         self._body(accessor.data)
                         self._plain_text_element(accessor.data.declaration)
@@ -222,16 +220,16 @@ class _Writer:
 
     def _interface(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
-        with self._tag("Interface", name=item.name, ObjectId=_guid(item.id)):
+        with self.tag("Interface", name=item.name, ObjectId=_guid(item.id)):
             self._plain_text_element(item.data.declaration)
-            with self._tag("addData"):
+            with self.tag("addData"):
                 self._children(list(self._members(item)))
 
     def _data_type(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
-        with self._tag("dataType", name=item.name):
-            self._raw(type_element("baseType", item.data.declaration))
-            with self._tag("addData"):
+        with self.tag("dataType", name=item.name):
+            self.line(type_element("baseType", item.data.declaration))
+            with self.tag("addData"):
                 self._plain_text(item.data.declaration)
                 self._object_id(item)
 
@@ -239,13 +237,13 @@ class _Writer:
         assert isinstance(item.data, DeclarationData)
         sections = read_sections(item.data.declaration)
         flags = sections[0].flags if len(sections) == 1 else ()
-        with self._tag("globalVars", name=item.name, **dict.fromkeys(flags, "true")):
+        with self.tag("globalVars", name=item.name, **dict.fromkeys(flags, "true")):
             for section in sections:
                 self._variables(section)
-            with self._tag("addData"):
+            with self.tag("addData"):
                 self._plain_text(item.data.declaration)
                 self._object_id(item)
-                with self._own_data(), self._tag("Object", kind=item.kind):
+                with self._own_data(), self.tag("Object", kind=item.kind):
                     pass
 
     # -- declarations and bodies
@@ -254,44 +252,44 @@ class _Writer:
         kind = return_type(declaration) if returns else ""
         sections = [section for section in read_sections(declaration) if section.keyword in _SECTION_TAGS]
         if not sections and not kind:
-            self._empty("interface")
+            self.empty("interface")
             return
-        with self._tag("interface"):
+        with self.tag("interface"):
             if kind:
-                self._raw(type_element("returnType", kind))
+                self.line(type_element("returnType", kind))
             for section in sections:
-                with self._tag(_SECTION_TAGS[section.keyword], **dict.fromkeys(section.flags, "true")):
+                with self.tag(_SECTION_TAGS[section.keyword], **dict.fromkeys(section.flags, "true")):
                     self._variables(section)
 
     def _variables(self, section: Section) -> None:
         for variable in section.variables:
             place = {"address": variable.address} if variable.address else {}
-            with self._tag("variable", name=variable.name, **place):
-                self._raw(type_element("type", variable.type))
+            with self.tag("variable", name=variable.name, **place):
+                self.line(type_element("type", variable.type))
                 if variable.initial:
-                    with self._tag("initialValue"):
-                        self._raw(value_element(variable.initial))
+                    with self.tag("initialValue"):
+                        self.line(value_element(variable.initial))
                 if variable.comment and is_legal(variable.comment):
-                    with self._tag("documentation"):
-                        self._xhtml(variable.comment)
+                    with self.tag("documentation"):
+                        self.xhtml(variable.comment)
 
     def _body(self, data: BodyData | ActionData) -> None:
         text, language = data.implementation, data.language
         if language in ("ST", "IL"):
-            with self._tag("body"):
-                self._text(language, text)
+            with self.tag("body"):
+                self.text_element(language, text)
         elif _is_body(text):
-            self._raw(text)
+            self.line(text)
         else:
-            with self._tag("body"), self._tag("addData"), self._data("implementation"):
-                self._text("Implementation", text, language=language)
+            with self.tag("body"), self.tag("addData"), self._data("implementation"):
+                self.text_element("Implementation", text, language=language)
 
     def _plain_text(self, declaration: str) -> None:
         with self._data("interfaceasplaintext"):
             self._plain_text_element(declaration)
 
     def _plain_text_element(self, declaration: str) -> None:
-        self._text("InterfaceAsPlainText", declaration)
+        self.text_element("InterfaceAsPlainText", declaration)
 
     # -- tasks and our own data
 
@@ -301,16 +299,16 @@ class _Writer:
         attributes = {"interval": _iso(data.interval)} if cyclic else {}
         if data.event and data.type == "event":
             attributes["single"] = data.event
-        with self._tag("task", name=item.name, **attributes, priority=str(data.priority)):
+        with self.tag("task", name=item.name, **attributes, priority=str(data.priority)):
             for call in data.pous:
-                self._empty("pouInstance", name=call.name, typeName="")
-            with self._tag("addData"):
+                self.empty("pouInstance", name=call.name, typeName="")
+            with self.tag("addData"):
                 with self._data("tasksettings"):
                     times = {"Interval": data.interval} if cyclic else {}
                     kind = kinds.get(data.type, data.type.capitalize())
-                    with self._tag("TaskSettings", KindOfTask=kind, **times):
+                    with self.tag("TaskSettings", KindOfTask=kind, **times):
                         watchdog = data.watchdog
-                        self._empty(
+                        self.empty(
                             "Watchdog",
                             Enabled=str(watchdog.enabled).lower(),
                             Time=watchdog.time,
@@ -321,77 +319,27 @@ class _Writer:
 
     def _object_id(self, item: ProjectObject) -> None:
         with self._data("objectid", "discard"):
-            self._line(f"<ObjectId>{_guid(item.id)}</ObjectId>")
+            self.line(f"<ObjectId>{_guid(item.id)}</ObjectId>")
 
     def _object_data(self, item: ProjectObject, data: object) -> None:
         text = json.dumps(data, sort_keys=True, ensure_ascii=True, allow_nan=False)
         place = f'name="{escape_attribute(item.name)}" kind="{item.kind}" ObjectId="{_guid(item.id)}"'
         with self._own_data():
-            self._line(f"<Object {place}>{escape_text(text)}</Object>")
+            self.line(f"<Object {place}>{escape_text(text)}</Object>")
 
     # -- writing
 
-    def _own_data(self) -> _Opened:
-        return self._tag("data", name=f"{TAPPET}object", handleUnknown="discard")
+    def _own_data(self) -> OpenElement:
+        return self.tag("data", name=f"{TAPPET}object", handleUnknown="discard")
 
-    def _data(self, name: str, unknown: str = "implementation") -> _Opened:
-        return self._tag("data", name=f"{CODESYS}{name}", handleUnknown=unknown)
-
-    def _text(self, tag: str, text: str, html: bool = True, **attributes: str) -> None:
-        """An element with a text in it, exactly; in base64 if XML cannot hold it."""
-        if not is_legal(text):
-            attributes["encoding"] = "base64"
-            text = base64.b64encode(text.encode()).decode()
-        start = f"<{tag}{_attributes(attributes)}>"
-        inner = f'<xhtml xmlns="{XHTML}">{escape_text(text)}</xhtml>' if html else escape_text(text)
-        self._line(f"{start}{inner}</{tag}>")
-
-    def _xhtml(self, text: str) -> None:
-        self._line(f'<xhtml xmlns="{XHTML}">{escape_text(text)}</xhtml>')
-
-    def _tag(self, tag: str, **attributes: str) -> _Opened:
-        return _Opened(self, tag, attributes)
-
-    def _empty(self, tag: str, **attributes: str) -> None:
-        self._line(f"<{tag}{_attributes(attributes)} />")
-
-    def _raw(self, text: str) -> None:
-        self._line(text)
-
-    def _line(self, text: str) -> None:
-        self._lines.append("  " * self._depth + text)
-
-
-class _Opened:
-    """An element that is open as long as the context lasts; one without content is written as empty."""
-
-    def __init__(self, writer: _Writer, tag: str, attributes: dict[str, str]) -> None:
-        self.writer = writer
-        self.tag = tag
-        self.attributes = attributes
-
-    def __enter__(self) -> None:
-        self.writer._line(f"<{self.tag}{_attributes(self.attributes)}>")
-        self.writer._depth += 1
-        self.begun = len(self.writer._lines)
-
-    def __exit__(self, *_: object) -> None:
-        self.writer._depth -= 1
-        if len(self.writer._lines) == self.begun:
-            self.writer._lines.pop()
-            self.writer._empty(self.tag, **self.attributes)
-        else:
-            self.writer._line(f"</{self.tag}>")
+    def _data(self, name: str, unknown: str = "implementation") -> OpenElement:
+        return self.tag("data", name=f"{CODESYS}{name}", handleUnknown=unknown)
 
 
 _OWN_PLACE = frozenset(
     ["folder", "device", "application", "task", "method", "action", "property", "accessor", *_CODE]
 )
 """Kinds that are written where the standard or CODESYS has a place for them."""
-
-
-def _attributes(attributes: dict[str, str]) -> str:
-    return "".join(f' {name}="{escape_attribute(value)}"' for name, value in attributes.items())
 
 
 def _guid(object_id: str) -> str:

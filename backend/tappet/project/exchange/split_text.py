@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from tappet.project.declaration_text import Word, declaration_end, words
 from tappet.project.exchange.drafts import Draft, body
-from tappet.project.exchange.report import ImportReport
+from tappet.project.exchange.report import ImportReport, Outcome
 from tappet.project.exchange.text_parts import NAME, trimmed, type_parts
 
 _POU_ENDS = {
@@ -191,7 +191,7 @@ class _Splitter:
         pieces.append((piece_start, stop))
         draft = Draft("pou", name, source=self.split.source, line=self.split.line(head), children=children)
         draft.data = self._parts(pieces, head)
-        self._finish(draft, head)
+        self.split.heads.append((head, draft))
         if not closed:
             self._note("changed", f"{ends[0]} is missing; the object ends where the next begins", word, name)
 
@@ -304,7 +304,7 @@ class _Splitter:
             text = f"{lead}{trimmed(content)}\nEND_TYPE"
             at = head if number == 0 else part_start
             draft = Draft("dut", name, {"declaration": text}, self.split.source, self.split.line(at))
-            self._finish(draft, at)
+            self.split.heads.append((at, draft))
 
     def _interface(self, word: Word) -> None:
         start, head = self.end, word.start
@@ -329,7 +329,7 @@ class _Splitter:
             self.end = len(self.text)
         text = self.text[start : self.end if declaration_stop is None else declaration_stop]
         draft.data = {"declaration": trimmed(text)}
-        self._finish(draft, head)
+        self.split.heads.append((head, draft))
 
     def _globals(self, word: Word) -> None:
         """VAR_GLOBAL ... END_VAR with the blocks that follow it at once."""
@@ -344,7 +344,7 @@ class _Splitter:
         name = named[-1] if named else self.list_name
         draft = Draft("gvl", name, {"declaration": trimmed(self.text[start : self.end])})
         draft.source, draft.line = self.split.source, self.split.line(head)
-        self._finish(draft, head)
+        self.split.heads.append((head, draft))
 
     # -- reading on
 
@@ -376,9 +376,6 @@ class _Splitter:
             return ""
         return self.text[self.scan[i].start : self.scan[i].end]
 
-    def _finish(self, draft: Draft, head: int) -> None:
-        self.split.heads.append((head, draft))
-
     def _refuse(self, word: Word, stop: int) -> None:
         shown = " ".join(self.text[word.start : stop].split())
         shown = shown if len(shown) <= 60 else shown[:57] + "..."
@@ -400,10 +397,5 @@ class _Splitter:
         key = "implementation" if "implementation" in data else "declaration"
         data[key] = f"{data[key]}\n{rest}" if data[key] else rest
 
-    def _note(self, outcome: str, text: str, word: Word, name: str = "") -> None:
-        assert outcome in ("changed", "refused")
-        line = self.split.line(word.start)
-        if outcome == "changed":
-            self.split.report.add("changed", self.split.source, text, name=name, line=line)
-        else:
-            self.split.report.add("refused", self.split.source, text, name=name, line=line)
+    def _note(self, outcome: Outcome, text: str, word: Word, name: str = "") -> None:
+        self.split.report.add(outcome, self.split.source, text, name=name, line=self.split.line(word.start))
