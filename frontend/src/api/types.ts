@@ -55,6 +55,11 @@ export type LogEntry = Schemas['LogEntry'];
 export type LoginRelation = Schemas['Relation'];
 export type LoginAnswer = Schemas['LoginReport'];
 
+export type TestReport = Schemas['TestReport'];
+export type TestSuite = Schemas['TestSuite'];
+export type TestResult = Schemas['TestResult'];
+export type TestFailure = Schemas['TestFailure'];
+
 export type LibrarySummary = Schemas['LibrarySummary'];
 export type LibraryItem = Schemas['LibraryItem'];
 export type Library = Schemas['LibraryDetail'];

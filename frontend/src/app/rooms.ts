@@ -6,6 +6,6 @@ import { registerWorkbench, registerPanelCommands } from '@/workbench/register';
 
 export function registerRooms(): void {
   registerWorkbench();
-  import.meta.glob('../{editors,online,lsp}/**/register.ts', { eager: true });
+  import.meta.glob(['../{editors,online,lsp}/**/register.ts', '../workbench/tests/register.ts'], { eager: true });
   registerPanelCommands();
 }

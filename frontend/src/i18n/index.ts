@@ -11,18 +11,20 @@ import enEditors from './en/editors.json';
 import enObjects from './en/objects.json';
 import enOnline from './en/online.json';
 import enScene from './en/scene.json';
+import enTests from './en/tests.json';
 import enWorkbench from './en/workbench.json';
 import zhEditors from './zh/editors.json';
 import zhObjects from './zh/objects.json';
 import zhOnline from './zh/online.json';
 import zhScene from './zh/scene.json';
+import zhTests from './zh/tests.json';
 import zhWorkbench from './zh/workbench.json';
 
 export const LANGUAGES = ['en', 'zh'] as const;
 export type Language = (typeof LANGUAGES)[number];
 
-const en = { ...enWorkbench, ...enObjects, ...enOnline, ...enEditors, ...enScene };
-const zh = { ...zhWorkbench, ...zhObjects, ...zhOnline, ...zhEditors, ...zhScene };
+const en = { ...enWorkbench, ...enObjects, ...enOnline, ...enEditors, ...enScene, ...enTests };
+const zh = { ...zhWorkbench, ...zhObjects, ...zhOnline, ...zhEditors, ...zhScene, ...zhTests };
 
 type WithoutPlural<Key> = Key extends `${infer Base}_one` | `${infer Base}_other` ? Base : Key;
 

@@ -22,6 +22,7 @@ const library = (items: LibraryItem[]): Library => ({
   namespace: 'L',
   company: '',
   description: '',
+  removable: false,
   items,
 });
 

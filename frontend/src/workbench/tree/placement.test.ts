@@ -13,6 +13,7 @@ const rule = (kind: ObjectKind, parents: string[], more: Partial<PlacementRule> 
   names: [],
   proposal: kind.toUpperCase(),
   subkinds: [],
+  languages: [],
   ...more,
 });
 

@@ -1,0 +1,55 @@
+/** The last test run of the open project, and running one. */
+import { create } from 'zustand';
+import { api } from '@/api/client';
+import type { TestReport } from '@/api/types';
+import { t } from '@/i18n';
+import type { CommandContext } from '../context';
+import { saveEditors } from '../docking/close';
+import { showPanel } from '../docking/dock';
+import { buildFinished } from '../messages/store';
+import { useProject } from '../project';
+
+interface Run {
+  projectId: string;
+  applicationId: string;
+  report: TestReport;
+  seconds: number;
+}
+
+interface Tests {
+  last: Run | null;
+  filter: string;
+}
+
+export const useTests = create<Tests>(() => ({ last: null, filter: '' }));
+
+export function setFilter(filter: string): void {
+  useTests.setState({ filter });
+}
+
+/** Saves what is open and runs the tests of the active application; the results panel shows what came of it. */
+export async function runTests(context: CommandContext): Promise<void> {
+  const { projectId, applicationId } = context;
+  if (!projectId || !applicationId || !(await saveEditors(context.dirtyPanels))) return;
+  showPanel('tests', false);
+  const path = `/projects/${projectId}/applications/${applicationId}/tests`;
+  const cancel = () => void api.delete(path).catch(() => undefined); // it may have ended by itself
+  useProject.setState({ busy: { text: t('tests.running'), cancel } });
+  const begun = performance.now();
+  try {
+    const report = await api.post<TestReport>(path, { filter: useTests.getState().filter });
+    const seconds = (performance.now() - begun) / 1000;
+    useTests.setState({ last: { projectId, applicationId, report, seconds } });
+    if (report.diagnostics.length > 0) showErrors(applicationId, report, seconds);
+  } finally {
+    useProject.setState({ busy: null });
+  }
+}
+
+/** Errors of the program stand where those of a build stand. */
+function showErrors(applicationId: string, report: TestReport, seconds: number): void {
+  const failed = { ok: false, diagnostics: report.diagnostics, code_id: null, data_id: null };
+  const build = { ...failed, code_size: null, data_size: null, seconds };
+  buildFinished({ applicationId, applicationName: t('tests.title'), report: build, at: Date.now() });
+  showPanel('messages', false);
+}
