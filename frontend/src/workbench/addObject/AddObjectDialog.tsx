@@ -13,6 +13,8 @@ import { Field, Select, TextInput } from '../ui/Field';
 import styles from './AddObjectDialog.module.css';
 import { declarationOf, optionsOf, type ObjectOptions } from './declaration';
 
+type Language = PlacementRule['languages'][number];
+
 interface AddObjectProps {
   projectId: string;
   forest: Forest;
@@ -32,6 +34,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
   const kinds = placeableKinds(rules, forest, parentId, view);
   const [rule, setRule] = useState(() => firstChoice(kinds, kind));
   const [subkind, setSubkind] = useState<string | undefined>(rule.subkinds[0]);
+  const [language, setLanguage] = useState<Language | undefined>(rule.languages[0]);
   const [name, setName] = useState(() => proposedName(rule, forest, parentId));
   const [options, setOptions] = useState<ObjectOptions>({});
   const [refused, setRefused] = useState<string | null>(null);
@@ -44,6 +47,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
   const choose = (next: PlacementRule) => {
     setRule(next);
     setSubkind(next.subkinds[0]);
+    setLanguage(next.languages[0]);
     setName(proposedName(next, forest, parentId));
     setOptions({});
     setRefused(null);
@@ -55,8 +59,9 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
     setBusy(true);
     try {
       const declaration = declarationOf(rule.kind, subkind, name, options);
-      const data = declaration === null ? undefined : withBody(rule.kind, declaration);
-      close(await createObject(projectId, { parent_id: parentId, kind: rule.kind, name, subkind, data }));
+      const data = declaration === null ? undefined : withBody(rule.kind, declaration, language);
+      const order = { parent_id: parentId, kind: rule.kind, name, subkind, language, data };
+      close(await createObject(projectId, order));
     } catch (error) {
       setBusy(false);
       setRefused(error instanceof ApiError ? error.message : (explain(error).text ?? explain(error).title));
@@ -171,6 +176,18 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
             </div>
           )}
           {optionsOf(rule.kind, subkind).map(option)}
+          {language !== undefined && (
+            <Field label={t('addObject.language')}>
+              {(attributes) => (
+                <Select
+                  {...attributes}
+                  value={language}
+                  choices={rule.languages.map((each) => ({ value: each, text: t(`language.${each}`) }))}
+                  onValue={setLanguage}
+                />
+              )}
+            </Field>
+          )}
         </div>
       </div>
     </Dialog>
@@ -194,6 +211,6 @@ function walk(event: KeyboardEvent<HTMLElement>): void {
 }
 
 /** Kinds with a body have an implementation beside their declaration. */
-function withBody(kind: ObjectKind, declaration: string): Record<string, unknown> {
-  return kind === 'pou' || kind === 'method' ? { declaration, implementation: '' } : { declaration };
+function withBody(kind: ObjectKind, declaration: string, language: Language | undefined): Record<string, unknown> {
+  return kind === 'pou' || kind === 'method' ? { declaration, implementation: '', language } : { declaration };
 }
