@@ -1,9 +1,10 @@
 /**
- * Which variables stand where in an ST body, and what to ask the runtime for to show their values (LST-87).
+ * Which variables stand where in a body in ST or IL, and what to ask the runtime for to show their values (LST-87).
  *
  * Purely textual: the scope below says which names the shown instance has; every other name is taken for a
  * global one, and the server's answer decides (an expression it does not know gets no value).
  */
+import { isInstructionList, operandTokens } from './instructionList';
 import { isConversion, isKeyword } from './keywords';
 import { isTrivia, textOf, tokenize, type Token } from './lexer';
 
@@ -33,7 +34,8 @@ export interface VariableUse {
 /** All readable variable paths of a body, in order; calls, parameter names, labels and keywords are left out. */
 export function findVariables(text: string): VariableUse[] {
   const tokens = tokenize(text).filter((token) => !isTrivia(token));
-  return new PathFinder(text, tokens).run();
+  const shown = isInstructionList(text, tokens) ? operandTokens(text, tokens) : tokens;
+  return new PathFinder(text, shown).run();
 }
 
 class PathFinder {
