@@ -16,6 +16,20 @@ export interface EditorSettings {
   lastType: string;
   /** Ask to declare an unknown name when its line is finished (DECL-60). */
   autoDeclare: boolean;
+  /** Columns of one level of indentation; 0 stands for a tab. */
+  formatIndent: number;
+  /** Case that formatting gives to keywords. */
+  formatKeywords: 'upper' | 'lower' | 'keep';
+  /** Formatting puts blanks around operators, and behind commas. */
+  formatOperators: boolean;
+  formatCommas: boolean;
+}
+
+const TAB_WIDTH = 4;
+
+/** Indentation as Monaco's options of an editor or a model. */
+export function indentation({ formatIndent }: EditorSettings): { tabSize: number; insertSpaces: boolean } {
+  return { tabSize: formatIndent || TAB_WIDTH, insertSpaces: formatIndent > 0 };
 }
 
 const DEFAULTS: EditorSettings = {
@@ -24,6 +38,10 @@ const DEFAULTS: EditorSettings = {
   numberFormat: 'dec',
   lastType: 'BOOL',
   autoDeclare: false,
+  formatIndent: 4,
+  formatKeywords: 'upper',
+  formatOperators: true,
+  formatCommas: true,
 };
 const KEY = 'editors';
 const SAVE_AFTER_MS = 1000;

@@ -31,6 +31,11 @@ const CLIENT_CAPABILITIES = {
     signatureHelp: {
       signatureInformation: { parameterInformation: { labelOffsetSupport: true }, activeParameterSupport: true },
     },
+    codeAction: {
+      codeActionLiteralSupport: { codeActionKind: { valueSet: ['quickfix'] } },
+      isPreferredSupport: true,
+      dataSupport: true,
+    },
     documentSymbol: { hierarchicalDocumentSymbolSupport: true },
     publishDiagnostics: { relatedInformation: true, dataSupport: true, tagSupport: { valueSet: [1, 2] } },
     rename: { prepareSupport: true },
@@ -99,6 +104,14 @@ export class LanguageClient {
     const rpc = await this.ready;
     if (rpc === null) throw new RpcError(0, 'The language server is not connected');
     return rpc.request<Result>(method, params);
+  }
+
+  /** Tells the server something now, if it is connected. */
+  notify(method: string, params: unknown): void {
+    void this.ready?.then(
+      (rpc) => rpc.notify(method, params),
+      () => undefined,
+    );
   }
 
   close(): void {

@@ -3,6 +3,7 @@ import type { editor, IDisposable, languages } from 'monaco-editor/editor/editor
 import { LANGUAGE_ID } from '@/editors/st/language';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import type { LanguageClient } from './client';
+import { registerCodeActions } from './codeActions';
 import {
   fromCompletion,
   fromHover,
@@ -130,6 +131,24 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
       },
     }),
   ];
+  made.push(
+    registerCodeActions(monaco, client),
+    registry.registerFoldingRangeProvider(LANGUAGE_ID, {
+      provideFoldingRanges: async (model, _context, token) => {
+        const params = { textDocument: { uri: model.uri.toString() } };
+        const found = await client.request<{ startLine: number; endLine: number; kind?: string }[]>(
+          'textDocument/foldingRange',
+          params,
+          token,
+        );
+        return found?.map((fold) => ({
+          start: fold.startLine + 1,
+          end: fold.endLine + 1,
+          kind: fold.kind === undefined ? undefined : new registry.FoldingRangeKind(fold.kind),
+        }));
+      },
+    }),
+  );
   const legend = client.capabilities.semanticTokensProvider?.legend;
   if (legend !== undefined)
     made.push(registry.registerDocumentSemanticTokensProvider(LANGUAGE_ID, semanticTokens(client, legend)));

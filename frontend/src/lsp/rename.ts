@@ -1,10 +1,10 @@
-/** Rename of a symbol in all objects: edits of open texts are undoable, closed objects are saved at once. */
+/** Rename of a symbol in all objects that use it. */
 import type { editor } from 'monaco-editor/editor/editor.api';
-import { openDocument } from '@/editors/documents/documents';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import type { LanguageClient } from './client';
-import { applyTextEdits, parsePartUri, toPosition } from './convert';
-import type { Range, TextEdit, WorkspaceEdit } from './protocol';
+import { toPosition } from './convert';
+import { applyEdits, type AppliedEdits } from './edits';
+import type { Range, WorkspaceEdit } from './protocol';
 
 const at = (model: editor.ITextModel, position: { lineNumber: number; column: number }) => ({
   textDocument: { uri: model.uri.toString() },
@@ -28,35 +28,14 @@ export async function renameTarget(
   return 'placeholder' in answer ? answer.placeholder : word;
 }
 
-function editsByUri(edit: WorkspaceEdit): Map<string, TextEdit[]> {
-  const all = new Map<string, TextEdit[]>(Object.entries(edit.changes ?? {}));
-  for (const change of edit.documentChanges ?? []) {
-    all.set(change.textDocument.uri, [...(all.get(change.textDocument.uri) ?? []), ...change.edits]);
-  }
-  return all;
-}
-
-/** Renames and answers how many places in how many objects have changed. */
+/** Renames; throws with the server's reason when the new name is not possible. */
 export async function renameSymbol(
   monaco: Monaco,
   client: LanguageClient,
   model: editor.ITextModel,
   position: { lineNumber: number; column: number },
   newName: string,
-): Promise<{ places: number; objects: number }> {
+): Promise<AppliedEdits> {
   const edit = await client.demand<WorkspaceEdit | null>('textDocument/rename', { ...at(model, position), newName });
-  let places = 0;
-  const objects = new Set<string>();
-  for (const [uri, edits] of editsByUri(edit ?? {})) {
-    const address = parsePartUri(uri);
-    if (address === null) continue;
-    const document = await openDocument(monaco, address.projectId, address.objectId);
-    const before = document.models[address.part].getValue();
-    document.replaceText(address.part, applyTextEdits(before, edits));
-    // The last view to let go stores the text.
-    document.release();
-    places += edits.length;
-    objects.add(address.objectId);
-  }
-  return { places, objects: objects.size };
+  return applyEdits(monaco, edit ?? {});
 }

@@ -3,6 +3,7 @@ import type { IDisposable } from 'monaco-editor/editor/editor.api';
 import { keys, queryClient } from '@/api/queries';
 import type { Diagnostic, ObjectSummary } from '@/api/types';
 import { openDocument, type TextDocument } from '@/editors/documents/documents';
+import { useEditorSettings } from '@/editors/settings';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import { openObject } from '@/workbench/docking/dock';
 import { showDocumentation } from '@/workbench/libraries/show';
@@ -21,6 +22,21 @@ let opener: IDisposable | null = null;
 const peeked = new Map<string, TextDocument>();
 const MOST_PEEKED = 60;
 
+/** How texts are formatted is the user's choice; the indentation goes with each request. */
+function tellFormat(told: LanguageClient): void {
+  const { formatKeywords, formatOperators, formatCommas } = useEditorSettings.getState();
+  const format = { keywords: formatKeywords, operators: formatOperators, commas: formatCommas };
+  told.notify('workspace/didChangeConfiguration', { settings: { tappet: { format } } });
+}
+
+useEditorSettings.subscribe((now, before) => {
+  const same =
+    now.formatKeywords === before.formatKeywords &&
+    now.formatOperators === before.formatOperators &&
+    now.formatCommas === before.formatCommas;
+  if (client !== null && !same) tellFormat(client);
+});
+
 function nameOf(projectId: string, objectId: string): string {
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId));
   return objects?.find((object) => object.id === objectId)?.name ?? '';
@@ -35,6 +51,7 @@ export function languageClient(monaco: Monaco, projectId: string): LanguageClien
   const source = (uris: readonly string[]) => provideModels(monaco, uris);
   providers = registerProviders(monaco, made, source);
   made.onConnected(() => {
+    tellFormat(made);
     providers.forEach((provider) => provider.dispose());
     providers = registerProviders(monaco, made, source);
   });

@@ -83,7 +83,7 @@ def _listed(snapshot: Snapshot, places: Iterator[tuple[int, Occurrence]]) -> lis
         lines = split_lines(text.source.text)
         place = text.place(item.span)
         label = _label(item.symbol, _written(lines, item.span))
-        line = lines[item.span.line].strip()
+        line = lines[item.span.line].rstrip()
         found.setdefault((place.document, place.span), CrossReference(place, item.role, label, line))
     return list(found.values())
 
@@ -121,5 +121,5 @@ def _of_address(snapshot: Snapshot, address: str) -> list[CrossReference]:
             declared = index > 0 and lexed.texts[index - 1].upper() == "AT"
             written = lexed.kinds[index + 1] == ":="
             role: Role = "declaration" if declared else "write" if written else "read"
-            found.append(CrossReference(place, role, wanted, lines[line].strip()))
+            found.append(CrossReference(place, role, wanted, lines[line].rstrip()))
     return found

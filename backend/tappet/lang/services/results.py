@@ -83,7 +83,7 @@ class CrossReference:
     symbol: str
     """What is named, with its owner: `PLC_PRG.iCount`."""
     text: str
-    """The line of the place, without the blanks around it."""
+    """The line of the place."""
 
 
 @dataclass(frozen=True, slots=True)

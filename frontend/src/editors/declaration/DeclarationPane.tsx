@@ -8,6 +8,7 @@ import type { EditorProps } from '@/workbench/editors';
 import { IconButton } from '@/workbench/ui/Button';
 import type { OpenText } from '../documents/useTextDocument';
 import { OnlineDeclaration } from '../online/OnlineDeclaration';
+import { useFaultLine } from '../online/useFaultLine';
 import { setEditorSettings, useEditorSettings, type DeclarationView } from '../settings';
 import { CodePane, type CodeEditor } from '../st/CodePane';
 import { addPanelEditor, removePanelEditor } from '../st/focus';
@@ -69,6 +70,7 @@ function DeclarationText({ panelId, projectId, object, monaco, document }: Decla
   const [editor, setEditor] = useState<CodeEditor | null>(null);
   const readOnly = useEditingLock(object, editor);
   useShorthand(monaco, editor);
+  useFaultLine(projectId, object, 'declaration', editor);
   const onEditor = useCallback(
     (made: CodeEditor | null) => {
       if (made === null) removePanelEditor(panelId, 'declaration');

@@ -10,6 +10,7 @@ import { keys, queryClient, saveObject, StaleObject } from '@/api/queries';
 import type { ProjectObject, TextData } from '@/api/types';
 import { useSession } from '@/app/session';
 import { smallestChange } from '../declaration/text';
+import { indentation, useEditorSettings } from '../settings';
 import { LANGUAGE_ID } from '../st/language';
 import type { Monaco } from '../st/monacoLoader';
 import {
@@ -82,15 +83,21 @@ export class TextDocument {
       made.setValue(state.text[part]);
       made.setEOL(monaco.editor.EndOfLineSequence.LF);
       made.updateOptions({
-        tabSize: 4,
-        insertSpaces: true,
+        ...indentation(useEditorSettings.getState()),
         bracketColorizationOptions: { enabled: false, independentColorPoolPerBracketType: false },
       });
       made.onDidChangeContent(() => this.typed());
       return made;
     };
     this.models = { declaration: model('declaration'), implementation: model('implementation') };
-    this.stopFollowing = this.follow();
+    const unfollow = this.follow();
+    const unsubscribe = useEditorSettings.subscribe((settings) => {
+      Object.values(this.models).forEach((one) => one.updateOptions(indentation(settings)));
+    });
+    this.stopFollowing = () => {
+      unfollow();
+      unsubscribe();
+    };
     addEventListener('pagehide', this.leaving);
     if (isChanged(state)) this.scheduleSave(AUTOSAVE_MS);
   }

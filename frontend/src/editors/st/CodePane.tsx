@@ -1,5 +1,6 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { useEffect, useRef } from 'react';
+import { indentation, useEditorSettings } from '../settings';
 import styles from './CodePane.module.css';
 import type { Monaco } from './monacoLoader';
 
@@ -36,8 +37,6 @@ export const EDITOR_OPTIONS: editor.IStandaloneEditorConstructionOptions = {
   fontLigatures: false,
   fontSize: 13,
   lineHeight: 20,
-  tabSize: 4,
-  insertSpaces: true,
   detectIndentation: false,
   autoIndent: 'full',
   glyphMargin: false,
@@ -88,6 +87,7 @@ export function CodePane({ monaco, model, label, readOnly, onEditor }: CodePaneP
     const uri = model.uri.toString();
     const made = monaco.editor.create(host.current, {
       ...EDITOR_OPTIONS,
+      ...indentation(useEditorSettings.getState()),
       model,
       ariaLabel: label,
       overflowWidgetsDomNode: overflowWidgets(),

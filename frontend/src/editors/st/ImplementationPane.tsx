@@ -4,6 +4,7 @@ import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
 import type { EditorProps } from '@/workbench/editors';
 import type { OpenText } from '../documents/useTextDocument';
+import { useFaultLine } from '../online/useFaultLine';
 import { useOnlineView } from '../online/useOnlineView';
 import { CodePane, type CodeEditor } from './CodePane';
 import { addPanelEditor, removePanelEditor } from './focus';
@@ -33,6 +34,7 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
   );
   useAutoDeclare(panel, editor);
   useOnlineView({ ...props, editor });
+  useFaultLine(projectId, object, 'implementation', editor);
   return (
     <CodePane
       monaco={monaco}

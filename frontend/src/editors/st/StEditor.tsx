@@ -14,6 +14,7 @@ import { useTextDocument, type OpenText } from '../documents/useTextDocument';
 import { setEditorSettings, useEditorSettings } from '../settings';
 import { textHandlers } from './handlers';
 import { ImplementationPane } from './ImplementationPane';
+import { registerMending } from './mend';
 import { partsShown } from './parts';
 import { Splitter } from './Splitter';
 import styles from './StEditor.module.css';
@@ -47,6 +48,7 @@ function StPanes(props: EditorProps & OpenText & { object: ObjectSummary }) {
     [panelId, monaco, document, projectId, object, instance],
   );
   useHandlers(panelId, handlers);
+  useEffect(() => registerMending(monaco), [monaco]);
   useReveal(panelId, reveal);
 
   const parts = partsShown(object.kind);

@@ -2,17 +2,21 @@
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
+import { toPosition } from '@/lsp/convert';
+import type { AppliedEdits } from '@/lsp/edits';
 import { activeLanguageClient } from '@/lsp/session';
 import { renameSymbol, renameTarget } from '@/lsp/rename';
+import { crossReferences } from '@/lsp/symbols';
 import { addToList, useWatchLists } from '@/online/watch/lists';
 import { commandContext } from '@/workbench/context';
 import { openDialog } from '@/workbench/dialogs';
 import { showPanel } from '@/workbench/docking/dock';
-import { notify } from '@/workbench/notices';
+import { guard, notify } from '@/workbench/notices';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText } from '@/workbench/run';
 import { ancestorOfKind } from '@/workbench/tree/model';
 import { InputAssistant } from '../assistant/InputAssistant';
+import { findCrossReferences } from '../crossReferences/store';
 import { parseDeclaration } from '../declaration/parse';
 import { insertRow } from '../declaration/structure';
 import { openDocument, type Part } from '../documents/documents';
@@ -24,6 +28,7 @@ import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
 import type { CodeEditor } from './CodePane';
 import { typeByName } from './declareTarget';
 import { isKeyword } from './keywords';
+import { partLabels } from './labels';
 import { RenameDialog } from './RenameDialog';
 import { expressionOf, findVariables } from './variables';
 
@@ -62,7 +67,12 @@ export async function inputAssistant({ projectId, object }: TextPanel, editor: C
 }
 
 /** Shift+F2: declares the name at the cursor in this object or in a variable list. */
-export async function autoDeclare(panel: TextPanel, editor: CodeEditor, name?: string): Promise<void> {
+export async function autoDeclare(
+  panel: TextPanel,
+  editor: CodeEditor,
+  name?: string,
+  proposedType?: string,
+): Promise<void> {
   const { monaco, projectId, object, document } = panel;
   const position = editor.getPosition();
   const found = name ?? (position === null ? '' : (editor.getModel()?.getWordAtPosition(position)?.word ?? ''));
@@ -82,7 +92,12 @@ export async function autoDeclare(panel: TextPanel, editor: CodeEditor, name?: s
       object={object}
       places={[own, ...lists]}
       keyword={keyword}
-      start={{ scope: 'VAR', flags: [], name: word, type: typeByName(word, useEditorSettings.getState().lastType) }}
+      start={{
+        scope: 'VAR',
+        flags: [],
+        name: word,
+        type: proposedType ?? typeByName(word, useEditorSettings.getState().lastType),
+      }}
       close={close}
     />
   ));
@@ -94,8 +109,8 @@ export async function autoDeclare(panel: TextPanel, editor: CodeEditor, name?: s
   target.release();
 }
 
-/** Ctrl+F2: gives a symbol another name wherever it is used. */
-export async function rename({ monaco }: TextPanel, editor: CodeEditor): Promise<void> {
+/** Ctrl+F2: gives a symbol another name wherever it is used, after a look at all the places. */
+export async function rename({ monaco, projectId }: TextPanel, editor: CodeEditor): Promise<void> {
   const client = activeLanguageClient();
   const model = editor.getModel();
   const position = editor.getPosition();
@@ -105,11 +120,47 @@ export async function rename({ monaco }: TextPanel, editor: CodeEditor): Promise
     notify({ tone: 'info', title: t('st.nothingToRename') });
     return;
   }
-  const next = await openDialog<string>((close) => <RenameDialog name={name} close={close} />);
+  const textDocument = { uri: model.uri.toString() };
+  const places = await crossReferences(projectId, { textDocument, position: toPosition(position) });
+  let done: AppliedEdits | null = null;
+  let chosen = name;
+  await openDialog<void>((close) => (
+    <RenameDialog
+      name={name}
+      places={places}
+      nameOf={(uri) => partLabels.getUriBasenameLabel({ path: uri.slice(uri.indexOf('/')), toString: () => uri })}
+      rename={async (next) => {
+        done = await renameSymbol(monaco, client, model, position, next);
+        chosen = next;
+      }}
+      close={close}
+    />
+  ));
   editor.focus();
-  if (next === undefined) return;
-  const { places, objects } = await renameSymbol(monaco, client, model, position, next);
-  notify({ tone: 'ok', title: t('st.renamed', { name: next, places, objects }) });
+  if (done !== null) tellRenamed(chosen, done);
+}
+
+function tellRenamed(name: string, { places, objects, undo }: AppliedEdits): void {
+  const takeBack = async () => {
+    const left = await undo();
+    if (left > 0) notify({ tone: 'warn', title: t('st.renameKept', { count: left }) });
+  };
+  notify({
+    tone: 'ok',
+    title: t('st.renamed', { name, places, objects }),
+    action: { text: t('st.renameUndo'), run: () => void guard(takeBack) },
+  });
+}
+
+/** Alt+Shift+F12: every place of what stands at the cursor, in the panel. */
+export async function showCrossReferences({ projectId }: TextPanel, editor: CodeEditor): Promise<void> {
+  const model = editor.getModel();
+  const position = editor.getPosition();
+  if (model === null || position === null) return;
+  const word = model.getWordAtPosition(position)?.word ?? '';
+  showPanel('crossReferences', false);
+  const textDocument = { uri: model.uri.toString() };
+  await findCrossReferences(projectId, { textDocument, position: toPosition(position) }, word);
 }
 
 export async function revisions({ monaco, document }: TextPanel, parts: readonly Part[]): Promise<void> {

@@ -1,6 +1,7 @@
 /** Commands of text editors. What they do is offered by the focused editor; see `handlers.ts`. */
-import { Braces, Eye, History, ListTree, Search, WandSparkles } from 'lucide-react';
+import { Braces, Eye, History, Lightbulb, ListTree, Search, WandSparkles, Waypoints } from 'lucide-react';
 import { contextChanged, registerCommands, type Command } from '@/workbench/commands';
+import { openPalette } from '@/workbench/palette/state';
 import { mayEdit } from '@/workbench/rights';
 import { setEditorSettings, useEditorSettings } from '../settings';
 
@@ -48,13 +49,21 @@ const commands: Command[] = [
     menu: { menu: 'edit', group: '5_go', order: 2 },
   },
   {
+    id: 'st.crossReferences',
+    title: 'st.command.crossReferences',
+    icon: Waypoints,
+    keys: ['Alt+Shift+F12'],
+    scope: 'editor',
+    delegated: true,
+    menu: { menu: 'edit', group: '5_go', order: 2.5 },
+  },
+  {
     id: 'st.outline',
     title: 'st.command.outline',
     icon: ListTree,
     keys: ['Ctrl+Shift+O'],
-    scope: 'editor',
-    delegated: true,
     menu: { menu: 'edit', group: '5_go', order: 3 },
+    run: () => openPalette('members'),
   },
   {
     id: 'st.goToLine',
@@ -88,6 +97,16 @@ const commands: Command[] = [
     delegated: true,
     enabled: mayEdit,
     menu: { menu: 'edit', group: '6_refactor', order: 1 },
+  },
+  {
+    id: 'st.quickFix',
+    title: 'st.command.quickFix',
+    icon: Lightbulb,
+    keys: ['Ctrl+.'],
+    scope: 'editor',
+    delegated: true,
+    enabled: mayEdit,
+    menu: { menu: 'edit', group: '6_refactor', order: 0 },
   },
   {
     id: 'st.format',

@@ -8,6 +8,7 @@ import {
   inputAssistant,
   rename,
   revisions,
+  showCrossReferences,
   type TextPanel,
 } from './acts';
 import type { CodeEditor } from './CodePane';
@@ -27,7 +28,7 @@ export const ACTIONS: Readonly<Record<string, string>> = {
   'st.format': 'editor.action.formatDocument',
   'st.comment': 'editor.action.commentLine',
   'st.goToLine': 'editor.action.gotoLine',
-  'st.outline': 'editor.action.quickOutline',
+  'st.quickFix': 'editor.action.quickFix',
   'st.suggest': 'editor.action.triggerSuggest',
   'st.parameters': 'editor.action.triggerParameterHints',
   'st.nextProblem': 'editor.action.marker.next',
@@ -71,6 +72,7 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
     'st.inputAssistant': onEditor((editor) => inputAssistant(panel, editor)),
     'st.autoDeclare': onEditor((editor) => autoDeclare(panel, editor)),
     'st.renameSymbol': onEditor((editor) => rename(panel, editor)),
+    'st.crossReferences': onEditor((editor) => showCrossReferences(panel, editor)),
     'watch.add': {
       run: () => {
         const chosen = panelChosen(panelId);

@@ -1,7 +1,8 @@
-import { ChevronRight, Search } from 'lucide-react';
+import { ChevronRight, ListTree, Search } from 'lucide-react';
 import { Dialog as Radix } from 'radix-ui';
 import { useId, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import { useObjects } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { rowAfterKey } from '../ui/table';
 import type { IconComponent } from '../types';
@@ -12,10 +13,17 @@ import { commandItems, objectItems, type PaletteItem } from './items';
 import { search } from './match';
 import styles from './Palette.module.css';
 import { closePalette, usePalette, type PaletteMode } from './state';
+import { useMembers, useProjectSymbols } from './symbols';
 
 const SHOWN = 80;
+const PREFIX: Readonly<Record<PaletteMode, string>> = { commands: '>', members: '@', objects: '' };
+const MODE_ICONS = { commands: ChevronRight, members: ListTree, objects: Search };
+const NO_OBJECTS: readonly ObjectSummary[] = [];
 
-/** The command palette and quick open: one field, one list. A `>` at the beginning changes to commands. */
+/**
+ * The command palette and quick open: one field, one list. A `>` at the beginning changes to commands, an `@` to what
+ * the active object declares. Quick open finds objects first, then the members of all of them.
+ */
 export function Palette() {
   const mode = usePalette((state) => state.mode);
   return mode && <OpenPalette key={mode} initial={mode} />;
@@ -25,19 +33,32 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
   const t = useText();
   const id = useId();
   const list = useRef<HTMLDivElement>(null);
-  const [text, setText] = useState(initial === 'commands' ? '>' : '');
+  const [text, setText] = useState(PREFIX[initial]);
   const [at, setAt] = useState(0);
-  const commandMode = text.startsWith('>');
-  const query = commandMode ? text.slice(1) : text;
+  const mode = text.startsWith('>') ? 'commands' : text.startsWith('@') ? 'members' : 'objects';
+  const query = text.slice(PREFIX[mode].length);
   const commands = useRegistry((state) => state.commands);
   const projectId = useProject((state) => state.projectId);
-  const { data: objects } = useObjects(projectId);
-  const items = useMemo(
-    () => (commandMode ? commandItems(commands.values(), commandContext()) : objectItems(objects ?? [])),
-    [commandMode, commands, objects],
+  const { data } = useObjects(projectId);
+  const objects = data ?? NO_OBJECTS;
+  const symbols = useProjectSymbols(projectId, mode === 'objects' ? query : '', objects);
+  const members = useMembers(mode === 'members', projectId, objects);
+  const items = useMemo(() => {
+    if (mode === 'commands') return commandItems(commands.values(), commandContext());
+    if (mode === 'objects') return objectItems(objects);
+    const below = objects.filter((object) => object.parent_id === members.object?.id);
+    return [...members.items, ...objectItems(members.object === null ? [] : below)];
+  }, [mode, commands, objects, members]);
+  const hits = useMemo(
+    () => [items, symbols].flatMap((entries) => search(query, entries, (item) => item.text)).slice(0, SHOWN),
+    [query, items, symbols],
   );
-  const hits = useMemo(() => search(query, items, (item) => item.text).slice(0, SHOWN), [query, items]);
+  const name = t(
+    mode === 'commands' ? 'command.palette' : mode === 'objects' ? 'command.quickOpen' : 'palette.members',
+  );
+  const hint = t(`palette.${mode}`);
 
+  const ModeIcon = MODE_ICONS[mode];
   const choose = (item: PaletteItem | undefined) => {
     if (!item || item.disabledReason) return;
     closePalette(item.run);
@@ -67,37 +88,29 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
       <Radix.Portal>
         <Radix.Overlay className={styles.scrim} />
         <Radix.Content className={styles.palette} aria-describedby="">
-          <Radix.Title className="visually-hidden">
-            {t(commandMode ? 'command.palette' : 'command.quickOpen')}
-          </Radix.Title>
+          <Radix.Title className="visually-hidden">{name}</Radix.Title>
           <div className={styles.search}>
-            {commandMode ? <ChevronRight size={16} aria-hidden /> : <Search size={16} aria-hidden />}
+            <ModeIcon size={16} aria-hidden />
             <input
               role="combobox"
               aria-expanded
               aria-controls={id}
               aria-activedescendant={hits[at] ? `${id}-${at}` : undefined}
-              aria-label={t(commandMode ? 'palette.commands' : 'palette.objects')}
-              placeholder={t(commandMode ? 'palette.commands' : 'palette.objects')}
-              value={commandMode ? query : text}
+              aria-label={hint}
+              placeholder={hint}
+              value={query}
               spellCheck={false}
               onChange={(event) => {
-                setText(commandMode ? `>${event.target.value}` : event.target.value);
+                setText(`${PREFIX[mode]}${event.target.value}`);
                 setAt(0);
               }}
               onKeyDown={(event) => {
-                if (commandMode && query === '' && event.key === 'Backspace') setText('');
+                if (mode !== 'objects' && query === '' && event.key === 'Backspace') setText('');
                 else onKeyDown(event);
               }}
             />
           </div>
-          <div
-            ref={list}
-            id={id}
-            role="listbox"
-            aria-label={t(commandMode ? 'command.palette' : 'command.quickOpen')}
-            className={styles.list}
-          >
+          <div ref={list} id={id} role="listbox" aria-label={name} className={styles.list}>
             {hits.map(({ entry, match }, index) => (
               <Entry
                 key={entry.id}

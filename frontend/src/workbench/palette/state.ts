@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-export type PaletteMode = 'commands' | 'objects';
+export type PaletteMode = 'commands' | 'objects' | 'members';
 
 export const usePalette = create<{ mode: PaletteMode | null }>(() => ({ mode: null }));
 

@@ -1,13 +1,15 @@
 import { chooseLanguage, chooseTheme, usePreferences, type ThemeChoice } from '@/app/preferences';
+import { FormatOptions } from '@/editors/st/FormatOptions';
 import { useLanguage, useText, type Language } from '@/i18n';
 import { guard } from '../notices';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';
 import { Field, Select } from '../ui/Field';
+import styles from './OptionsDialog.module.css';
 
 const THEMES: readonly ThemeChoice[] = ['light', 'dark', 'system'];
 
-/** Language and theme; every choice acts at once. */
+/** Language, theme, and how ST is formatted; every choice acts at once. */
 export function OptionsDialog({ close }: { close: () => void }) {
   const t = useText();
   const language = useLanguage();
@@ -37,6 +39,8 @@ export function OptionsDialog({ close }: { close: () => void }) {
           />
         )}
       </Field>
+      <h3 className={styles.group}>{t('format.title')}</h3>
+      <FormatOptions />
     </Dialog>
   );
 }

@@ -1,0 +1,149 @@
+/** Members of objects for quick open: variables, methods and types of the project, or of the active object. */
+import { Braces, CircleDot, ListTree, Variable } from 'lucide-react';
+import { useEffect, useState } from 'react';
+import type { ObjectSummary } from '@/api/types';
+import type { DocumentSymbol } from '@/lsp/protocol';
+import type { ProjectSymbol } from '@/lsp/symbols';
+import { commandContext } from '../context';
+import { openObject } from '../docking/dock';
+import { objectPath } from '../tree/model';
+import type { IconComponent } from '../types';
+import type { PaletteItem } from './items';
+
+const SHORTEST = 2;
+const PAUSE_MS = 120;
+const PART = /^tappet:\/+[^/]+\/([^/]+)\/(declaration|implementation)$/;
+/** Kinds of the protocol: enum 10, enum member 22, struct 23. */
+const ICONS: Readonly<Record<number, IconComponent>> = { 10: ListTree, 22: CircleDot, 23: Braces };
+/** Sections of a declaration (VAR_INPUT ...) are namespaces. */
+const SECTION = 3;
+
+interface Target {
+  objectId: string;
+  part: 'declaration' | 'implementation';
+  line: number;
+  column: number;
+}
+
+function item(
+  name: string,
+  kind: number,
+  detail: string,
+  target: Target,
+  objects: readonly ObjectSummary[],
+): PaletteItem {
+  const { objectId, ...place } = target;
+  return {
+    id: `${objectId}/${place.part}/${String(place.line)}:${String(place.column)}`,
+    text: name,
+    detail,
+    icon: ICONS[kind] ?? Variable,
+    run: () =>
+      openObject(objectId, objects.find((object) => object.id === objectId)?.name ?? name, {
+        place: { ...place, endLine: place.line, endColumn: place.column + name.length },
+      }),
+  };
+}
+
+/** Symbols as entries; what is an object of the tree is in the list of objects already. */
+export function symbolItems(found: readonly ProjectSymbol[], objects: readonly ObjectSummary[]): PaletteItem[] {
+  return found.flatMap((symbol) => {
+    const [, objectId, part] = PART.exec(symbol.location.uri) ?? [];
+    const object = objects.find((candidate) => candidate.id === objectId);
+    if (object === undefined || objectId === undefined || object.name.toUpperCase() === symbol.name.toUpperCase())
+      return [];
+    const { line, character } = symbol.location.range.start;
+    const target = { objectId, part: part as Target['part'], line: line + 1, column: character + 1 };
+    return [item(symbol.name, symbol.kind, objectPath(objects, objectId), target, objects)];
+  });
+}
+
+/** What the texts of one object declare, without the sections around it. */
+export function memberItems(
+  outlines: Readonly<Record<Target['part'], readonly DocumentSymbol[]>>,
+  objectId: string,
+  objects: readonly ObjectSummary[],
+): PaletteItem[] {
+  const items = new Map<string, PaletteItem>();
+  const collect = (part: Target['part'], symbols: readonly DocumentSymbol[], section: string) => {
+    for (const symbol of symbols) {
+      const { line, character } = symbol.selectionRange.start;
+      const nested = symbol.children ?? [];
+      const isSection = symbol.kind === SECTION && nested.length > 0;
+      const owner = objects.find((object) => object.id === objectId)?.name.toUpperCase();
+      if (!isSection && symbol.name.toUpperCase() !== owner) {
+        const target = { objectId, part, line: line + 1, column: character + 1 };
+        const made = item(
+          symbol.name,
+          symbol.kind,
+          [section, symbol.detail].filter(Boolean).join('  '),
+          target,
+          objects,
+        );
+        items.set(made.id, made);
+      }
+      collect(part, nested, isSection ? symbol.name : section);
+    }
+  };
+  collect('declaration', outlines.declaration, '');
+  collect('implementation', outlines.implementation, '');
+  return [...items.values()];
+}
+
+/** Symbols of the project that fit a query; asked for when the typing pauses. */
+export function useProjectSymbols(
+  projectId: string | null,
+  query: string,
+  objects: readonly ObjectSummary[],
+): readonly PaletteItem[] {
+  const wanted = query.trim().length >= SHORTEST ? query.trim() : '';
+  const [found, setFound] = useState<{ query: string; symbols: readonly ProjectSymbol[] }>({ query: '', symbols: [] });
+  useEffect(() => {
+    if (projectId === null || wanted === '') return;
+    let current = true;
+    const timer = setTimeout(() => {
+      void import('@/lsp/symbols')
+        .then(({ projectSymbols }) => projectSymbols(projectId, wanted))
+        .then((symbols) => {
+          if (current) setFound({ query: wanted, symbols });
+        })
+        // Without a language server there are objects only.
+        .catch(() => undefined);
+    }, PAUSE_MS);
+    return () => {
+      current = false;
+      clearTimeout(timer);
+    };
+  }, [projectId, wanted]);
+  return wanted === '' ? [] : symbolItems(found.symbols, objects);
+}
+
+/** Members of the object whose editor is in front. */
+export function useMembers(
+  enabled: boolean,
+  projectId: string | null,
+  objects: readonly ObjectSummary[],
+): { object: ObjectSummary | null; items: readonly PaletteItem[] } {
+  const [objectId] = useState(() => commandContext().activeEditor?.objectId ?? null);
+  const [items, setItems] = useState<readonly PaletteItem[]>([]);
+  useEffect(() => {
+    if (!enabled || projectId === null || objectId === null) return;
+    let current = true;
+    const uri = (part: Target['part']) => `tappet:/${projectId}/${objectId}/${part}`;
+    void import('@/lsp/symbols')
+      .then(({ documentSymbols }) =>
+        Promise.all([
+          documentSymbols(projectId, uri('declaration')),
+          documentSymbols(projectId, uri('implementation')),
+        ]),
+      )
+      .then(([declaration, implementation]) => {
+        if (current) setItems(memberItems({ declaration, implementation }, objectId, objects));
+      })
+      .catch(() => undefined);
+    return () => {
+      current = false;
+    };
+  }, [enabled, projectId, objectId, objects]);
+  return { object: objects.find((object) => object.id === objectId) ?? null, items };
+}
