@@ -17,5 +17,7 @@ export default defineConfig({
     include: ['src/**/*.test.{ts,tsx}', 'tests/**/*.test.{ts,tsx}'],
     pool: 'threads',
     maxWorkers: 2,
+    // Property tests on a busy machine: a limit against hanging, not a measure of speed.
+    testTimeout: 120_000,
   },
 });
