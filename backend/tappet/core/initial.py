@@ -7,6 +7,7 @@ function calls, addresses and FB_Init become dynamic steps, in order of declarat
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from tappet.core import assign, calls, ir, places
@@ -220,24 +221,39 @@ class _ArrayFiller:
     def run(self, init: ast.ArrayInit) -> None:
         for element in init.elements:
             self._put(element)
-        while self.next < self.type.count:
-            self._one(None)
+        self._repeated(self.type.count - self.next, lambda: self._one(None))
+
+    def _repeated(self, count: int, put: Callable[[], None]) -> None:
+        """Put something `count` times; bytes that need no code are copied."""
+        template, size = self.template, self.type.element.size
+        while count > 0 and self.next < self.type.count:
+            first, steps = self.next, len(template.steps)
+            put()
+            count -= 1
+            length = self.next - first
+            if len(template.steps) == steps and length and count:
+                times = min(count, (self.type.count - self.next) // length)
+                start, end = self.offset + first * size, self.offset + self.next * size
+                template.data[end : end + (end - start) * times] = template.data[start:end] * times
+                self.next += length * times
+                count -= times
 
     def _put(self, element: ast.Expr) -> None:
         if isinstance(element, ast.Repeat):
             count = element.count.constant
             assert isinstance(count, int)
-            for _ in range(min(count, self.type.count)):
-                for value in element.values or [None]:  # type: ignore[list-item]
-                    if value is None:
-                        self._one(None)
-                    else:
-                        self._put(value)
+            self._repeated(min(count, self.type.count), lambda: self._values(element))
         elif isinstance(element, ast.ArrayInit) and not isinstance(self.type.element, t.Array):
             for inner in element.elements:
                 self._put(inner)
         else:
             self._one(element)
+
+    def _values(self, repeat: ast.Repeat) -> None:
+        for value in repeat.values:
+            self._put(value)
+        if not repeat.values:
+            self._one(None)
 
     def _one(self, value: ast.Expr | None) -> None:
         if self.next >= self.type.count:

@@ -35,6 +35,8 @@ _BRANCH_OWNERS: Final = {
     "__FINALLY": ("__TRY",),
 }
 """Keywords that begin a further part of a statement, and the statements they belong to."""
+MAX_BRANCHES: Final = 1000
+"""Branches of one IF; each ELSIF is nested in the one before when code is made."""
 _WRONG_BEGIN: Final = {
     "THEN": "THEN belongs to IF or ELSIF.",
     "DO": "DO belongs to FOR or WHILE.",
@@ -224,6 +226,8 @@ class StatementParser(ExpressionParser):
             branches.append((condition, self.statements()))
             if self.kinds[self.i] != "ELSIF":
                 break
+            if len(branches) == MAX_BRANCHES:
+                self.error("E0107", what="chain of ELSIF", limit=MAX_BRANCHES)
             self.i += 1
         while self.kinds[self.i] in ("ELSE", "ELSIF"):
             if self.kinds[self.i] == "ELSE" and otherwise is None:

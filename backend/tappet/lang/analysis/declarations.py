@@ -14,7 +14,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis import addresses, folding, layout
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.initial import initialise
-from tappet.lang.analysis.type_references import TypeReferences
+from tappet.lang.analysis.type_references import DEPTH_LIMIT, TypeReferences
 from tappet.lang.source import Span
 from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, Symbol, VarSymbol
 from tappet.lang.types import Elementary, Type
@@ -91,6 +91,9 @@ class Declarations(TypeReferences):
                 return
         initial = decl.init
         assert initial is not None
+        if len(self.evaluating) >= DEPTH_LIMIT:
+            body.report("E0107", decl.span, what="constant", limit=DEPTH_LIMIT)
+            return
         self.evaluating.add(id(variable))
         initialise(body, initial, type_)
         self.evaluating.discard(id(variable))
@@ -125,11 +128,13 @@ class Declarations(TypeReferences):
     # -- layout
 
     def complete(self, type_: Type) -> bool:
-        """Makes sure that size and members of a type are known; False when it contains itself."""
+        """Makes sure that size and members of a type are known; False when it contains itself or too much."""
         while isinstance(type_, t.Array):
             type_ = type_.element
         if isinstance(type_, t.Struct):
             if id(type_) in self.incomplete:
+                return False
+            if id(type_) in self.structs and len(self.completing) >= DEPTH_LIMIT:
                 return False
             entry = self.structs.pop(id(type_), None)
             if entry is not None:
@@ -140,6 +145,8 @@ class Declarations(TypeReferences):
                 del self.incomplete[id(type_)]
         elif isinstance(type_, t.FunctionBlock):
             if id(type_) in self.incomplete:
+                return False
+            if id(type_) in self.blocks and len(self.completing) >= DEPTH_LIMIT:
                 return False
             symbol = self.blocks.pop(id(type_), None)
             if symbol is not None:
@@ -156,6 +163,9 @@ class Declarations(TypeReferences):
         inner = type_
         while isinstance(inner, t.Array):
             inner = inner.element
+        if id(inner) not in self.incomplete:
+            body.report("E0107", span, what="type", limit=DEPTH_LIMIT)
+            return False
         chain = [*self.completing[self.incomplete[id(inner)] :], str(inner)]
         body.report("E0408", span, name=owner, chain=" -> ".join(chain))
         return False

@@ -105,17 +105,25 @@ def _link_pou(session: Session, pou: PouSymbol) -> None:
 
 def _break_cycle(session: Session, pou: PouSymbol) -> None:
     chain = [pou]
+    seen = {id(pou)}
     walk = pou.base
+    source, span = pou.source, pou.span
     while walk is not None:
+        if len(chain) > _DEPTH_LIMIT:
+            last = chain[-1]
+            if last.source is not None and last.span is not None:
+                session.report("E0107", last.source.uri, last.span, what="inheritance", limit=_DEPTH_LIMIT)
+            last.base = None
+            return
         if walk is pou:
             names = " -> ".join(p.name for p in [*chain, pou])
-            source, span = pou.source, pou.span
             if source is not None and span is not None:
                 session.report("E0408", source.uri, span, name=pou.name, chain=names)
             pou.base = None
             return
-        if walk in chain:
+        if id(walk) in seen:
             return
+        seen.add(id(walk))
         chain.append(walk)
         walk = walk.base
 

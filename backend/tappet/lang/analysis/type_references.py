@@ -19,6 +19,8 @@ from tappet.lang.symbols import InterfaceSymbol, NamespaceSymbol, PouSymbol, Sym
 from tappet.lang.types import Elementary, Type
 
 STRING_LIMIT = 65535
+DEPTH_LIMIT = 100
+"""Types inside types, names of names and constants from constants; deeper ones are an error (E0107)."""
 """Longest STRING in characters."""
 
 
@@ -149,6 +151,9 @@ class TypeReferences:
             return symbol.type
         _, declaration, body = entry
         ref = declaration.type_ref
+        if len(self.resolving) >= DEPTH_LIMIT:
+            body.report("E0107", ref.span, what="type", limit=DEPTH_LIMIT)
+            return None
         self.resolving.append(symbol.name)
         if isinstance(ref, ast.StructType):
             symbol.type = self._struct(body, ref, symbol.name, declaration, symbol)

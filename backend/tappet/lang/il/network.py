@@ -13,6 +13,9 @@ from tappet.lang import ast
 from tappet.lang.il.operators import Instruction
 from tappet.lang.source import Span
 
+_ROWS_AT_ONCE = 200
+"""Rows that become one expression at most; trees have a limited depth."""
+
 
 @dataclass(slots=True)
 class Level:
@@ -31,6 +34,8 @@ class Level:
     """The operator before the `(`."""
     before: list[ast.Expr] = field(default_factory=list)
     """Operands that stand before the deferred one."""
+    rows: int = 0
+    """Rows since the value was computed."""
 
 
 class Network:
@@ -76,6 +81,10 @@ class Network:
             level.start = row  # what stands before has been computed by a statement of its own
         level.value = value
         level.used = False
+        level.rows += 1
+        if level.rows >= _ROWS_AT_ONCE:
+            level.rows = 0
+            self.settle(True)
 
     def settle(self, current: bool) -> None:
         """Compute what a following statement must not change: the outer levels, and the innermost one too."""

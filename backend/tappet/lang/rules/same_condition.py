@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 CODES = ("W1131",)
 NODES = (ast.If,)
+_LOOK_BACK = 50
+"""Conditions before one that it is compared with; generated texts have thousands."""
 
 
 def check_statement(b: Body, s: ast.If) -> None:
@@ -33,7 +35,7 @@ def check_statement(b: Body, s: ast.If) -> None:
     for number, (condition, _) in enumerate(branches):
         if number == 0 or any(isinstance(e, ast.Call) for e in expressions(condition)):
             continue
-        for earlier, _ in branches[:number]:
+        for earlier, _ in branches[max(0, number - _LOOK_BACK) : number]:
             if same(earlier, condition):
                 place = Related("the same condition", b.uri, earlier.span)
                 b.report("W1131", condition.span, [place], line=earlier.span.line + 1 - _first_line(b))
