@@ -12,10 +12,11 @@ from tappet.lang import types as t
 from tappet.lang.symbols import Storage, TypeSymbol, VarSymbol
 
 CLASSES = (
-    "BOOL", "BIT", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT", "UDINT",
-    "ULINT", "REAL", "LREAL", "STRING", "WSTRING", "TIME", "DATE", "DATEANDTIME", "TIMEOFDAY", "POINTER",
-    "REFERENCE", "SUBRANGE", "ENUM", "ARRAY", "PARAMS", "USERDEF", "NONE", "ANY", "ANYBIT", "ANYDATE", "ANYINT",
-    "ANYNUM", "ANYREAL", "LAZY", "LTIME", "BITCONST", "INTERFACE", "LDATE", "LDATEANDTIME", "LTIMEOFDAY",
+    "BOOL", "BIT", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT",
+    "UDINT", "ULINT", "REAL", "LREAL", "STRING", "WSTRING", "TIME", "DATE", "DATEANDTIME", "TIMEOFDAY",
+    "POINTER", "REFERENCE", "SUBRANGE", "ENUM", "ARRAY", "PARAMS", "USERDEF", "NONE", "ANY", "ANYBIT",
+    "ANYDATE", "ANYINT", "ANYNUM", "ANYREAL", "LAZY", "LTIME", "BITCONST", "INTERFACE", "LDATE",
+    "LDATEANDTIME", "LTIMEOFDAY",
 )  # fmt: skip
 """Values of `__SYSTEM.TYPE_CLASS` from 0 on, without TYPE_."""
 
