@@ -11,7 +11,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis import addresses, conversion, folding, operators
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol, describe
-from tappet.lang.rules import EXPRESSION_RULES
+from tappet.lang.rules import BINARY_RULES
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -349,8 +349,6 @@ def _super(b: Body, e: ast.Super) -> None:
         e.type = t.Pointer(block.base.instance)
 
 
-_BINARY_RULES = EXPRESSION_RULES.get(ast.Binary, ())
-
 # -- operators --------------------------------------------------------------------------------------
 
 
@@ -371,13 +369,13 @@ def _binary(b: Body, e: ast.Binary) -> None:
         for node in reversed(spine):
             value(b, node.right)
             operators.binary(b, node)
-            for check in _BINARY_RULES:
+            for check in BINARY_RULES.get(node.op, ()):
                 check(b, node)
         return
     value(b, left)
     value(b, e.right)
     operators.binary(b, e)
-    for check in _BINARY_RULES:
+    for check in BINARY_RULES.get(e.op, ()):
         check(b, e)
 
 

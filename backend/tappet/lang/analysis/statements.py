@@ -14,7 +14,7 @@ from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
 from tappet.lang.analysis.places import writable
 from tappet.lang.analysis.result import carried_type
-from tappet.lang.rules import LIST_RULES, STATEMENT_RULES
+from tappet.lang.rules import ASSIGN_RULES, LIST_RULES, STATEMENT_RULES
 from tappet.lang.symbols import PropertySymbol, VarSymbol
 from tappet.lang.types import Elementary, Kind, Type
 
@@ -38,6 +38,12 @@ def statements(b: Body, body: list[ast.Stmt]) -> None:
         if checks is not None:
             for check in checks:
                 check(b, s)
+        if kind is ast.Assign:
+            assert isinstance(s, ast.Assign)
+            checks = ASSIGN_RULES.get(s.value.__class__)
+            if checks is not None:
+                for check in checks:
+                    check(b, s)
     for check in LIST_RULES:
         check(b, body)
 

@@ -23,7 +23,7 @@ def _modules_of(package: ModuleType) -> tuple[ModuleType, ...]:
 
 RULES = _modules_of(import_module(__name__))
 """Every rule has CODES, and the function of its kind: `check_statement` with NODES, `check_expression` with
-NODES, `check_list` (statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with
+NODES (or OPERATORS of Binary, or VALUES: classes of the value of an Assign), `check_list` (statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with
 OWN_CODE_ONLY leaves libraries out."""
 
 CODING_RULES = _modules_of(coding)
@@ -39,14 +39,27 @@ def _by_node(name: str) -> dict[type, tuple[Check, ...]]:
     table: dict[type, list[Check]] = {}
     for rule in RULES:
         check = getattr(rule, name, None)
-        if check is not None:
+        if check is not None and not hasattr(rule, "VALUES") and not hasattr(rule, "OPERATORS"):
             for node in rule.NODES:
                 table.setdefault(node, []).append(check)
     return {node: tuple(checks) for node, checks in table.items()}
 
 
+def _by_key(name: str) -> dict[Any, tuple[Check, ...]]:
+    table: dict[Any, list[Check]] = {}
+    for rule in RULES:
+        check = getattr(rule, "check_statement" if name == "VALUES" else "check_expression", None)
+        for key in getattr(rule, name, ()):
+            table.setdefault(key, []).append(check)  # type: ignore[arg-type]
+    return {key: tuple(checks) for key, checks in table.items()}
+
+
 STATEMENT_RULES = _by_node("check_statement")
 EXPRESSION_RULES = _by_node("check_expression")
+ASSIGN_RULES = _by_key("VALUES")
+"""Rules of assignments that look at values of certain classes only, by class."""
+BINARY_RULES = _by_key("OPERATORS")
+"""Rules of certain operators, by operator."""
 LIST_RULES: tuple[Check, ...] = tuple(r.check_list for r in RULES if hasattr(r, "check_list"))
 POU_RULES: tuple[Callable[[Any], None], ...] = tuple(r.check_pou for r in RULES if hasattr(r, "check_pou"))
 LIBRARY_POU_RULES: tuple[Callable[[Any], None], ...] = tuple(

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1127",)
-NODES = (ast.Assign,)
+VALUES = (ast.Call, ast.Name, ast.Member, ast.Index)
 
 
 def check_statement(b: Body, s: ast.Assign) -> None:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1107",)
-NODES = (ast.Assign,)
+VALUES = (ast.Name,)
 
 
 def check_statement(b: Body, s: ast.Assign) -> None:

@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1113",)
-NODES = (ast.Binary,)
 _MIRRORED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "=": "=", "<>": "<>"}
+OPERATORS = tuple(_MIRRORED)
 
 
 def check_expression(b: Body, e: ast.Binary) -> None:
     """Reports a comparison whose constant lies outside the range of the other operand."""
     op = e.op
-    if op not in _MIRRORED or e.left.is_constant == e.right.is_constant:
+    if e.left.is_constant == e.right.is_constant:
         return
     variable, constant = (e.left, e.right) if e.right.is_constant else (e.right, e.left)
     if e.left.is_constant:

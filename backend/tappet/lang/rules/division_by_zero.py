@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1120",)
-NODES = (ast.Binary,)
+OPERATORS = ("/", "MOD")
 
 
 def check_expression(b: Body, e: ast.Binary) -> None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1009",)
-NODES = (ast.Assign,)
+VALUES = (ast.Binary,)
 
 
 def check_statement(b: Body, s: ast.Assign) -> None:

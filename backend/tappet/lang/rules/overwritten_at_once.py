@@ -30,22 +30,21 @@ CODES = ("W1140",)
 
 def check_list(b: Body, body: list[ast.Stmt]) -> None:
     """Reports two assignments to one variable that follow each other."""
+    last: object = None
     before: ast.Assign | None = None
     for s in body:
-        if s.__class__ is not ast.Assign or s.target.__class__ is not ast.Name:  # type: ignore[attr-defined]
-            before = None
+        if not isinstance(s, ast.Assign) or not isinstance(s.target, ast.Name):
+            last = None
             continue
-        assert isinstance(s, ast.Assign)
-        target = s.target
-        assert isinstance(target, ast.Name)
-        if before is not None and s.label is None and s.op == ":=" == before.op:
-            symbol = target.symbol
-            if symbol is before.target.symbol and isinstance(symbol, VarSymbol):  # type: ignore[attr-defined]
-                _check(b, symbol, before, s)
-        before = s
+        symbol = s.target.symbol
+        if symbol is last and before is not None and isinstance(symbol, VarSymbol) and s.label is None:
+            _check(b, symbol, before, s)
+        last, before = symbol, s
 
 
 def _check(b: Body, symbol: VarSymbol, before: ast.Assign, s: ast.Assign) -> None:
+    if s.op != ":=" or before.op != ":=":
+        return
     if before.value.type is None or s.value.type is None:
         return  # what is wrong there has been reported
     if symbol.home in (Storage.DIRECT, Storage.GLOBAL) or isinstance(symbol.type, Reference):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1010",)
-NODES = (ast.Assign,)
+VALUES = (ast.Binary,)
 _WIDE = 8
 
 

@@ -26,13 +26,11 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1122",)
-NODES = (ast.Binary,)
+OPERATORS = ("=", "<>")
 
 
 def check_expression(b: Body, e: ast.Binary) -> None:
     """Reports = and <> of REAL and LREAL."""
-    if e.op not in ("=", "<>"):
-        return
     type_ = e.operand_type
     if not isinstance(type_, Elementary) or type_.kind is not Kind.REAL:
         return

@@ -24,17 +24,14 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1133",)
-NODES = (ast.Binary,)
-_OPERATIONS = frozenset(
-    {"=", "<>", "<", ">", "<=", ">=", "AND", "OR", "XOR", "AND_THEN", "OR_ELSE", "-", "/"}
-)
+OPERATORS = ("=", "<>", "<", ">", "<=", ">=", "AND", "OR", "XOR", "AND_THEN", "OR_ELSE", "-", "/")
 _PLACES = (ast.Name, ast.Member)
 
 
 def check_expression(b: Body, e: ast.Binary) -> None:
     """Reports operations on one variable twice."""
     left, right = e.left, e.right
-    if left.__class__ is not right.__class__ or left.__class__ not in _PLACES or e.op not in _OPERATIONS:
+    if left.__class__ is not right.__class__ or left.__class__ not in _PLACES:
         return
     if isinstance(left, _PLACES) and isinstance(right, _PLACES):
         if left.symbol is not right.symbol or left.is_constant or not same(left, right):

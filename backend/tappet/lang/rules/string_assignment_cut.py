@@ -21,14 +21,13 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1008",)
-NODES = (ast.Assign,)
-_PLACES = frozenset({ast.Name, ast.Member, ast.Index, ast.Deref})
+VALUES = (ast.Name, ast.Member, ast.Index, ast.Deref)
 
 
 def check_statement(b: Body, s: ast.Assign) -> None:
     """Reports a variable of a longer STRING or WSTRING on the right side."""
     target, value = s.target.type, s.value
-    if target.__class__ is not String or value.__class__ not in _PLACES or value.is_constant:
+    if target.__class__ is not String or value.is_constant:
         return
     source = value.type
     if isinstance(target, String) and isinstance(source, String) and source.length > target.length:
