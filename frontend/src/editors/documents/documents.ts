@@ -44,8 +44,9 @@ export function partUri(projectId: string, objectId: string, part: Part): string
   return `tappet:/${projectId}/${objectId}/${part}`;
 }
 
-function partsOf(data: TextData): TextParts {
-  return { declaration: data.declaration, implementation: data.implementation ?? '' };
+/** The two texts of an object; actions have no declaration of their own, types and lists no implementation. */
+function partsOf(data: Partial<TextData>): TextParts {
+  return { declaration: data.declaration ?? '', implementation: data.implementation ?? '' };
 }
 
 let draftStore: Drafts | null = null;
@@ -169,7 +170,8 @@ export class TextDocument {
     const state = this.store.getState();
     this.store.setState(savingStarted(state), true);
     try {
-      const data = { ...this.object.data, ...state.text };
+      const texts = Object.entries(state.text).filter(([part]) => part in this.object.data);
+      const data = { ...this.object.data, ...Object.fromEntries(texts) } as TextData;
       const answer = await saveObject<TextData>(this.projectId, this.objectId, state.base.revision, data, { autosave });
       this.object = answer;
       this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer.data) }));
