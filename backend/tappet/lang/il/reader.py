@@ -7,19 +7,23 @@ named parameters may span rows (IL-14).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import report
 from tappet.lang.il.network import Level
 from tappet.lang.il.operators import FRESH, INSTRUCTIONS, WITHOUT_OPERAND, WRONG_MODIFIERS, Instruction
-from tappet.lang.il.rows import BODY_ENDS, PATHS, RowReader, is_operand
+from tappet.lang.il.rows import BODY_ENDS, PATHS, RowReader, has_index
 from tappet.lang.lexer import ID
 from tappet.lang.parser_core import MAX_NESTING
 from tappet.lang.source import Span
 
 if TYPE_CHECKING:
     from tappet.lang.parser_statements import StatementParser
+
+
+_FAULTING: Final = frozenset({"/", "MOD"})
+"""Operators that can end in an exception."""
 
 
 def read_body(parser: StatementParser) -> list[ast.Stmt]:
@@ -195,6 +199,8 @@ class _Reader(RowReader):
             operands = self.operands(found.name)
         for operand in operands:
             if fine:
+                if found.operator in _FAULTING or has_index(operand):
+                    self.net.settle(True)  # so that an exception names this row
                 joined = self.joined(found.operator, self.taken(), operand, negated)
                 self.net.combine(joined, p.span_at(start))
 
@@ -291,12 +297,6 @@ class _Reader(RowReader):
         net.settle(True)
         net.emit(statement)
 
-    def check_arguments(self, call: ast.Call) -> None:
-        """Actual values are single operands (IL-14)."""
-        for argument in call.args:
-            if argument.value is not None and not is_operand(argument.value):
-                self.fault("E0124", argument.value.span)
-
     # -- functions
 
     def function(self, start: int) -> None:
@@ -328,18 +328,6 @@ class _Reader(RowReader):
             net.set(value, p.span_at(start))
         else:
             net.combine(value, p.span_at(start))
-
-    def called(
-        self, callee: ast.Expr, accumulator: ast.Expr | None, operands: list[ast.Expr], row: Span
-    ) -> ast.Call:
-        """The call of a function with the accumulator before the operands."""
-        args = [ast.Argument(span=operand.span, name=None, value=operand) for operand in operands]
-        first = None
-        if accumulator is not None:
-            first = ast.Argument(span=accumulator.span, name=None, value=accumulator)
-            args.insert(0, first)
-            row = accumulator.span.to(row) if accumulator.span[:2] < row[:2] else row
-        return ast.Call(span=row, callee=callee, args=args, accumulator=first)
 
     # -- parentheses
 
@@ -407,5 +395,8 @@ class _Reader(RowReader):
         assert value is not None
         if accumulator is not None:
             pending = level.pending
+            if pending.operator in _FAULTING:
+                net.settle(True)
+                accumulator = self.taken()
             joined = self.joined(pending.operator, accumulator, value, pending.negated)
             net.combine(joined, level.opener or at)

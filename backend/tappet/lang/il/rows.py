@@ -121,9 +121,34 @@ class RowReader:
         known = p.texts[i].upper() in INSTRUCTIONS
         return known and p.lines[i + 1] == p.lines[i] and p.kinds[i + 1] not in (",", ".")
 
+    def check_arguments(self, call: ast.Call) -> None:
+        """Actual values are single operands (IL-14)."""
+        for argument in call.args:
+            if argument.value is not None and not is_operand(argument.value):
+                self.fault("E0124", argument.value.span)
+
+    def called(
+        self, callee: ast.Expr, accumulator: ast.Expr | None, operands: list[ast.Expr], row: Span
+    ) -> ast.Call:
+        """The call of a function with the accumulator before the operands."""
+        args = [ast.Argument(span=operand.span, name=None, value=operand) for operand in operands]
+        first = None
+        if accumulator is not None:
+            first = ast.Argument(span=accumulator.span, name=None, value=accumulator)
+            args.insert(0, first)
+            row = accumulator.span.to(row) if accumulator.span[:2] < row[:2] else row
+        return ast.Call(span=row, callee=callee, args=args, accumulator=first)
+
 
 def is_operand(e: ast.Expr) -> bool:
     """A variable, a literal, or what the parser has reported."""
     if isinstance(e, ast.Unary):
         return e.op != "NOT" and isinstance(e.operand, ast.Literal)
     return isinstance(e, (*PATHS, ast.Literal, ast.ErrorExpr))
+
+
+def has_index(e: ast.Expr) -> bool:
+    """Whether a path has an index, which may be out of range."""
+    while isinstance(e, (ast.Member, ast.Deref)):
+        e = e.base
+    return isinstance(e, ast.Index)
