@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from tappet.cli.inputs import applications
-from tappet.cli.output import FormatOption, OutputFormat, show_json
+from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
 from tappet.codegen.check import check_application, format_diagnostic
 from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.rules import chosen_codes
 
 
 def check(
@@ -19,11 +21,21 @@ def check(
     ],
     output: FormatOption = OutputFormat.TEXT,
     application: Annotated[str | None, typer.Option(help="only this application of the project")] = None,
+    static: Annotated[
+        str | None,
+        typer.Option(
+            metavar="RULES", help="coding rules to check as well: 'all', or codes such as S12,S1301"
+        ),
+    ] = None,
 ) -> None:
     """Check programs without running them: one `file:line:column: severity code: message` a finding."""
+    try:
+        rules = chosen_codes(static or "")
+    except ValueError as error:
+        raise UsageError(f"--static: {error}") from error
     found: list[Diagnostic] = []
     for item in applications(paths, application):
-        found += check_application(item.sources, item.tasks, item.options)
+        found += check_application(item.sources, item.tasks, replace(item.options, static=rules))
     errors = sum(diagnostic.severity == "error" for diagnostic in found)
     warnings = sum(diagnostic.severity == "warning" for diagnostic in found)
     if output is OutputFormat.JSON:

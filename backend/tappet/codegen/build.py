@@ -67,6 +67,8 @@ class BuildOptions:
     check_only: bool = False
     """Make no object code."""
     main_program: str = "PLC_PRG"
+    static: frozenset[str] = frozenset()
+    """Codes of the optional coding rules that are checked."""
 
 
 @dataclass(slots=True)
@@ -235,6 +237,7 @@ class _Build:
                 system=options.system,
                 byte_addressing=options.byte_addressing,
                 main_program=options.main_program,
+                static=options.static,
             )
             analysis = self.session.analyse(parsed, settings)
         result.analysis = analysis

@@ -22,9 +22,10 @@ def _modules_of(package: ModuleType) -> tuple[ModuleType, ...]:
 
 
 RULES = _modules_of(import_module(__name__))
-"""Every rule has CODES, and the function of its kind: `check_statement` with NODES, `check_expression` with
-NODES (or OPERATORS of Binary, or VALUES: classes of the value of an Assign), `check_list` (statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with
-OWN_CODE_ONLY leaves libraries out."""
+"""Every rule has CODES, and the function of its kind: `check_statement` with NODES (or VALUES: an assignment
+of these classes of values), `check_expression` with NODES (or OPERATORS: a Binary of these), `check_list`
+(statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with OWN_CODE_ONLY leaves
+libraries out."""
 
 CODING_RULES = _modules_of(coding)
 """The optional coding rules: they run when `AnalysisOptions.static` names one of their codes, on what the
@@ -77,3 +78,22 @@ def coding_checks(name: str, chosen: frozenset[str]) -> tuple[Check, ...]:
         for rule in CODING_RULES
         if hasattr(rule, name) and chosen.intersection(rule.CODES)
     )
+
+
+def chosen_codes(text: str) -> frozenset[str]:
+    """The codes of the coding rules that a list such as `S12,S1301` or `all` names.
+
+    A part of a code names all that begin with it.
+
+    Raises ValueError for a part that names none.
+    """
+    known = sorted(code for rule in CODING_RULES for code in rule.CODES)
+    chosen: set[str] = set()
+    for part in text.replace(",", " ").split():
+        found = [code for code in known if part.lower() == "all" or code.startswith(part.upper())]
+        if not found:
+            raise ValueError(
+                f"no coding rule begins with '{part}'; there are {known[0]} to {known[-1]}, or 'all'"
+            )
+        chosen.update(found)
+    return frozenset(chosen)

@@ -1,0 +1,110 @@
+"""The optional coding rules: chosen by code, off by default; all rules: right after an edit, quiet."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from sample_stage import ALL_CODING_RULES
+
+from tappet import libraries
+from tappet.codegen.build import BuildOptions, LibraryReference
+from tappet.codegen.check import check_application
+from tappet.lang.analysis import Analysis, AnalysisOptions, analyse
+from tappet.lang.conditional import ParseOptions, parse_sources
+from tappet.lang.parser import parse
+from tappet.lang.rules import chosen_codes
+from tappet.lang.source import Scope, Source
+from tappet.project import folder
+from tappet.project import sources as project_sources
+
+ROOT = Path(__file__).resolve().parents[2]
+EDITS = (
+    "n := n + 1;",
+    "IF n = 1 THEN n := 2; ELSIF n = 1 THEN n := 3; END_IF",
+    "GVL.nTotal := 1437; n := F(n);",
+    "WHILE n < 10 DO x := 1; END_WHILE",
+    "RETURN; n := 1; JMP l; l: n := 2; n := 3;",
+    "n := F(1); x := n / 0;",
+    "",
+)
+OTHERS = (
+    Source("GVL", "VAR_GLOBAL nTotal : INT; bUnused : BOOL; END_VAR", name="GVL"),
+    Source(
+        "F",
+        "FUNCTION F : INT\nVAR_INPUT n, m : INT := 1; END_VAR\nVAR k : INT; END_VAR\nF := n;\nEND_FUNCTION",
+    ),
+    Source("FB", "FUNCTION_BLOCK FB\nVAR a : INT; END_VAR\na := a + 1;\nEND_FUNCTION_BLOCK"),
+)
+
+
+def _main(body: str) -> Source:
+    return Source("P", f"PROGRAM P\nVAR n, x : INT; inst : FB; END_VAR\n{body}\nEND_PROGRAM")
+
+
+def test_choice_of_rules() -> None:
+    assert chosen_codes("all") == ALL_CODING_RULES
+    assert chosen_codes("") == frozenset()
+    assert chosen_codes("s1001, S1002") == {"S1001", "S1002"}
+    assert all(code.startswith("S12") for code in chosen_codes("S12"))
+    with pytest.raises(ValueError, match=r"'X9'.*S1001"):
+        chosen_codes("S12 X9")
+
+
+def test_rules_are_off_unless_chosen() -> None:
+    units = [parse(source).unit for source in (_main(EDITS[2]), *OTHERS)]
+    assert not [d for d in analyse(units).diagnostics if d.code[0] == "S"]
+    found = {d.code for d in analyse(units, AnalysisOptions(static=chosen_codes("S1211"))).diagnostics}
+    assert {code for code in found if code[0] == "S"} == {"S1211"}
+
+
+@pytest.mark.parametrize("static", [frozenset(), ALL_CODING_RULES], ids=["off", "on"])
+def test_after_an_edit_the_messages_are_those_of_a_fresh_analysis(static: frozenset[str]) -> None:
+    options = AnalysisOptions(static=static)
+    others = [parse(source).unit for source in OTHERS]
+    previous: Analysis | None = None
+    for body in (*EDITS, *reversed(EDITS)):
+        units = [parse(_main(body)).unit, *others]
+        previous = analyse(units, options, previous)
+        fresh = analyse([parse(source).unit for source in (_main(body), *OTHERS)], options)
+        assert [str(d) for d in previous.diagnostics] == [str(d) for d in fresh.diagnostics]
+
+
+@pytest.mark.parametrize("name", sorted(libraries.names()))
+def test_libraries_give_no_warning(name: str) -> None:
+    found, _ = libraries.resolve([(name, "*", None), ("Conversion", "*", None)])
+    sources = [
+        replace(source, scope=Scope.APPLICATION if library.name == name else source.scope)
+        for library in found
+        for source in library.sources
+    ]
+    units = [result.unit for result in parse_sources(sources, ParseOptions())]
+    assert [str(d) for d in analyse(units).diagnostics if d.severity == "warning"] == []
+
+
+def test_example_project_gives_no_warning() -> None:
+    project = folder.load(ROOT / "projects" / "bottling")
+    for application in project.applications():
+        sources = project_sources.application_sources(project, application.id)
+        references = project_sources.libraries(project, application.id)
+        options = BuildOptions(libraries=tuple(_reference(r) for r in references))
+        assert [str(d) for d in check_application(sources, (), options) if d.severity == "warning"] == []
+
+
+def _reference(reference: LibraryReference) -> LibraryReference:
+    return LibraryReference(reference.name, reference.version, reference.namespace or None)
+
+
+def test_what_is_malformed_does_not_stop_the_analysis_of_the_rest() -> None:
+    texts = [
+        Source("A", "PROGRAM A\nIF THEN ;;; ) := END\n"),
+        Source("B", "\x00\x01 FUNCTION_BLOCK (* open"),
+        Source("C", "TYPE C : STRUCT x : ; END_TYPE"),
+        _main("n := nope;"),
+        *OTHERS,
+    ]
+    analysis = analyse(
+        [r.unit for r in parse_sources(texts, ParseOptions())], AnalysisOptions(static=ALL_CODING_RULES)
+    )
+    assert "E0201" in {d.code for d in analysis.diagnostics if d.uri == "P"}
