@@ -94,6 +94,8 @@ def test_checks_of_the_tree_hold_for_rows(body: str, code: str, words: str) -> N
 
 def test_message_tells_network_and_row() -> None:
     """IL-60."""
+    assert told("LD a\nST\nLD b\nST a") == [("E0120", 2, "Network 1, row 2: ST needs an operand")]
+    assert told("LD a\nST b\nLD c\nADD 1\nLD b\nST a")[0][2].startswith("Network 1, row 3: the value")
     found = told("LD a\nST b\nJMP next\nnext:\nLD a\nSUB\nST b")
     assert [(c, r) for c, r, _ in found] == [("E0120", 6)]
     assert "Network 2, row 2" in found[0][2]

@@ -26,6 +26,8 @@ class Level:
     """Whether what the accumulator holds has been stored, tested or passed on."""
     start: Span | None = None
     """Row that began to build the value."""
+    began: int = 0
+    """Number of that row."""
     pending: Instruction | None = None
     """The operation that waits for `)`; None at the outermost level, and for functions."""
     function: ast.Expr | None = None
@@ -72,7 +74,7 @@ class Network:
     def set(self, value: ast.Expr, start: Span) -> None:
         """Load the accumulator; the value of before is dropped."""
         level = self.level
-        level.value, level.used, level.start = value, False, start
+        level.value, level.used, level.start, level.began = value, False, start, self.row
 
     def combine(self, value: ast.Expr, row: Span) -> None:
         """The accumulator has become a part of `value` in a row."""

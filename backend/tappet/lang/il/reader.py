@@ -105,10 +105,11 @@ class _Reader(RowReader):
 
     def drop(self) -> None:
         """Give the accumulator up, with a warning when nothing has used its value."""
+        began = self.net.level.began
         value = self.net.drop()
         if value is not None and not isinstance(value, ast.ErrorExpr):
             self.p.diagnostics.append(
-                report("W1118", self.p.source.uri, value.span, network=self.net.number, row=self.net.row)
+                report("W1118", self.p.source.uri, value.span, network=self.net.number, row=began)
             )
 
     # -- instructions
@@ -215,6 +216,8 @@ class _Reader(RowReader):
         p, net = self.p, self.net
         fine = self.has_value(found.name, start)
         targets = self.operands(found.name)
+        if not targets:
+            self.net.level.used = True  # the row says enough
         if not fine:
             return
         for number, target in enumerate(targets):
