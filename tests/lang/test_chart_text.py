@@ -77,6 +77,15 @@ def test_conditions_may_be_any_bool() -> None:
         assert told(body + function) == [], condition
 
 
+def test_chart_belongs_to_a_program_or_block() -> None:
+    steps = "INITIAL_STEP S: END_STEP TRANSITION FROM S TO S := TRUE; END_TRANSITION"
+    for head in ("ACTION A:", "METHOD M"):
+        body = f"n := 1;\n{head}\n{steps}\nEND_{head.split()[0]}"
+        assert [c for c, _ in told(body) if c[0] == "E"] == ["E0113"]
+    found = told(f"END_PROGRAM FUNCTION F : INT\n{steps}\nEND_FUNCTION\nPROGRAM Q")
+    assert [c for c, _ in found if c[0] == "E"] == ["E0113"]
+
+
 def test_words_of_charts_stay_free() -> None:
     """STEP and INITIAL_STEP are no keywords: ST may use them as names and labels."""
     body = "Step := 3;\nIF Step > 2 THEN JMP initial_step; END_IF\ninitial_step: Step := 4;"

@@ -23,7 +23,17 @@ FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))
 
 def application(text: str, id: str = "a") -> Application:
     source = SourceText(
-        "PLC_PRG", text, "application", None, None, None, None, 0, "o", (Segment(0, "o", "declaration"),)
+        "PLC_PRG",
+        text,
+        "application",
+        None,
+        None,
+        None,
+        None,
+        0,
+        None,
+        "o",
+        (Segment(0, "o", "declaration"),),
     )
     return Application("p", id, "Application", (source,), (), (), {"o": "PLC_PRG", id: "Application"})
 

@@ -12,7 +12,7 @@ from tappet.server.source_places import SourcePlaces
 
 def _source(uri: str, scope: str, object_id: str) -> SourceText:
     segments = (Segment(0, object_id, "declaration"), Segment(4, object_id, "implementation"))
-    return SourceText(uri, "", scope, None, None, None, None, 4, object_id, segments)
+    return SourceText(uri, "", scope, None, None, None, None, 4, None, object_id, segments)
 
 
 PLACES = SourcePlaces.of(

@@ -225,7 +225,10 @@ class Parser(TypeBlockParser):
         chart = Chart()
         while True:
             kind = kinds[self.i]
-            if kind is ID and not pou.body and pou.kind in _HOLDERS and begins_step(self):
+            if kind is ID and not pou.body and begins_step(self):
+                if pou.kind not in _HOLDERS and not chart.steps:
+                    hint = "Write the chart in the body of the program or function block."
+                    self.error("E0113", what=f"A chart in a {pou.kind}", hint=hint)
                 read_step(self, chart)
                 continue
             if kind == "TRANSITION" and chart.steps and begins_transition(self):
@@ -258,7 +261,7 @@ class Parser(TypeBlockParser):
                 begun = begun or any(not isinstance(item, ast.PragmaStmt) for item in body)
                 if self.i == at and not self._foreign_end(kind):
                     break
-        if chart.steps:
+        if chart.steps and pou.kind in _HOLDERS:
             self._chart(pou, chart)
 
     def _chart(self, pou: ast.Pou, chart: Chart) -> None:
