@@ -40,8 +40,8 @@ def _by_node(name: str) -> dict[type, tuple[Check, ...]]:
     table: dict[type, list[Check]] = {}
     for rule in RULES:
         check = getattr(rule, name, None)
-        if check is not None and not hasattr(rule, "VALUES") and not hasattr(rule, "OPERATORS"):
-            for node in rule.NODES:
+        if check is not None:
+            for node in getattr(rule, "NODES", ()):
                 table.setdefault(node, []).append(check)
     return {node: tuple(checks) for node, checks in table.items()}
 

@@ -28,8 +28,14 @@ NODES = (ast.If, ast.While, ast.RepeatUntil)
 
 def check_statement(b: Body, s: ast.If | ast.While | ast.RepeatUntil) -> None:
     """Reports conditions that are an assignment as a whole."""
-    conditions = [c for c, _ in s.branches] if isinstance(s, ast.If) else [s.condition]
-    for condition in conditions:
-        if isinstance(condition, ast.AssignExpr) and not isinstance(condition.value, _COMPUTED):
-            target = condition.target
-            b.report("W1124", condition.span, name=getattr(target, "name", "a variable"))
+    if isinstance(s, ast.If):
+        for condition, _ in s.branches:
+            if condition.__class__ is ast.AssignExpr:
+                _check(b, condition)
+    else:
+        _check(b, s.condition)
+
+
+def _check(b: Body, e: ast.Expr) -> None:
+    if isinstance(e, ast.AssignExpr) and not isinstance(e.value, _COMPUTED):
+        b.report("W1124", e.span, name=getattr(e.target, "name", "a variable"))

@@ -35,8 +35,9 @@ NODES = (ast.If, ast.For, ast.While)
 def check_statement(b: Body, s: ast.If | ast.For | ast.While) -> None:
     """Reports bodies without any statement."""
     if isinstance(s, ast.If):
-        for number, (condition, body) in enumerate(s.branches):
+        for condition, body in s.branches:
             if not body:
-                b.report("W1123", condition.span, what="IF branch" if number == 0 else "ELSIF branch")
+                first = condition is s.branches[0][0]
+                b.report("W1123", condition.span, what="IF branch" if first else "ELSIF branch")
     elif not s.body:
         b.report("W1123", s.span, what="FOR loop" if isinstance(s, ast.For) else "WHILE loop")

@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1139",)
-NODES = (ast.Assign, ast.Case)
+NODES = (ast.Case,)
+VALUES = (ast.Literal, ast.Unary)
 
 
 def check_statement(b: Body, s: ast.Assign | ast.Case) -> None:

@@ -50,18 +50,19 @@ def check_pou(b: Body) -> None:
     pou = b.pou
     if pou is None or pou.pou is None:
         return
+    names = b.names
     members = pou.owner.locals if pou.owner is not None and pou.kind == "METHOD" else {}
     for block in pou.pou.blocks:
         if block.section == "VAR_EXTERNAL":
             continue
         for decl in block.variables:
             key = decl.name.upper()
-            hidden = members.get(key)
+            hidden = members.get(key) if members else None
             if hidden is not None and hidden is not decl.symbol:
                 owner = pou.owner.name if pou.owner is not None else ""
                 b.report("W1216", decl.name_span, _place(hidden), name=decl.name, owner=owner)
                 continue
-            other = b.names.get(key)
+            other = names.get(key)
             if not isinstance(other, VarSymbol) or other is decl.symbol or other.source is None:
                 continue
             if other.source.scope is not Scope.LIBRARY:

@@ -30,13 +30,10 @@ _LOOK_BACK = 50
 def check_statement(b: Body, s: ast.If) -> None:
     """Reports an ELSIF whose condition stands above it already."""
     branches = s.branches
-    if len(branches) < 2:
-        return
-    for number, (condition, _) in enumerate(branches):
-        if number == 0 or any(isinstance(e, ast.Call) for e in expressions(condition)):
-            continue
-        for earlier, _ in branches[max(0, number - _LOOK_BACK) : number]:
-            if same(earlier, condition):
+    for number in range(1, len(branches)):
+        condition = branches[number][0]
+        for earlier, _ in branches[:number]:
+            if same(earlier, condition) and not any(isinstance(e, ast.Call) for e in expressions(condition)):
                 place = Related("the same condition", b.uri, earlier.span)
                 b.report("W1131", condition.span, [place], line=earlier.span.line + 1 - _first_line(b))
                 break
