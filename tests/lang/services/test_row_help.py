@@ -121,3 +121,27 @@ def test_columns_change_nothing_else(words: list[str]) -> None:
     before = [(t.kind, t.text.upper()) for t in tokenize(Source("a", text))]
     after = [(t.kind, t.text.upper()) for t in tokenize(Source("a", format_text(text)))]
     assert after == before
+
+
+CHART = """PROGRAM PLC_PRG
+VAR lamp : BOOL; END_VAR
+INITIAL_STEP S: lamp(N); END_STEP
+STEP |T: END_STEP
+TRANSITION FROM S TO T := S.t > T#1s; END_TRANSITION
+TRANSITION FROM T TO S := NOT T.x; END_TRANSITION
+END_PROGRAM"""
+
+
+def test_steps_of_a_chart_are_found_where_they_are_written() -> None:
+    """What a chart becomes stands in no text: only written names are found, each once."""
+    p = Project(PLC_PRG=CHART)
+    found = references(p.snapshot, p.document, p.position)
+    assert [item.place.span[:2] for item in found] == [(3, 5), (4, 21), (5, 16), (5, 30)]
+    assert all(t.column >= 0 for t in semantic_tokens(p.snapshot, p.document))
+
+
+def test_flags_of_a_step_are_proposed() -> None:
+    """LSFC-50, LSFC-53."""
+    p = Project(PLC_PRG=CHART.replace("|", "").replace("S.t > T#1s", "S.|"))
+    assert {item.label for item in complete(p.workspace, p.document, p.position)} >= {"x", "t"}
+    assert "Clear" not in {item.label for item in complete(p.workspace, p.document, p.position)}

@@ -158,7 +158,7 @@ class _Finder:
     def visit(self, node: ast.Node, role: Role, body: int) -> None:
         push = self.stack.append
         if isinstance(node, ast.Name):
-            if node.symbol is not None and node.name[0] != "%":
+            if node.symbol is not None and node.name[0] != "%" and node.span != NOWHERE:
                 column = node.span.end_column - len(node.name)
                 self.add(Span(node.span.end_line, column, *node.span[2:]), role, node.symbol)
             return

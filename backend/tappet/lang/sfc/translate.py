@@ -200,7 +200,7 @@ def _wait(c: Context, initial: Step) -> list[ast.Stmt]:
 
 
 def _update_steps(c: Context) -> list[ast.Stmt]:
-    found = [call(step.name, step.name_span, step.name_span, Now=f"{CHART}.Now") for step in c.chart.steps]
+    found = [call(step.name, step.name_span, Now=f"{CHART}.Now") for step in c.chart.steps]
     return [*found, *_current_step(c)]
 
 
