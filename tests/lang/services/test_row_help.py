@@ -145,3 +145,17 @@ def test_flags_of_a_step_are_proposed() -> None:
     p = Project(PLC_PRG=CHART.replace("|", "").replace("S.t > T#1s", "S.|"))
     assert {item.label for item in complete(p.workspace, p.document, p.position)} >= {"x", "t"}
     assert "Clear" not in {item.label for item in complete(p.workspace, p.document, p.position)}
+
+
+def test_actions_are_found_at_every_step() -> None:
+    body = (
+        CHART.replace("|", "")
+        .replace("STEP T:", "STEP T: lamp(N); Act(P);")
+        .replace("S: lamp", "S: Act(N); |lamp")
+    )
+    body = body.replace("END_PROGRAM", "ACTION Act: lamp := lamp; END_ACTION\nEND_PROGRAM")
+    p = Project(PLC_PRG=body)
+    found = sorted({item.place.span.line for item in references(p.snapshot, p.document, p.position)})
+    assert found == [1, 2, 3, 6]
+    p = Project(PLC_PRG=body.replace("|", "").replace("ACTION Act", "ACTION |Act"))
+    assert [item.place.span.line for item in references(p.snapshot, p.document, p.position)] == [2, 3, 6]

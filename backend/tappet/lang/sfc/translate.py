@@ -34,6 +34,8 @@ class Context:
     head: Span
     actions: dict[str, tuple[str, Span]] = field(default_factory=dict)
     """Actions and BOOL variables by upper-case name, with their spelling and first place."""
+    mentions: list[tuple[str, Span]] = field(default_factory=list)
+    """Further places that name one of them."""
 
 
 def translate(
@@ -45,8 +47,10 @@ def translate(
     initial = _check(c)
     for step in chart.steps:
         for item in step.associations:
-            if item.action:
-                c.actions.setdefault(item.action.upper(), (item.action, item.action_span))
+            if item.action.upper() in c.actions:
+                c.mentions.append((item.action, item.action_span))
+            elif item.action:
+                c.actions[item.action.upper()] = (item.action, item.action_span)
     block = ast.VarBlock(section="VAR", flags=set(), variables=_variables(c), span=head)
     if initial is None:
         return [block], []
@@ -250,13 +254,19 @@ def _run_actions(c: Context) -> list[ast.Stmt]:
     for member in ("Last", "Run"):
         for spelling, span in ordered:
             control = control_of(spelling)
-            run = when(f"{control}.{member}", [call(spelling, span, span)], span)
+            at = span if member == "Run" else NOWHERE
+            run = when(f"{control}.{member}", [call(spelling, span, at)], span)
             write = [put(spelling, f"{control}.Run", span, span)] if member == "Run" else []
             found.append(
                 ast.WhenDeclared(
                     names=[spelling], step=owner[spelling.upper()], body=write, otherwise=[run], span=span
                 )
             )
+    for spelling, span in c.mentions:  # so that every place is found; `Clear` is never TRUE here
+        control = control_of(c.actions[spelling.upper()][0])
+        never = when(f"{control}.Clear", [call(spelling, span, span)], span)
+        write = [put(spelling, f"{control}.Run", span, span)]
+        found.append(ast.WhenDeclared(names=[spelling], body=write, otherwise=[never], span=span))
     return found
 
 
