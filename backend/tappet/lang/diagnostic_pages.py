@@ -37,7 +37,8 @@ _GROUPS = {
     "S11": "Coding rules: comments and declarations",
     "S12": "Coding rules: statements and expressions",
     "S13": "Coding rules: size and structure",
-    "S14": "Coding rules: tasks and data",
+    "S14": "Coding rules: use of data and blocks",
+    "S15": "Coding rules: tasks",
 }
 
 

@@ -397,7 +397,10 @@ def _fold(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
             if e.untyped and op not in ("AND", "OR", "XOR"):
                 e.is_constant = True
                 if computed.kind is Kind.TIME:
-                    e.constant = folding.wrap(e.constant, computed)
+                    exact, e.constant = e.constant, folding.wrap(e.constant, computed)
+                    if isinstance(exact, int) and isinstance(e.constant, int) and exact != e.constant:
+                        fields = {"value": f"{exact} ms", "wrapped": f"{e.constant} ms", "call": "LTIME#..."}
+                        b.report("W1007", e.span, type=computed, **fields)
                 else:
                     _name_untyped(b, e)
                 return

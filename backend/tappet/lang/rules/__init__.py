@@ -29,11 +29,11 @@ libraries out."""
 
 CODING_RULES = _modules_of(coding)
 """The optional coding rules: they run when `AnalysisOptions.static` names one of their codes, on what the
-project itself declares. They have `check_pou`, `check_program`, or `check_unit` (one text)."""
+project itself declares. They have `check_pou`, `check_program`, `check_unit` (one text) or `check_tasks`."""
 
 ALL_RULES = RULES + CODING_RULES
 
-Check = Callable[[Any, Any], None]
+Check = Callable[[Any, Any], Any]
 
 
 def _by_node(name: str) -> dict[type, tuple[Check, ...]]:
