@@ -7,7 +7,7 @@ PORT   ?= 8080
 DATA   ?= data
 
 .DEFAULT_GOAL := run
-.PHONY: run test test-all check format lock system generate pictures clean
+.PHONY: run test test-all fuzz check format lock system generate pictures clean
 
 ## run: set everything up, then serve the IDE with a running example machine and print its address
 run: $(VENV)/.ready frontend/dist/.ready
@@ -22,6 +22,12 @@ test: $(VENV)/.ready frontend/dist/.ready system check
 test-all: $(VENV)/.ready frontend/dist/.ready system check
 	cd frontend && npm run --silent test
 	$(BIN)/python -m pytest -n 2 --dist loadfile
+
+## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
+FUZZ    ?= lexer parser checker compiler il plcopen twincat export text
+SECONDS ?= 300
+fuzz: $(VENV)/.ready
+	for name in $(FUZZ); do $(BIN)/python -m tests.fuzz $$name --seconds $(SECONDS) --to build/fuzz || exit 1; done
 
 ## check: format, lint, types, imports
 check: $(VENV)/.ready frontend/node_modules/.ready

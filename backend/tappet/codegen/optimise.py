@@ -84,8 +84,17 @@ def _optimised(text: str, options: OptimiseOptions, machine: llvm.TargetMachine)
     tuning.loop_vectorization = options.level >= 2
     tuning.slp_vectorization = options.level >= 2
     builder = llvm.create_pass_builder(machine, tuning)
-    builder.getModulePassManager().run(module, builder)
+    manager = builder.getModulePassManager()
+    manager.run(module, builder)
+    _free(manager)
     return module
+
+
+def _free(manager: llvm.ModulePassManager) -> None:
+    """Give a pass manager back: llvmlite 0.50 overrides its own disposal, and 50 KiB a build would stay."""
+    if type(manager).__dict__.get("_dispose") is None:
+        llvm.newpassmanagers.NewPassManager._dispose(manager)
+        manager.detach()
 
 
 class ObjectCache:

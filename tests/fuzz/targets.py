@@ -1,0 +1,105 @@
+"""What is fuzzed: everything that reads text or bytes of a person or of another tool.
+
+A target takes bytes and returns; anything it raises, other than what its contract names, is a find.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from pathlib import Path
+
+from tappet.codegen.build import BuildOptions, BuildSession, build_application
+from tappet.lang.lexer import tokenize
+from tappet.lang.parser import parse
+from tappet.lang.source import Source
+from tappet.project.exchange.importing import import_files
+from tappet.project.exchange.report import ExchangeError
+
+TESTS = Path(__file__).resolve().parents[1]
+SAMPLES = TESTS / "project" / "exchange" / "samples"
+SESSION = BuildSession()
+
+
+def _text(data: bytes) -> str:
+    return data.decode("utf-8", "replace")
+
+
+def lexer(data: bytes) -> None:
+    tokenize(Source("a.st", _text(data)))
+
+
+def parser(data: bytes) -> None:
+    text = _text(data)
+    parse(Source("a.st", text))
+    parse(Source("FB_A.Start", text, owner="FB_A"))
+
+
+def checker(data: bytes) -> None:
+    """Parser, analysis with all rules, lowering and generation; code is made by nobody."""
+    options = BuildOptions(check_only=True)
+    build_application([Source("a.st", _text(data))], (), options, session=SESSION)
+
+
+def compiler(data: bytes) -> None:
+    """As `checker`, with object code of what has no errors."""
+    build_application([Source("a.st", _text(data))], (), BuildOptions(level=0), session=SESSION)
+
+
+def il(data: bytes) -> None:
+    """The bytes are the rows of a body."""
+    head = "PROGRAM PLC_PRG\nVAR a, b : INT; x, y : BOOL; r : REAL; t1 : TON; s : STRING; END_VAR\nLD a\n"
+    checker(head.encode() + data + b"\nEND_PROGRAM\n")
+
+
+def _import(name: str, data: bytes) -> None:
+    with contextlib.suppress(ExchangeError):
+        import_files({name: data})
+
+
+def plcopen(data: bytes) -> None:
+    _import("a.xml", data)
+
+
+def twincat(data: bytes) -> None:
+    for ending in ("TcPOU", "TcDUT", "TcGVL", "TcTTO", "plcproj"):
+        _import(f"a.{ending}", data)
+
+
+def export_file(data: bytes) -> None:
+    """CoDeSys 2.3."""
+    _import("a.EXP", data)
+
+
+def plain_text(data: bytes) -> None:
+    _import("a.st", data)
+
+
+def _files(folder: Path, *endings: str) -> list[bytes]:
+    found = [
+        p for p in sorted(folder.rglob("*")) if p.suffix.lower() in endings and p.stat().st_size < 20_000
+    ]
+    return [p.read_bytes() for p in found]
+
+
+def _programs() -> list[bytes]:
+    return _files(TESTS / "conformance", ".st")
+
+
+def _rows() -> list[bytes]:
+    texts = [d.decode() for d in _files(TESTS / "conformance" / "il", ".st")]
+    return [t.rpartition("END_VAR")[2].partition("END_PROGRAM")[0].encode() for t in texts]
+
+
+TARGETS: dict[str, tuple[Callable[[bytes], None], Callable[[], list[bytes]]]] = {
+    "lexer": (lexer, _programs),
+    "parser": (parser, _programs),
+    "checker": (checker, _programs),
+    "compiler": (compiler, _programs),
+    "il": (il, _rows),
+    "plcopen": (plcopen, lambda: _files(SAMPLES, ".xml")),
+    "twincat": (twincat, lambda: _files(SAMPLES, ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".plcproj")),
+    "export": (export_file, lambda: _files(SAMPLES, ".exp") or _programs()),
+    "text": (plain_text, _programs),
+}
+"""Target and its seeds by name."""

@@ -1,0 +1,34 @@
+"""A short run of every fuzz target with fixed seeds; long ones: `python -m tests.fuzz NAME --seconds 300`."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from mutations import mutated
+from targets import TARGETS
+
+RUNS = {"compiler": 60, "checker": 120, "il": 120}
+
+
+def fuzz(name: str, start: int, count: int) -> None:
+    target, seeds = TARGETS[name]
+    corpus = seeds()
+    assert corpus
+    for number in range(start, start + count):
+        data = mutated(Random(number), corpus)
+        try:
+            target(data)
+        except Exception as error:
+            raise AssertionError(f"{name} {number}: {error!r}\n{data.decode('utf-8', 'replace')}") from error
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_nothing_escapes(name: str) -> None:
+    fuzz(name, 0, RUNS.get(name, 200))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TARGETS)
+def test_nothing_escapes_for_long(name: str) -> None:
+    fuzz(name, 100_000, 20 * RUNS.get(name, 200))
