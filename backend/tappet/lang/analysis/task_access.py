@@ -37,7 +37,7 @@ def check_shared(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
     if len(tasks) > 1 and isinstance(state, State):
         reaches = [_reach(task, analysis, state) for task in tasks]
         for variable in _shareable(analysis):
-            found += _check(variable, reaches)
+            found += _check(variable, reaches, "S1505" in analysis.options.static)
     return found
 
 
@@ -100,7 +100,7 @@ def _direct(program: PouSymbol) -> Iterator[VarSymbol]:
             yield variable
 
 
-def _check(variable: VarSymbol, reaches: Sequence[_Reach]) -> Iterator[Diagnostic]:
+def _check(variable: VarSymbol, reaches: Sequence[_Reach], torn: bool) -> Iterator[Diagnostic]:
     key = id(variable)
     type_, source, span = variable.type, variable.source, variable.span
     writers = [r for r in reaches if key in r.written]
@@ -113,12 +113,12 @@ def _check(variable: VarSymbol, reaches: Sequence[_Reach]) -> Iterator[Diagnosti
     if len(writers) > 1:
         names = " and ".join(f"'{r.task}' (in {r.written[key]})" for r in writers)
         yield report("W1408" if block else "W1405", source.uri, span, name=variable.name, tasks=names)
-    elif not block and type_.size > _AT_ONCE:
+    elif torn and not block and type_.size > _AT_ONCE:
         readers = [r for r in reaches if key in r.used and r is not writers[0]]
         if readers:
             writer = writers[0]
             yield report(
-                "W1406",
+                "S1505",
                 source.uri,
                 span,
                 name=variable.name,

@@ -38,7 +38,8 @@ from tappet.lang.source import NOWHERE
 if TYPE_CHECKING:
     from tappet.lang.analysis.tasks import Task
 
-CODES = ("S1501", "S1502", "S1503", "S1504")
+CODES = ("S1501", "S1502", "S1503", "S1504", "S1505")
+"""S1505 needs to know what the tasks read and write: see `analysis.task_access`."""
 
 
 def check_tasks(tasks: Sequence[Task], chosen: frozenset[str]) -> list[Diagnostic]:
