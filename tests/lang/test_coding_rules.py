@@ -108,3 +108,13 @@ def test_what_is_malformed_does_not_stop_the_analysis_of_the_rest() -> None:
         [r.unit for r in parse_sources(texts, ParseOptions())], AnalysisOptions(static=ALL_CODING_RULES)
     )
     assert "E0201" in {d.code for d in analysis.diagnostics if d.uri == "P"}
+
+
+def test_long_flat_texts_are_no_trouble_for_the_rules() -> None:
+    long = " AND ".join(["b"] * 3000)
+    chain = "".join(f"ELSIF n = {number} THEN n := 1;\n" for number in range(900))
+    first = f"IF {long} THEN n := 1; ELSIF {long} THEN n := 1; ELSE n := 1; END_IF"
+    body = f"{first}\nIF b THEN n := 2;\n{chain}END_IF"
+    source = Source("P", f"PROGRAM P\nVAR b : BOOL; n : INT; END_VAR\n{body}\nEND_PROGRAM")
+    analysis = analyse([parse(source).unit], AnalysisOptions(static=ALL_CODING_RULES))
+    assert not [d for d in analysis.diagnostics if d.severity == "error"]

@@ -109,22 +109,29 @@ def targets(s: ast.Stmt) -> Iterator[ast.Expr]:
 
 
 def same(one: object, other: object) -> bool:
-    """Whether two expressions or statements say the same, places left out."""
+    """Whether two expressions or statements say the same, places left out; False for very long ones."""
+    try:
+        return _same(one, other)
+    except RecursionError:
+        return False
+
+
+def _same(one: object, other: object) -> bool:
     if one.__class__ is not other.__class__:
         return False
     if isinstance(one, list):
         assert isinstance(other, list)
-        return len(one) == len(other) and all(map(same, one, other))
+        return len(one) == len(other) and all(map(_same, one, other))
     if isinstance(one, tuple):
         assert isinstance(other, tuple)
-        return len(one) == len(other) and all(map(same, one, other))
+        return len(one) == len(other) and all(map(_same, one, other))
     if isinstance(one, ast.Node):
         for name in _compared(one.__class__):
             mine, its = getattr(one, name), getattr(other, name)
             if name == "name" and isinstance(mine, str) and isinstance(its, str):
                 if mine.upper() != its.upper():
                     return False
-            elif not same(mine, its):
+            elif not _same(mine, its):
                 return False
         return True
     return one == other

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 CODES = ("W1131",)
 NODES = (ast.If,)
+_COMPARED = 50
+"""So many branches are compared with each other; the time grows with the square."""
 _LOOK_BACK = 50
 """Conditions before one that it is compared with; generated texts have thousands."""
 
@@ -30,7 +32,7 @@ _LOOK_BACK = 50
 def check_statement(b: Body, s: ast.If) -> None:
     """Reports an ELSIF whose condition stands above it already."""
     branches = s.branches
-    for number in range(1, len(branches)):
+    for number in range(1, min(len(branches), _COMPARED)):
         condition = branches[number][0]
         for earlier, _ in branches[:number]:
             if same(earlier, condition) and not any(isinstance(e, ast.Call) for e in expressions(condition)):
