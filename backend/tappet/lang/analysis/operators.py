@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import conversion, folding
+from tappet.lang.analysis import constant_overflow, conversion, folding
 from tappet.lang.analysis.adaptation import complain, retype
 from tappet.lang.analysis.context import Body
 from tappet.lang.types import Elementary, Kind, Type
@@ -354,19 +354,6 @@ def _incompatible(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr, hint:
         e.type = None
 
 
-_GROWING = frozenset({"+", "-", "*"})
-
-
-def _check_overflow(b: Body, e: ast.Binary, op: str, lv: object, rv: object, computed: Elementary) -> None:
-    """Warns when a result of typed constants is wrapped; of bit strings this is meant."""
-    if not isinstance(lv, int) or not isinstance(rv, int) or computed.kind is Kind.BITS:
-        return
-    exact = lv + rv if op == "+" else lv - rv if op == "-" else lv * rv
-    if exact != e.constant:
-        larger = "LINT" if computed.size < 8 else "LREAL"
-        b.report("W1007", e.span, value=exact, type=computed, wrapped=e.constant, call=f"TO_{larger}(x)")
-
-
 def _fold(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
     lv, rv, op = left.constant, right.constant, e.op
     if lv is None or rv is None:
@@ -392,15 +379,13 @@ def _fold(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
             ):
                 return
             e.constant = folding.arithmetic(op, lv, rv, None if e.untyped else computed)
-            if not e.untyped and computed.is_integer and op in _GROWING:
-                _check_overflow(b, e, op, lv, rv, computed)
+            if not e.untyped and computed.is_integer:
+                constant_overflow.of_integers(b, e, op, lv, rv, computed)
             if e.untyped and op not in ("AND", "OR", "XOR"):
                 e.is_constant = True
                 if computed.kind is Kind.TIME:
                     exact, e.constant = e.constant, folding.wrap(e.constant, computed)
-                    if isinstance(exact, int) and isinstance(e.constant, int) and exact != e.constant:
-                        fields = {"value": f"{exact} ms", "wrapped": f"{e.constant} ms", "call": "LTIME#..."}
-                        b.report("W1007", e.span, type=computed, **fields)
+                    constant_overflow.of_time(b, e, exact, computed)
                 else:
                     _name_untyped(b, e)
                 return
