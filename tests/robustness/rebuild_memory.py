@@ -1,6 +1,6 @@
 """Edits and rebuilds one application in this process, as the compiler process of the server does.
 
-`python rebuild_memory.py COUNT` prints the resident memory in KiB after a tenth of the builds, and at the end.
+`python rebuild_memory.py COUNT` prints resident memory in KiB after a tenth of the builds, and at the end.
 """
 
 from __future__ import annotations
