@@ -214,6 +214,7 @@ def test_usual_types_come_first() -> None:
         ("iCount := F|", "F_Add(...)", "F_Add(a := $1, b := $2)$0"),
         ("guarded.|", "Open(...)", "Open(xFast := $1);$0"),
         ("timer(|", "IN :=, PT :=, Q =>, ...", "IN := $1, PT := $2, Q => $3, ET => $4"),
+        ("timer(|\nxFlag := TRUE;", "IN :=, PT :=, Q =>, ...", "IN := $1, PT := $2, Q => $3, ET => $4"),
     ],
 )
 def test_whole_calls_with_a_place_for_each_parameter(code: str, label: str, insert: str) -> None:

@@ -29,7 +29,8 @@ def parameters(scope: Scope, call: EnclosingCall, first: bool) -> Iterator[Compl
     if pou is None:
         return
     pins = [pin for pin in ordered_pins(pou) if pin.name.upper() not in call.given]
-    if first and not call.given and len(pins) > 1:
+    # Behind a parenthesis that is not closed yet, names of the next statements look like given ones.
+    if first and len(pins) == len(ordered_pins(pou)) > 1:
         shown = ", ".join(f"{pin.name} {_ARROWS[pin.section]}" for pin in pins[:3])
         label = f"{shown}{', ...' if len(pins) > 3 else ''}"
         text = "All parameters of the call."
