@@ -1,0 +1,185 @@
+"""Leaves of random expressions: literals, and places over the variables of one scope."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+import typed_tree as tree
+from typed_tree import (
+    BOOL,
+    DATE,
+    DINT,
+    INT,
+    INTEGERS,
+    LDT,
+    LINT,
+    NUMBERS,
+    REAL,
+    TOD,
+    Array,
+    Block,
+    Builtin,
+    Enum,
+    Expr,
+    Index,
+    Literal,
+    Member,
+    Name,
+    Scalar,
+    Struct,
+    Text,
+    Type,
+    Variable,
+    base_of,
+)
+
+_FLOATS = [0.0, -0.0, 1.0, -1.0, 0.5, 1.5, -2.5, 0.1, 3.0, 100.0, 1e10, 16777217.0, -1e-3, 127.5, 65535.5]
+_SINGLE = [1.1754944e-38, 1.4e-45, 3.4028235e38, -3.4028235e38, 2147483648.0]
+_DOUBLE = [5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, -1e300, 9007199254740993.0, 9.3e18]
+_TEXTS = ["", "a", "A", "abc", "12", "TRUE", "x y", "zz9", "hello world", "0"]
+
+
+def single(value: float) -> float:
+    return float(struct.unpack("<f", struct.pack("<f", value))[0])
+
+
+@dataclass
+class Leaves:
+    """Literals and variables; what is made of them comes with the subclass."""
+
+    r: Random
+    variables: list[Variable] = field(default_factory=list)
+    fixed: set[str] = field(default_factory=set)
+    """Variables nothing is assigned to: counters and guards of loops."""
+    texts: bool = True
+
+    def chance(self, percent: int) -> bool:
+        return self.r.randrange(100) < percent
+
+    # -- leaves -------------------------------------------------------------------------------------
+
+    def literal_value(self, type_: Type) -> Any:
+        """A value of a simple type; limits and small numbers are frequent."""
+        r = self.r
+        if isinstance(type_, Enum):
+            return r.choice(type_.members)[1]
+        if isinstance(type_, Text):
+            return r.choice(_TEXTS)[: type_.length]
+        if isinstance(type_, tree.Subrange):
+            return r.randint(type_.low, type_.high)
+        assert isinstance(type_, Scalar)
+        if type_ == BOOL:
+            return bool(r.randrange(2))
+        if type_.kind == "real":
+            value = r.choice(_FLOATS + (_SINGLE if type_ == REAL else _SINGLE + _DOUBLE))
+            return single(value) if type_ == REAL else value
+        if type_.kind in ("time", "date"):
+            number = r.choice(
+                [0, 1, 7, 999, 1000, 12345, 86_399_999, 100_000, type_.high // type_.unit_ns // 3]
+            )
+            if type_ == DATE:
+                return number // 86_400 * 86_400
+            if type_.bits == 64:
+                number = r.choice([0, 1, 999_999, 1_000_000, 123_456_789_012, 86_400_000_000_000, 2**40])
+                return number // 1_000_000_000 * 1_000_000_000 if type_ == LDT else number
+            return number % 86_400_000 if type_ == TOD else number
+        near = [0, 1, 2, 3, 7, 100, type_.high, type_.low, type_.high - 1, type_.low + 1, type_.high // 2]
+        if type_.low < 0:
+            near += [-1, -2, -7]
+        return r.choice(near) if self.chance(70) else r.randint(type_.low, type_.high)
+
+    def literal(self, type_: Type, value: Any = None) -> Literal:
+        if value is None:
+            value = self.literal_value(type_)
+        return Literal(type_, base_of(type_), True, value)
+
+    def places(self, wanted: Any, writable: bool = False, depth: int = 2) -> list[Expr]:
+        """All places of a kind: `wanted` is a test of the type."""
+        found: list[Expr] = []
+        for v in self.variables:
+            if writable and v.name in self.fixed:
+                continue
+            self._descend(Name(v.type, base_of(v.type), False, v.name), wanted, depth, found, writable)
+        return found
+
+    def _descend(self, e: Expr, wanted: Any, depth: int, found: list[Expr], writable: bool) -> None:
+        if wanted(e.type):
+            found.append(e)
+        if depth == 0:
+            return
+        if isinstance(e.type, Struct):
+            for name, type_ in e.type.members:
+                self._descend(
+                    Member(type_, base_of(type_), False, e, name), wanted, depth - 1, found, writable
+                )
+        elif isinstance(e.type, Array):
+            element = Index(e.type.element, base_of(e.type.element), False, e, [])
+            self._descend(element, wanted, depth - 1, found, writable)
+        elif isinstance(e.type, Block) and not writable:
+            for v in e.type.outputs:
+                self._descend(
+                    Member(v.type, base_of(v.type), False, e, v.name), wanted, depth - 1, found, writable
+                )
+
+    def filled(self, e: Expr, depth: int) -> Expr:
+        """A place with the indices its arrays need."""
+        if isinstance(e, Member):
+            return Member(e.type, e.held, False, self.filled(e.base, depth), e.name)
+        if isinstance(e, Index):
+            base = self.filled(e.base, depth)
+            assert isinstance(base.type, Array)
+            return Index(e.type, e.held, False, base, [self.index(*b, depth) for b in base.type.bounds])
+        return e
+
+    def index(self, low: int, high: int, depth: int) -> Expr:
+        """An index, nearly always inside the bounds."""
+        if depth <= 0 or self.chance(40):
+            return self.literal(DINT, self.r.randint(low, high))
+        if self.chance(4):
+            return self.moving(self.r.choice(INTEGERS), depth - 1)
+        type_ = self.r.choice((INT, DINT, LINT))
+        args: list[Expr] = [
+            self.literal(type_, low),
+            self.moving(type_, depth - 1),
+            self.literal(type_, high),
+        ]
+        return Builtin(type_, type_, False, "LIMIT", args, [type_] * 3)
+
+    def variable(self, type_: Type, depth: int) -> Expr | None:
+        """A place whose type counts as `type_`."""
+        base = base_of(type_)
+        exact = isinstance(type_, Enum)
+        found = self.places(lambda t: t is type_ if exact else base_of(t) == base)
+        return self.filled(self.r.choice(found), depth) if found else None
+
+    def leaf(self, type_: Type, depth: int = 0) -> Expr:
+        if self.chance(75):
+            found = self.variable(type_, depth)
+            if found is not None:
+                return found
+        return self.literal(type_)
+
+    def moving(self, type_: Type, depth: int) -> Expr:
+        """An expression that is no constant."""
+        for _ in range(2):
+            e = self.expr(type_, depth)
+            if not e.constant:
+                return e
+        found = self.variable(type_, 0)
+        if found is not None:
+            return found
+        other = self.places(lambda t: base_of(t) in NUMBERS)
+        if isinstance(type_, Scalar) and type_ in (*NUMBERS, BOOL) and other:
+            return self.converted(self.filled(self.r.choice(other), 0), type_)
+        return self.literal(type_)
+
+    def expr(self, type_: Type, depth: int) -> Expr:
+        """An expression whose static type counts as `type_`."""
+        raise NotImplementedError
+
+    def converted(self, operand: Expr, target: Scalar) -> Expr:
+        source = base_of(operand.type)
+        return Builtin(target, target, operand.constant, "convert", [operand], [source])
