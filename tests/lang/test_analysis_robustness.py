@@ -253,18 +253,22 @@ EXPRESSIONS = st.recursive(
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(EXPRESSIONS, EXPRESSIONS)
 def test_any_expression(left: str, right: str) -> None:
-    analysis = _analyse(
-        "TYPE E1 : (one, two); END_TYPE TYPE S1 : STRUCT x : INT; END_STRUCT END_TYPE "
-        "FUNCTION F1 : INT VAR_INPUT a : INT; END_VAR F1 := a; END_FUNCTION "
-        "FUNCTION_BLOCK FB1 VAR_OUTPUT q : BOOL; END_VAR METHOD Up : INT Up := 1; END_METHOD "
-        "END_FUNCTION_BLOCK "
-        "PROGRAM P VAR i : INT; r : REAL; b : BOOL; s : STRING; a : ARRAY[0..9] OF INT; st1 : S1; e : E1; "
-        f"p : POINTER TO S1; fb : FB1; END_VAR\n{left} := {right};\nIF {left} THEN {right}; "
-        f"END_IF\nEND_PROGRAM"
+    parsed = parse(
+        Source(
+            "t",
+            "TYPE E1 : (one, two); END_TYPE TYPE S1 : STRUCT x : INT; END_STRUCT END_TYPE "
+            "FUNCTION F1 : INT VAR_INPUT a : INT; END_VAR F1 := a; END_FUNCTION "
+            "FUNCTION_BLOCK FB1 VAR_OUTPUT q : BOOL; END_VAR METHOD Up : INT Up := 1; END_METHOD "
+            "END_FUNCTION_BLOCK "
+            "PROGRAM P VAR i : INT; r : REAL; b : BOOL; s : STRING; a : ARRAY[0..9] OF INT; st1 : S1; e : E1; "
+            f"p : POINTER TO S1; fb : FB1; END_VAR\n{left} := {right};\nIF {left} THEN {right}; "
+            f"END_IF\nEND_PROGRAM",
+        )
     )
+    analysis = analyse([parsed.unit])
     program = next(p for p in analysis.pous if p.name == "P")
     assert program.pou is not None
-    errors = any(d.severity == "error" for d in analysis.diagnostics)
+    errors = any(d.severity == "error" for d in [*parsed.diagnostics, *analysis.diagnostics])
     for statement in program.pou.body:
         if isinstance(statement, ast.Assign) and not errors:
             assert statement.value.type is not None

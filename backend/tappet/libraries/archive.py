@@ -29,7 +29,16 @@ _VERSION = re.compile(r"^[0-9]+(\.[0-9]+){0,3}$")
 _STAMP = (1980, 1, 1, 0, 0, 0)
 """Time of the files in an archive, so that equal libraries are equal files."""
 
-_DAMAGE = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError, ValueError)
+_DAMAGE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    NotImplementedError,
+    RuntimeError,
+    EOFError,
+    OSError,
+    ValueError,
+    IndexError,
+)
 """What reading a damaged zip raises."""
 
 

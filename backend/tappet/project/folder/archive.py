@@ -20,6 +20,7 @@ from tappet.project.naming import name_key, normal_name
 
 _READ_ERRORS = (
     zipfile.BadZipFile,
+    IndexError,  # zipfile on some damaged directories
     zlib.error,
     EOFError,
     NotImplementedError,
