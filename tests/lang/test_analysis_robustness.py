@@ -260,8 +260,8 @@ def test_any_expression(left: str, right: str) -> None:
             "FUNCTION F1 : INT VAR_INPUT a : INT; END_VAR F1 := a; END_FUNCTION "
             "FUNCTION_BLOCK FB1 VAR_OUTPUT q : BOOL; END_VAR METHOD Up : INT Up := 1; END_METHOD "
             "END_FUNCTION_BLOCK "
-            "PROGRAM P VAR i : INT; r : REAL; b : BOOL; s : STRING; a : ARRAY[0..9] OF INT; st1 : S1; e : E1; "
-            f"p : POINTER TO S1; fb : FB1; END_VAR\n{left} := {right};\nIF {left} THEN {right}; "
+            "PROGRAM P VAR i : INT; r : REAL; b : BOOL; s : STRING; a : ARRAY[0..9] OF INT; st1 : S1; "
+            f"e : E1; p : POINTER TO S1; fb : FB1; END_VAR\n{left} := {right};\nIF {left} THEN {right}; "
             f"END_IF\nEND_PROGRAM",
         )
     )

@@ -9,6 +9,7 @@ import io
 import json
 import re
 import shutil
+import struct
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -37,7 +38,9 @@ _DAMAGE = (
     EOFError,
     OSError,
     ValueError,
+    OverflowError,
     IndexError,
+    struct.error,
 )
 """What reading a damaged zip raises."""
 
