@@ -4,8 +4,7 @@
  * `commandContext()` builds it now; components that show commands use `useCommandContext()`, which follows every store
  * that the snapshot is made of.
  */
-import { useQuery } from '@tanstack/react-query';
-import { keys, queryClient } from '@/api/queries';
+import { keys, queryClient, useObjects } from '@/api/queries';
 import type { DeviceData, ObjectSummary, ProjectObject, Role } from '@/api/types';
 import { useSession } from '@/app/session';
 import { useRegistry } from './commands';
@@ -84,6 +83,6 @@ export function useCommandContext(): CommandContext {
   useSelection();
   useOnline();
   useRegistry((state) => state.version);
-  useQuery({ queryKey: keys.objects(projectId ?? ''), enabled: false, queryFn: () => Promise.resolve([]) });
+  useObjects(projectId);
   return commandContext();
 }
