@@ -171,7 +171,7 @@ export class TextDocument {
     this.store.setState(savingStarted(state), true);
     try {
       const texts = Object.entries(state.text).filter(([part]) => part in this.object.data);
-      const data = { ...this.object.data, ...Object.fromEntries(texts) } as TextData;
+      const data = { ...this.object.data, ...Object.fromEntries(texts) };
       const answer = await saveObject<TextData>(this.projectId, this.objectId, state.base.revision, data, { autosave });
       this.object = answer;
       this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer.data) }));
