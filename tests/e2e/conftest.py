@@ -25,11 +25,15 @@ AS_DELIVERED = """async () => {
     const headers = {'X-Tappet-Client': '1', 'Content-Type': 'application/json'};
     const send = (path, body) =>
         fetch('/api/v1' + path, {method: 'POST', headers, body: JSON.stringify(body)});
-    for (const project of await (await fetch('/api/v1/projects')).json())
+    const read = async (path) => (await fetch('/api/v1' + path)).json();
+    for (const project of await read('/projects')) {
         if (project.revision > 1) await send(`/projects/${project.id}/revert`, {revision: 1});
-    await send('/runtimes/local/values/unforce', {expressions: null});
-    await send('/runtimes/local/reset', {kind: 'cold'});
-    await send('/runtimes/local/start', {});
+        const objects = await read(`/projects/${project.id}/objects`);
+        const application = objects.find((object) => object.kind === 'application');
+        await send('/runtimes/local/values/unforce', {expressions: null});
+        await send(`/projects/${project.id}/applications/${application.id}/download`,
+            {runtime_id: 'local', mode: 'download', start: true});
+    }
 }"""
 """Undoes what an earlier test did to the example and to the machine."""
 CHROMIUM_FLAGS = [
