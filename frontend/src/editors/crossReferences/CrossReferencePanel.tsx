@@ -9,6 +9,7 @@ import { useProject } from '@/workbench/project';
 import { IconButton } from '@/workbench/ui/Button';
 import { Empty } from '@/workbench/ui/Empty';
 import { TextInput } from '@/workbench/ui/Field';
+import { FilterToggle } from '@/workbench/ui/FilterToggle';
 import { Table } from '@/workbench/ui/Table';
 import type { Column } from '@/workbench/ui/table';
 import styles from './CrossReferencePanel.module.css';
@@ -145,14 +146,9 @@ export default function CrossReferencePanel() {
           onClick={() => void guard(refreshCrossReferences)}
         />
         {ACCESSES.map((access) => (
-          <button
-            key={access}
-            className={styles.access}
-            aria-pressed={!hidden.has(access)}
-            onClick={() => toggle(access)}
-          >
+          <FilterToggle key={access} shown={!hidden.has(access)} onToggle={() => toggle(access)}>
             {t(`crossReferences.${access}`)} {rows.filter((row) => row.access === access).length}
-          </button>
+          </FilterToggle>
         ))}
         <TextInput
           className={styles.filter}

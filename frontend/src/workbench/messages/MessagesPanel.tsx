@@ -7,6 +7,7 @@ import { runCommand } from '../run';
 import { Button, IconButton } from '../ui/Button';
 import { Empty } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
+import { FilterToggle } from '../ui/FilterToggle';
 import type { Column } from '../ui/table';
 import { Table } from '../ui/Table';
 import { jumpTo } from './jump';
@@ -109,15 +110,10 @@ export default function MessagesPanel() {
         {SEVERITIES.map((severity) => {
           const Icon = ICONS[severity];
           return (
-            <button
-              key={severity}
-              className={styles.filter}
-              aria-pressed={!hidden.has(severity)}
-              onClick={() => toggle(severity)}
-            >
+            <FilterToggle key={severity} shown={!hidden.has(severity)} onToggle={() => toggle(severity)}>
               <Icon size={14} className={styles[severity]} aria-hidden />
               {t(`messages.${severity}`, { count: count[severity] })}
-            </button>
+            </FilterToggle>
           );
         })}
         <TextInput

@@ -12,6 +12,7 @@ import { runCommand } from '../run';
 import { Button, IconButton } from '../ui/Button';
 import { Empty, Failed, Loading } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
+import { FilterToggle } from '../ui/FilterToggle';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
 import { levelOf, logCsv, merged, shownEntries, type LogLevel } from './log';
@@ -101,15 +102,10 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
         {LEVELS.map((level) => {
           const Icon = ICONS[level];
           return (
-            <button
-              key={level}
-              className={messages.filter}
-              aria-pressed={!hidden.has(level)}
-              onClick={() => toggle(level)}
-            >
+            <FilterToggle key={level} shown={!hidden.has(level)} onToggle={() => toggle(level)}>
               <Icon size={14} className={messages[level]} aria-hidden />
               {t(`messages.${level}`, { count: data.filter((entry) => levelOf(entry.severity) === level).length })}
-            </button>
+            </FilterToggle>
           );
         })}
         <TextInput
