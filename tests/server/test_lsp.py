@@ -89,6 +89,15 @@ async def test_diagnostics_name_related_places_and_tags() -> None:
         assert found["W1103"]["tags"] == [1]
 
 
+async def test_a_text_opened_later_is_told_what_was_found_in_it_before() -> None:
+    async with start(Other=("PROGRAM Other", "xNowhere := TRUE;")) as client:
+        await client.start()
+        other = uri("Other", "implementation")
+        assert [d["code"] for d in await client.published(other)] == ["E0201"]
+        await client.open(other, "xNowhere := TRUE;")
+        assert [d["code"] for d in await client.published(other)] == ["E0201"]
+
+
 async def test_stored_texts_of_others_count() -> None:
     project = FakeProject(**PROJECT)
     async with Client(project) as client:

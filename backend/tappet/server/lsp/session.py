@@ -93,6 +93,8 @@ class LanguageSession:
         self._split: tuple[int, dict[str, Line]] = (-1, {})
         """Lines of documents, as of one generation of the workspace."""
         self._published: dict[str, list[Report]] = {}
+        self._opened_since: set[str] = set()
+        """Documents opened since messages were published last: an editor shows none in a new text until it is told."""
         self._timer: asyncio.TimerHandle | None = None
         self._publishing: asyncio.Task[None] | None = None
         self._again = False
@@ -186,6 +188,7 @@ class LanguageSession:
     def did_open(self, params: lsp.DidOpenTextDocumentParams) -> None:
         """A text of the editor stands for a document from now on."""
         item = params.text_document
+        self._opened_since.add(self.canonical(item.uri))
         self._set(item.uri, item.text, item.version)
 
     def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
@@ -304,7 +307,7 @@ class LanguageSession:
                 return
 
     def _changed_messages(self) -> list[Any]:
-        """What to publish: the documents whose messages differ from those published last."""
+        """What to publish: documents whose messages differ from those published last, or that were just opened."""
         if self._state != "initialized":
             return []
         found: dict[str, list[Report]] = {}
@@ -313,9 +316,10 @@ class LanguageSession:
                 known = found.setdefault(document, [])
                 known += [entry for entry in entries if entry not in known]
         out = []
+        opened, self._opened_since = self._opened_since, set()
         for document in {*found, *self._published}:
             now = found.get(document, [])
-            if now != self._published.get(document, []):
+            if now != self._published.get(document, []) or document in opened:
                 version = self._open[document].version if document in self._open else None
                 diagnostics = convert.diagnostics(now, document, self.lines, self._advise)
                 params = lsp.PublishDiagnosticsParams(self.spelled(document), diagnostics, version)
