@@ -94,7 +94,7 @@ class LanguageSession:
         """Lines of documents, as of one generation of the workspace."""
         self._published: dict[str, list[Report]] = {}
         self._opened_since: set[str] = set()
-        """Documents opened since messages were published last: an editor shows none in a new text until it is told."""
+        """Documents opened since messages were published last: a new text in an editor shows none yet."""
         self._timer: asyncio.TimerHandle | None = None
         self._publishing: asyncio.Task[None] | None = None
         self._again = False
@@ -307,7 +307,7 @@ class LanguageSession:
                 return
 
     def _changed_messages(self) -> list[Any]:
-        """What to publish: documents whose messages differ from those published last, or that were just opened."""
+        """What to publish: documents whose messages are others than those told last, or that were just opened."""
         if self._state != "initialized":
             return []
         found: dict[str, list[Report]] = {}
