@@ -307,7 +307,7 @@ class LanguageSession:
                 return
 
     def _changed_messages(self) -> list[Any]:
-        """What to publish: documents whose messages are others than those told last, or that were just opened."""
+        """What to publish: documents whose messages are others than those told last, or just opened ones."""
         if self._state != "initialized":
             return []
         found: dict[str, list[Report]] = {}
