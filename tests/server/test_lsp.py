@@ -59,6 +59,8 @@ async def test_diagnostics_follow_the_typing() -> None:
         assert found["E0204"]["source"] == "tappet"
         assert found["E0103"]["range"]["start"]["line"] == 2
         assert found["E0103"]["data"]["advice"] == "Close the IF with END_IF."
+        facts = found["E0103"]["data"]["facts"]
+        assert (facts["begin"], facts["end"], facts["found"]) == ("IF", "END_IF", "END_PROGRAM")
         change = {"range": here(1, 6, 10), "text": "xOn"}
         rest = {
             "range": {"start": {"line": 1, "character": 18}, "end": {"line": 9, "character": 0}},

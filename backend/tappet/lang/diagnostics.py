@@ -8,8 +8,8 @@ W1xxx warnings and notes. `alias` is the number CODESYS V3 gives the same messag
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Literal
 
@@ -52,6 +52,8 @@ class Diagnostic:
     uri: str
     span: Span
     related: tuple[Related, ...] = ()
+    facts: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """What the message is about: the fields of the report, such as `name`, `source`, `target`."""
 
     @property
     def alias(self) -> str:
@@ -95,7 +97,8 @@ def report(
     /,
     **fields: object,
 ) -> Diagnostic:
-    """A message of the table with its fields filled in.
+    """A message of the table with its fields filled in; all but `hint` are its facts, also fields that no
+    template names.
 
     Raises KeyError when the code, or a field its templates name, is missing: a fault of the caller.
     """
@@ -108,4 +111,5 @@ def report(
         uri,
         span,
         tuple(related),
+        {name: str(value) for name, value in fields.items() if name != "hint"},
     )

@@ -143,21 +143,27 @@ class Core:
             return  # the missing text went into the comment
         self.diagnostics.append(report(code, self.source.uri, span or self.span_at(self.i), **fields))
 
-    def expected(self, what: str, hint: str = "") -> None:
+    def expected(self, what: str, hint: str = "", **facts: str) -> None:
         """Report that `what` is missing here; at a line end the message stands where it is missing."""
         i = self.i
         span = self.span_at(i)
         if i and self.lines[i - 1] != self.lines[i]:
             line, end = self.lines[i - 1], self.columns[i - 1] + len(self.texts[i - 1])
             span = Span(line, max(end - 1, 0), line, end)
-        self.error("E0101", span, expected=what, found=self.found(), hint=hint or f"Write {what}.")
+            facts |= {"place": "behind"}
+        hint = hint or f"Write {what}."
+        self.error("E0101", span, expected=what, found=self.found(), hint=hint, **facts)
+
+    def missing(self, kind: str, hint: str = "", what: str = "") -> None:
+        """Report that a token is missing here."""
+        self.expected(what or (kind if kind[0].isalpha() else f"'{kind}'"), hint, missing=kind)
 
     def take(self, kind: str, what: str = "", hint: str = "") -> bool:
         """Step over a token of `kind`, or report it as missing."""
         if self.kinds[self.i] == kind:
             self.i += 1
             return True
-        self.expected(what or (kind if kind[0].isalpha() else f"'{kind}'"), hint)
+        self.missing(kind, hint, what)
         return False
 
     def shown_line(self, line: int) -> int:
@@ -175,9 +181,13 @@ class Core:
             return
         stray = kind.startswith("END_") and all(ENDS[other] != kind for other, _ in self.open)
         code = "E0110" if stray else "E0103"
-        self.error(code, end=end, begin=begin, line=self.shown_line(line), found=self.found())
+        self.missing_end(code, end, begin, line)
         if stray and kind != "END_VAR":
             self.i += 1
+
+    def missing_end(self, code: str, end: str, begin: str, line: int) -> None:
+        """Report that the construct that `begin` opened in `line` is not closed here."""
+        self.error(code, end=end, begin=begin, line=self.shown_line(line), opened=line, found=self.found())
 
     # -- names
 

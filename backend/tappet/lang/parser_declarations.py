@@ -165,7 +165,7 @@ class Parser(TypeBlockParser):
             self.i += 1
             self.type_reference()
         elif kind in _TYPED and self._forgotten_colon():
-            self.expected("':'", "Write ':' between the name and the return type.")
+            self.missing(":", "Write ':' between the name and the return type.")
             pou.return_type = self.type_reference("return type")
         if self.kinds[self.i] == ";" and self.lines[self.i] == self.lines[self.i - 1]:
             self.i += 1

@@ -335,7 +335,7 @@ class ExpressionParser(Core):
             if not self._forgotten_comma():
                 self.expected("',' or ')'", "Close the list of arguments with ')'.")
                 break
-            self.expected("','", "Separate arguments by commas.")
+            self.missing(",", "Separate arguments by commas.")
         self.depth -= 1
         return args
 

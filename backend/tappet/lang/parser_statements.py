@@ -148,7 +148,7 @@ class StatementParser(ExpressionParser):
         if len(self.diagnostics) > messages_before or self.failed_at == self.i:
             self.skip_statement()
             return
-        self.expected("';'", self._semicolon_hint())
+        self.missing(";", self._semicolon_hint())
         kind = kinds[self.i]
         begins = kind is ID and kinds[self.i + 1] in (":=", "(", ".", "[", "^")
         if not (begins or kind in BODY_END or kind in STATEMENT_KEYWORDS):
@@ -256,7 +256,7 @@ class StatementParser(ExpressionParser):
         if self.kinds[self.i] == keyword:
             self.i += 1
             return
-        self.expected(keyword)
+        self.missing(keyword)
         kinds = self.kinds
         i = self.i
         if kinds[i] is ID and self.lines[i] == self.lines[i - 1] != self.lines[i + 1]:

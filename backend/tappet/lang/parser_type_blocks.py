@@ -76,7 +76,7 @@ class TypeBlockParser(VariableParser):
             if self.kinds[self.i] != "END_TYPE":
                 self._skip_variable()
         elif not isinstance(type_ref, ast.StructType) and self.kinds[self.i] != "END_TYPE":
-            self.expected("';'", "End the definition with ';'.")
+            self.missing(";", "End the definition with ';'.")
         return ast.TypeDecl(
             span=self.span_from(head),
             name=name,

@@ -141,7 +141,7 @@ class TypeParser(StatementParser):
             if not more:
                 if kinds[self.i] is not ID:
                     break
-                self.expected("','", "Separate the values by commas.")
+                self.missing(",", "Separate the values by commas.")
         self.take(")", hint="Close the list of values with ')'.")
         base = None
         if kinds[self.i] is ID and self.lines[self.i] == self.lines[self.i - 1]:

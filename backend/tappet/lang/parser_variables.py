@@ -43,8 +43,7 @@ class VariableParser(TypeParser):
             if self.kinds[self.i] == ";":
                 self.i += 1
         else:
-            line = self.shown_line(opener[1])
-            self.error("E0103", end="END_VAR", begin=section, line=line, found=self.found())
+            self.missing_end("E0103", "END_VAR", section, opener[1])
         return ast.VarBlock(
             span=self.span_from(start),
             section=section,
@@ -99,7 +98,7 @@ class VariableParser(TypeParser):
             self.i += 1
             type_ref = self.type_reference()
         elif kinds[self.i] is ID and len(self.diagnostics) == messages:
-            self.expected("':'", "Write ':' between the name and the type.")
+            self.missing(":", "Write ':' between the name and the type.")
             type_ref = self.type_reference()
         else:
             self.expected("':' and a type", "Declare a variable as 'name : type;'.")
@@ -110,7 +109,7 @@ class VariableParser(TypeParser):
         elif len(self.diagnostics) > messages or self.failed_at == self.i:
             self._skip_variable()
         else:
-            self.expected("';'", "End the declaration with ';'.")
+            self.missing(";", "End the declaration with ';'.")
             if not (kinds[self.i] in _BLOCK_STOPS or self.lines[self.i] != self.lines[self.i - 1]):
                 self._skip_variable()
         span = self.span_from(start)
@@ -195,7 +194,8 @@ class VariableParser(TypeParser):
             self.i = start + 2
             return self.bounded(self.expression(), start), True
         if kind == "=":
-            self.error("E0101", expected="':='", found="'='", hint="An initial value is written with ':='.")
+            hint = "An initial value is written with ':='."
+            self.error("E0101", expected="':='", found="'='", hint=hint, instead=":=")
             self.i = start + 1
             return self.bounded(self.initial_value(), start), False
         return None, False

@@ -74,6 +74,8 @@ def applied(project: Project, action: CodeAction) -> str:
         ("here: iCount := 1;", "Remove label 'here'", "\niCount := 1;"),
         ("iCount := 5\nxFlag := TRUE;", "Insert ';'", "iCount := 5;\nxFlag := TRUE;"),
         ("iCount := (5;", "Insert ')'", "iCount := (5);"),
+        ("iCount := (5\n;", "Insert ')'", "iCount := (5)\n;"),
+        ("xFlag := FALSE\n;\n;iCount := F_Add(a := 1 b := 2);", "Insert ','", "F_Add(a := 1, b := 2);"),
         ("IF xFlag\niCount := 1; END_IF", "Insert 'THEN'", "IF xFlag THEN\niCount := 1; END_IF"),
         ("  IF xFlag THEN\n    iCount := 1;", "Insert 'END_IF'", "    iCount := 1;\n  END_IF\nEND_PROGRAM"),
         ("IF xFlag THEN ; END_FOR", "Replace by 'END_IF'", "IF xFlag THEN ; END_IF"),

@@ -53,18 +53,21 @@ def require(b: Body, e: ast.Expr, target: Type) -> bool:
 
 def complain(b: Body, span: Span, source: Type, target: Type, code: str) -> None:
     """Reports the verdict of a conversion."""
-    call = conversion_call(source, target)
+    function = conversion_function(source, target)
     if code == conversion.ERROR:
-        b.report(code, span, source=source, target=target, hint=conversion_hint(source, target))
+        hint = conversion_hint(source, target)
+        b.report(code, span, source=source, target=target, hint=hint, function=function)
     elif code == conversion.POINTER_IN_INTEGER:
         b.report(code, span, type=target)
     else:
-        b.report(code, span, source=source, target=target, call=call)
+        b.report(code, span, source=source, target=target, call=f"{function}(...)", function=function)
 
 
-def conversion_call(source: Type, target: Type) -> str:
-    """`INT_TO_BYTE(...)`."""
-    return f"{_plain(source)}_TO_{_plain(target)}(...)"
+def conversion_function(source: Type, target: Type) -> str:
+    """`INT_TO_BYTE`, or '' when no function converts."""
+    from_, to = t.value_type(source), t.value_type(target)
+    convertible = isinstance(from_, (Elementary, t.String)) and isinstance(to, (Elementary, t.String))
+    return f"{_plain(source)}_TO_{_plain(target)}" if convertible and from_ != to else ""
 
 
 def conversion_hint(source: Type, target: Type) -> str:
@@ -72,8 +75,9 @@ def conversion_hint(source: Type, target: Type) -> str:
     from_, to = t.value_type(source), t.value_type(target)
     if from_ == to:
         return ""
-    if isinstance(from_, (Elementary, t.String)) and isinstance(to, (Elementary, t.String)):
-        return f"Use {conversion_call(source, target)}."
+    function = conversion_function(source, target)
+    if function:
+        return f"Use {function}(...)."
     if isinstance(from_, t.Pointer):
         return "Read the target of the pointer with '^'."
     if isinstance(to, t.Pointer):

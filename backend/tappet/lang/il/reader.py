@@ -353,7 +353,7 @@ class _Reader(RowReader):
                 p.i += 1
                 return operands
             if len(operands) > 1 and function is None:
-                p.expected("')'", "Close the list of operands in its row, or write one operand a row.")
+                p.missing(")", "Close the list of operands in its row, or write one operand a row.")
                 return operands
         if len(net.levels) >= MAX_NESTING:
             p.error("E0107", what="parenthesis", limit=MAX_NESTING)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from tappet.lang import ast
@@ -11,24 +10,18 @@ from tappet.lang.services.fix_site import Site
 from tappet.lang.services.results import CodeAction, Edit, NewMember
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol
 
-_TOLD = re.compile(r".* does not implement (method|property) '(\w+)' of interface '(\w+)'")
-
 
 def implement(site: Site) -> Iterator[CodeAction]:
     """Make the methods and properties of an interface that a block lacks (E0418), all of them at once."""
-    told = _TOLD.match(site.diagnostic.message)
-    if told is None:
-        return
-    name = told[3]
+    name = site.facts["interface"]
     interface = site.snapshot.interfaces.get(name.upper())
     if interface is None:
         return
     wanted: list[NewMember] = []
     for other in site.snapshot.diagnostics:
-        again = _TOLD.match(other.message) if other.code == "E0418" else None
-        same = other.uri == site.diagnostic.uri and other.span == site.span
-        if again is not None and same and again[3].upper() == name.upper():
-            member = _member(interface, again[2])
+        here = other.code == "E0418" and other.uri == site.diagnostic.uri and other.span == site.span
+        if here and other.facts["interface"] == name:
+            member = _member(interface, other.facts["member"])
             if member is not None:
                 wanted.append(member)
     if not wanted:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
@@ -18,7 +17,6 @@ from tappet.lang.services.results import CodeAction, Edit
 from tappet.lang.source import Span, split_lines
 from tappet.lang.symbols import GvlSymbol, InterfaceSymbol, NamespaceSymbol, PouSymbol, Symbol, TypeSymbol
 
-_CHOICE = re.compile(r"Write '([^']+)'")
 _PROPOSED = 3
 _CLOSE = 0.6
 
@@ -46,10 +44,7 @@ def unknown_name(site: Site) -> Iterator[CodeAction]:
 
 def qualified(site: Site) -> Iterator[CodeAction]:
     """A name that must be qualified (E0207)."""
-    told = _CHOICE.search(site.diagnostic.advice)
-    if told is not None:
-        edit = site.replace(site.span, told[1])
-        yield site.action("replace", f"Replace by '{told[1]}'", edit, preferred=True, name=told[1])
+    yield site.replacement(site.span, site.facts["choice"])
 
 
 def unknown_type(site: Site) -> Iterator[CodeAction]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -44,6 +44,11 @@ class Site:
     def span(self) -> Span:
         """Range of the message in the text of the compiler."""
         return self.diagnostic.span
+
+    @property
+    def facts(self) -> Mapping[str, str]:
+        """What the message is about, by name."""
+        return self.diagnostic.facts
 
     @property
     def lexed(self) -> Lexed:
@@ -97,6 +102,15 @@ class Site:
     def replace(self, span: Span, text: str) -> Edit:
         """Put `text` in place of a range."""
         return Edit(self.view.place(span), text)
+
+    def replacement(self, span: Span, text: str) -> CodeAction:
+        """The action that writes another text in place of a range, as the obvious mend."""
+        title = f"Replace by '{text}'"
+        return self.action("replace", title, self.replace(span, text), preferred=True, name=text)
+
+    def insertion(self, edit: Edit, text: str) -> CodeAction:
+        """The action that inserts what is missing, as the obvious mend."""
+        return self.action("insert", f"Insert '{text}'", edit, preferred=True, name=text)
 
     def insert(self, line: int, column: int, text: str) -> Edit:
         """Put `text` before a place."""

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from tappet.lang import ast
+from tappet.lang.analysis.conversion import NUMBERS
 from tappet.lang.lexer import ID
 from tappet.lang.services.fix_site import Site, indent_of
 from tappet.lang.services.results import CodeAction, Edit
@@ -13,75 +14,59 @@ from tappet.lang.source import Span
 from tappet.lang.symbols import EnumValueSymbol
 from tappet.lang.types import Enum
 
-_END = re.compile(r"(\w+) expected for the (\w+) of line (\d+)")
-_EXPECTED = re.compile(r"'?([^' ]+)'? expected before (.*)", re.DOTALL)
 _INSERTED = frozenset([";", ":=", ":", ")", "]", "THEN", "DO", "OF", "TO", "END_VAR", ","])
-_CONVERSION = re.compile(r"\b((?:[A-Z]+_)?TO_[A-Z_]+|TRUNC\w*)\b")
+_NUMBERS = frozenset(type_.name for type_ in NUMBERS)
 _OPERATORS = re.compile(r"[-+*/<>=&\s]")
 
 
 def missing_end(site: Site) -> Iterator[CodeAction]:
     """Insert the keyword that closes a construct (E0103), or put it in place of a wrong one (E0110)."""
-    told = _END.match(site.diagnostic.message)
-    if told is None:
-        return
-    end = told[1]
+    end = site.facts["end"]
     if site.diagnostic.code == "E0110":
-        edit = site.replace(site.token_span(site.token), end)
-        yield site.action("replace", f"Replace by '{end}'", edit, preferred=True, name=end)
+        yield site.replacement(site.token_span(site.token), end)
         return
-    line = int(told[3]) - 1
-    body = site.view.source.body_line
-    if body and not told[2].startswith("VAR"):
-        line += body
-    indent = indent_of(site.lines[line]) if 0 <= line < len(site.lines) else ""
+    indent = indent_of(site.lines[int(site.facts["opened"])])
     at = site.token
     lexed = site.lexed
     if at and lexed.lines[at - 1] == lexed.lines[at]:
         edit = site.insert(lexed.lines[at], lexed.columns[at], f"{end} ")
     else:
         edit = site.before_line(lexed.lines[at], f"{indent}{end}\n")
-    yield site.action("insert", f"Insert '{end}'", edit, preferred=True, name=end)
+    yield site.insertion(edit, end)
 
 
 def expected(site: Site) -> Iterator[CodeAction]:
-    """Insert a sign or word that is missing (E0101)."""
-    told = _EXPECTED.match(site.diagnostic.message)
-    if told is None or told[1] not in _INSERTED:
+    """Insert a sign or word that is missing, or write the right one in place of a wrong one (E0101)."""
+    if site.facts.get("instead"):
+        yield site.replacement(site.span, site.facts["instead"])
+    wanted = site.facts.get("missing", "")
+    if wanted not in _INSERTED:
         return
-    wanted, found = told[1], told[2].strip("'")
-    lexed, at = site.lexed, site.token
-    here = lexed.texts[at].upper() == found.upper() or lexed.columns[at] == site.span.column
-    if at and lexed.columns[at] > site.span.column:
-        at -= 1  # the message stands inside a token, at its last character
-        here = False
-    elif here and lexed.texts[at].upper() != found.upper():
-        here = False
-    last = site.token_span(at - 1 if here else at)
+    span = site.span
+    if site.facts.get("place") != "behind":
+        if not site.token:
+            return
+        span = site.token_span(site.token - 1)
     text = wanted if not wanted[0].isalpha() and wanted != ":=" else f" {wanted}"
-    edit = site.insert(last.end_line, last.end_column, text)
-    yield site.action("insert", f"Insert '{wanted}'", edit, preferred=True, name=wanted)
+    yield site.insertion(site.insert(span.end_line, span.end_column, text), wanted)
 
 
 def conversion(site: Site) -> Iterator[CodeAction]:
     """Wrap a value into the conversion that the message names (E0301, W1001..W1003)."""
-    told = _CONVERSION.search(site.diagnostic.advice)
-    if told is None:
+    function = site.facts.get("function", "")
+    if not function:
         return
     span = site.span
-    opening = site.insert(span.line, span.column, f"{told[1]}(")
+    opening = site.insert(span.line, span.column, f"{function}(")
     closing = site.insert(span.end_line, span.end_column, ")")
-    yield site.action(
-        "convert", f"Convert with {told[1]}", opening, closing, preferred=True, function=told[1]
-    )
+    title = f"Convert with {function}"
+    yield site.action("convert", title, opening, closing, preferred=True, function=function)
 
 
 def condition(site: Site) -> Iterator[CodeAction]:
     """Compare a number that stands as a condition with 0 (E0307)."""
     text = site.written
-    if not text or not re.search(
-        r"'(?:[US]|UD|UL|D|L)?INT'|'L?REAL'|'[LD]?WORD'|'BYTE'", site.diagnostic.message
-    ):
+    if not text or site.facts["source"] not in _NUMBERS:
         return
     compared = f"({text}) <> 0" if _OPERATORS.search(text) else f"{text} <> 0"
     yield site.action(
@@ -96,8 +81,7 @@ def equality(site: Site) -> Iterator[CodeAction]:
         kind = site.lexed.kinds[index]
         level += (kind in ("(", "[")) - (kind in (")", "]"))
         if kind == "=" and level == 0:
-            edit = site.replace(site.token_span(index), ":=")
-            yield site.action("replace", "Replace by ':='", edit, preferred=True, name=":=")
+            yield site.replacement(site.token_span(index), ":=")
             return
         if kind == ";":
             return
@@ -105,16 +89,14 @@ def equality(site: Site) -> Iterator[CodeAction]:
 
 def time_prefix(site: Site) -> Iterator[CodeAction]:
     """Write the `T#` of a duration (E0016)."""
-    edit = site.insert(site.span.line, site.span.column, "T#")
-    yield site.action("insert", "Insert 'T#'", edit, preferred=True, name="T#")
+    yield site.insertion(site.insert(site.span.line, site.span.column, "T#"), "T#")
 
 
 def arrow(site: Site) -> Iterator[CodeAction]:
     """Turn `:=` into `=>` for an output and back for an input (E0510, E0511)."""
     wanted = "=>" if site.diagnostic.code == "E0510" else ":="
     if site.lexed.kinds[site.token + 1] in (":=", "=>"):
-        edit = site.replace(site.token_span(site.token + 1), wanted)
-        yield site.action("replace", f"Replace by '{wanted}'", edit, preferred=True, name=wanted)
+        yield site.replacement(site.token_span(site.token + 1), wanted)
 
 
 def label(site: Site) -> Iterator[CodeAction]:

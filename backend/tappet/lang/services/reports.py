@@ -34,6 +34,7 @@ def report_of(snapshot: Snapshot, diagnostic: Diagnostic, place: Place) -> Repor
         diagnostic.message,
         diagnostic.advice,
         tuple(_related(snapshot, diagnostic)),
+        diagnostic.facts,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Literal
@@ -143,6 +144,8 @@ class Report:
     message: str
     advice: str
     related: tuple[RelatedReport, ...] = ()
+    facts: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """What the message is about, as `Diagnostic.facts`."""
 
 
 @dataclass(frozen=True, slots=True)

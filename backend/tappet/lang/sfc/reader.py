@@ -66,7 +66,7 @@ def read_step(parser: StatementParser, chart: Chart) -> None:
 
 
 def _missing_end(p: StatementParser, end: str, begin: str, start: int) -> None:
-    p.error("E0103", end=end, begin=begin, line=p.shown_line(p.lines[start]), found=p.found())
+    p.missing_end("E0103", end, begin, p.lines[start])
     while p.kinds[p.i] is not END and p.kinds[p.i] not in OBJECT_HEADS and not begins_step(p):
         if p.word() == end or p.kinds[p.i] == end:
             p.i += 1

@@ -294,7 +294,7 @@ def diagnostics(reports: Iterable[Report], document: str, lines: Lines, advise: 
                 source="tappet",
                 tags=[tag] if tag is not None else None,
                 related_information=related or None,
-                data={"advice": report.advice} if report.advice else None,
+                data={"advice": report.advice, "facts": dict(report.facts)},
             )
         )
     return found
