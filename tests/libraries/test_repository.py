@@ -176,7 +176,11 @@ def test_a_broken_manifest_hides_no_other_library(library_folder: Path) -> None:
         ({"library.json": '{"name": "../x", "version": "1.0"}'}, "none for a library"),
         ({"library.json": '{"name": "x", "version": "one"}'}, "write it like 1.2.0.0"),
         ({"library.json": '{"name": "x", "version": "1.0", "namespace": "a b"}'}, "no identifier"),
-        ({"library.json": '{"name": "x", "version": "1.0"}', "../evil.st": ""}, "no ST file"),
+        (
+            {"library.json": '{"name": "x", "version": "1.0"}', "../evil.st": ""},
+            "does not stay in the folder",
+        ),
+        ({"library.json": '{"name": "x", "version": "1.0"}', "f/g.st": ""}, "no ST file"),
         ({"library.json": '{"name": "x", "version": "1.0"}', "run.sh": ""}, "no ST file"),
     ],
 )

@@ -9,15 +9,16 @@ import io
 import json
 import re
 import shutil
-import struct
 import zipfile
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from tappet.libraries import repository
 from tappet.libraries.repository import Installed
+from tappet.project.errors import FolderFormatError
+from tappet.project.folder.archive import Limits
+from tappet.project.folder.archive import unpack as unpack_zip
 
 SUFFIX = ".tappetlib"
 MANIFEST = "library.json"
@@ -29,20 +30,6 @@ _NAME = re.compile(r"^[A-Za-z_][A-Za-z0-9_. -]{0,79}$")
 _VERSION = re.compile(r"^[0-9]+(\.[0-9]+){0,3}$")
 _STAMP = (1980, 1, 1, 0, 0, 0)
 """Time of the files in an archive, so that equal libraries are equal files."""
-
-_DAMAGE = (
-    zipfile.BadZipFile,
-    zlib.error,
-    NotImplementedError,
-    RuntimeError,
-    EOFError,
-    OSError,
-    ValueError,
-    OverflowError,
-    IndexError,
-    struct.error,
-)
-"""What reading a damaged zip raises."""
 
 
 class LibraryFileError(ValueError):
@@ -84,17 +71,10 @@ def pack(facts: Mapping[str, Any], texts: Mapping[str, str]) -> bytes:
 
 def unpack(data: bytes) -> tuple[dict[str, Any], dict[str, str]]:
     """Manifest and texts of a library file; raises LibraryFileError."""
+    limits = Limits(files=MAX_FILES, file_bytes=MAX_BYTES, total_bytes=MAX_BYTES)
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            entries = [entry for entry in archive.infolist() if not entry.is_dir()]
-            if len(entries) > MAX_FILES or sum(entry.file_size for entry in entries) > MAX_BYTES:
-                raise LibraryFileError(
-                    f"more than {MAX_FILES} files or {MAX_BYTES >> 20} MiB are in the file"
-                )
-            files = {entry.filename: archive.read(entry) for entry in entries}
-    except LibraryFileError:
-        raise
-    except _DAMAGE as error:
+        files = unpack_zip(data, limits)
+    except FolderFormatError as error:
         raise LibraryFileError(f"this is no library file ({SUFFIX}): {error}") from None
     return _checked(files)
 

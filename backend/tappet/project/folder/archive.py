@@ -137,7 +137,7 @@ def _check_path(path: str, limits: Limits) -> None:
     if len(path) > limits.path_length or len(parts) > limits.depth:
         raise FolderFormatError(shown, "the path is too long")
     if "\\" in path or path.startswith("/") or any(part in ("", ".", "..") for part in parts):
-        raise FolderFormatError(shown, "the path does not stay in the folder of the project")
+        raise FolderFormatError(shown, "the path does not stay in the folder of the archive")
     if len(parts[0]) > 1 and parts[0][1] == ":":
         raise FolderFormatError(shown, "the path begins with a drive")
     if any(unicodedata.category(c) in ("Cc", "Cs") for c in path):
