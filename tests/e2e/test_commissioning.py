@@ -168,3 +168,16 @@ def _command_line(process: Path) -> bytes:
         return (process / "cmdline").read_bytes()
     except OSError:
         return b""
+
+
+def test_a_page_loaded_anew_is_online_as_before(page: Page) -> None:
+    open_project(page)
+    log_in(page)
+    page.reload()
+    expect(status_bar(page).get_by_text("running")).to_be_visible()
+    watch_value(watch(page, "GVL_Line.udiFilled"), at_least=1)
+    page.keyboard.press("Control+F8")
+    expect(status_bar(page).get_by_text("Offline")).to_be_visible()
+    page.reload()
+    open_object(page, "PLC_PRG")
+    expect(status_bar(page).get_by_text("Offline")).to_be_visible()

@@ -13,6 +13,7 @@ import { restoreLayout } from '../docking/layout';
 import { openEvents, type ProjectEvents } from '../events';
 import { clearMessages } from '../messages/store';
 import { compareLogin, followRelation } from '../online/relation';
+import { resumeLogins } from '../online/resume';
 import { useOnline } from '../onlineSession';
 import { Palette } from '../palette/Palette';
 import { findPanel } from '../panels';
@@ -97,7 +98,7 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
       gone = true;
       selectObjects([]);
       clearMessages();
-      useOnline.setState({ sessions: {}, forces: {} });
+      useOnline.setState({ sessions: {}, forces: {}, forcedPlaces: {} });
       useProject.setState({ projectId: null, projectName: '', applicationId: null, busy: null });
     };
     // Once per project: later changes of the objects reach the views through their own queries.
@@ -109,10 +110,12 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
     const relation = followRelation(({ applicationId, runtimeId }) =>
       compareLogin(projectId, applicationId, runtimeId),
     );
+    const logins = resumeLogins(projectId);
     events.current = openEvents(projectId, relation.projectChanged);
     return () => {
       events.current?.close();
       relation.close();
+      logins.close();
     };
   }, [projectId]);
   useEffect(() => events.current?.look(activeEditor), [activeEditor]);
