@@ -30,6 +30,8 @@ from tappet.lang.source import Source
         ("mask I 16#FF", "mask: INT := 16#FF;"),
         ("    indented I;", "    indented: INT;"),
         ("q %QX0.1 ; lamp", "q AT %QX0.1: BOOL; (* lamp *)"),
+        ("n I - 3", "n: INT := -3;"),
+        ("t string 20", "t: STRING(20);"),
         ("a ? b & I ~ 7", "a, b: INT := 7;"),  # DECL-66: other characters are ignored
     ],
 )

@@ -69,7 +69,7 @@ function DeclarationText({ panelId, projectId, object, monaco, document }: Decla
   const t = useText();
   const [editor, setEditor] = useState<CodeEditor | null>(null);
   const readOnly = useEditingLock(object, editor);
-  useShorthand(monaco, editor);
+  useShorthand(monaco, projectId, editor);
   useFaultLine(projectId, object, 'declaration', editor);
   const onEditor = useCallback(
     (made: CodeEditor | null) => {

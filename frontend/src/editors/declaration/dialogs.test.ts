@@ -1,27 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { headerValues, setHeader, setListAttributes } from './header';
 import { composeInitial, formatInitial, givenValues, initialLines, parseInitial } from './initial';
-import { expandShorthand } from './shorthand';
 import { formatArrayType, parseArrayType, shapeOf, type MemberSource } from './types';
-
-describe('shorthand (DECL-61..66, EX-02)', () => {
-  const plain = (text: string | null) => text?.replace(/\s+/g, '');
-  it.each([
-    ['A', 'A: BOOL;'],
-    ['A B I 2', 'A, B: INT := 2;'],
-    ['ST S 2; A string', 'ST:STRING(2); (* A string *)'],
-    ['X %MD12 R 5; Real Number', 'X AT %MD12: REAL := 5.0;(* Real Number *)'],
-    ['B !', 'B: BOOL;'],
-    ['C BOOL', 'C: BOOL;'],
-    ['k INT 7', 'k: INT := 7;'],
-    ['r REAL', 'r: REAL;'],
-    ['t string 20', 't: STRING(20);'],
-    ["t S 'abc'", "t: STRING := 'abc';"],
-    ['n I -3', 'n: INT := -3;'],
-  ])('%s', (line, expected) => expect(plain(expandShorthand(line))).toBe(plain(expected)));
-
-  it('declares nothing without a name', () => expect(expandShorthand('  ; only a remark')).toBeNull());
-});
 
 describe('header', () => {
   const text = "// old\n{attribute 'a'}\nPROGRAM Main\nVAR\nEND_VAR\n";
