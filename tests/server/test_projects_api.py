@@ -156,6 +156,29 @@ def test_of_two_tabs_nothing_is_lost(admin: TestClient, second_tab: TestClient, 
     assert admin.get(f"{url}/revisions/2").json()["data"]["implementation"] == "first;"
 
 
+def test_several_objects_are_saved_together_or_not_at_all(
+    admin: TestClient, second_tab: TestClient, press: str
+) -> None:
+    gvl = admin.post(
+        f"{press}/objects", json={"parent_id": tree(admin, press)["Application"]["id"], "kind": "gvl"}
+    ).json()
+    prg = admin.get(f"{press}/objects/{tree(admin, press)['PLC_PRG']['id']}").json()
+    data = [{**gvl["data"], "declaration": "VAR_GLOBAL\n    b : INT;\nEND_VAR"}]
+    data.append({**prg["data"], "implementation": "b := 1;"})
+    objects = [
+        {"object_id": item["id"], "base_revision": item["revision"], "data": wanted}
+        for item, wanted in zip((gvl, prg), data, strict=True)
+    ]
+    saved = admin.put(f"{press}/objects", json={"objects": objects, "comment": "a is b"}).json()
+    assert [item["data"] for item in saved] == data
+    stale = [{**objects[0], "data": gvl["data"], "base_revision": saved[0]["revision"]}, objects[1]]
+    stale[1] = {**stale[1], "data": {**data[1], "implementation": "other;"}}
+    refused = problem(second_tab.put(f"{press}/objects", json={"objects": stale}), 409, "stale-revision")
+    assert refused["object_id"] == prg["id"]
+    assert refused["current"] == saved[1]
+    assert [admin.get(f"{press}/objects/{item['id']}").json() for item in saved] == saved
+
+
 def test_a_save_of_a_deleted_object_is_not_lost_either(admin: TestClient, press: str) -> None:
     url = f"{press}/objects/{tree(admin, press)['PLC_PRG']['id']}"
     opened = admin.get(url).json()

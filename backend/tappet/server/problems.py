@@ -123,6 +123,7 @@ async def _on_project_error(connection: HTTPConnection, error: Exception) -> Any
             "current": object_detail(error.current) if error.current is not None else None,
             "yours": {"base_revision": error.base_revision, **error.yours},
             "author": error.author,
+            "object_id": error.object_id,
         }
     status = PROJECT_STATUS.get(error.code, 422)
     return await _answer(connection, Problem(status, error.code.replace("_", "-"), str(error), **fields))

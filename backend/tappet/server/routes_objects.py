@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
+from tappet.project.store.records import ObjectContent
 from tappet.server.dependencies import Engineer, StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.project_shapes import object_detail, object_revision, object_summary
@@ -13,6 +14,7 @@ from tappet.server.schemas.projects import (
     ObjectDetail,
     ObjectMove,
     ObjectSave,
+    ObjectsSave,
     ObjectSummary,
     RevertTarget,
     Revision,
@@ -45,6 +47,20 @@ def create_object(project_id: str, body: NewObject, who: Engineer, store: StoreD
         index=body.index,
     )
     return object_detail(item)
+
+
+@router.put("")
+def save_objects(project_id: str, body: ObjectsSave, who: Engineer, store: StoreDep) -> list[ObjectDetail]:
+    """Save the data of several objects as one change of the project: all of them, or none.
+
+    If somebody else saved one of them since it was read, the answer is the problem `stale-revision` (409) as
+    for a single object, and nothing was written.
+    """
+    contents = [ObjectContent(item.object_id, item.base_revision, item.data) for item in body.objects]
+    return [
+        object_detail(saved)
+        for saved in store.save_all(project_id, contents, who.username, comment=body.comment)
+    ]
 
 
 @router.get("/{object_id}")

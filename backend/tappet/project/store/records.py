@@ -37,6 +37,17 @@ class ObjectSummary:
     name: str
     index: int
     revision: int
+    excluded: bool = False
+    """From the build."""
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectContent:
+    """Other data for an object that was read at `base_revision`."""
+
+    object_id: str
+    base_revision: int
+    data: Any
 
 
 ObjectAction = Literal["created", "updated", "moved", "deleted"]

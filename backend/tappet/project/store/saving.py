@@ -1,21 +1,23 @@
-"""Saving one object: optimistic locking, and autosaves that replace each other."""
+"""Saving objects: optimistic locking, and autosaves that replace each other."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from sqlalchemy import Connection, and_, delete, func, insert, select, update
 
-from tappet.project.errors import UnknownObjectError
-from tappet.project.model import ProjectObject, changed_object, make_object
+from tappet.project.data import CodeData
+from tappet.project.errors import InvalidDataError, UnknownObjectError
+from tappet.project.model import Project, ProjectObject, changed_object, make_object
 from tappet.project.store.changes import revision_row, write_change
 from tappet.project.store.history import object_revisions
 from tappet.project.store.records import (
     ChangeEvent,
     ObjectChange,
+    ObjectContent,
     ProjectInfo,
     StaleRevision,
     UnknownRevisionError,
@@ -173,6 +175,31 @@ def _last_change(connection: Connection, info: ProjectInfo, item: ProjectObject)
 
 def _replaceable(connection: Connection, info: ProjectInfo, item: ProjectObject, author: str) -> Any:
     """The autosave that the next one may take the place of, or None.
+def with_contents(
+    connection: Connection, info: ProjectInfo, project: Project, contents: Iterable[ObjectContent]
+) -> Project:
+    """A locked project with other data in several objects, all of which are as they were read.
+
+    Raises StaleRevision for the first that is not, InvalidDataError, UnknownObjectError.
+    """
+    given: dict[str, ProjectObject] = {}
+    for content in contents:
+        object_id, base = content.object_id, content.base_revision
+        if object_id in given:
+            raise InvalidDataError(
+                f"The object {object_id} is given twice; one content an object can be saved"
+            )
+        item = project.objects.get(object_id)
+        if item is None:
+            raise _deleted(connection, info.id, object_id, base, {"data": content.data})
+        wanted = changed_object(item, data=content.data)
+        if wanted.data != item.data:
+            check_base(connection, info.id, object_id, base, {"data": data_of(wanted)})
+        given[object_id] = wanted
+    objects_now = {**project.objects, **given}
+    return Project(project.name, project.description, objects_now, extra_files=project.extra_files)
+
+
 
     Not when an explicit change of the project came after it: going back to that one must find the object as
     it was then.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import uuid
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any, TypeVar
 
@@ -21,6 +21,7 @@ from tappet.project.store.changes import apply_project
 from tappet.project.store.engine import migrate, open_engine, reading
 from tappet.project.store.records import (
     ChangeEvent,
+    ObjectContent,
     ObjectRevision,
     ObjectSummary,
     ProjectInfo,
@@ -35,7 +36,7 @@ from tappet.project.store.rows import (
     read_project,
     read_summaries,
 )
-from tappet.project.store.saving import check_base, read_object, save_data, with_index
+from tappet.project.store.saving import check_base, read_object, save_data, with_contents, with_index
 from tappet.project.store.tables import files, projects
 from tappet.project.templates import new_project
 
@@ -244,6 +245,22 @@ class Store:
             )
         self._tell(event)
         return saved
+
+    def save_all(
+        self, project_id: str, contents: Sequence[ObjectContent], author: str, *, comment: str = ""
+    ) -> list[ProjectObject]:
+        """Store other data of several objects as one change of the project: all of them, or none.
+
+        Raises StaleRevision for the first that somebody else has changed, InvalidDataError,
+        UnknownObjectError, UnknownProjectError.
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            stored = read_project(connection, info)
+            wanted = with_contents(connection, info, stored.project, contents)
+            result, event = apply_project(connection, stored, wanted, "save", author, comment)
+        self._tell(event)
+        return [result.get(content.object_id) for content in contents]
 
     def add(
         self,

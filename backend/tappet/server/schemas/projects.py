@@ -86,6 +86,21 @@ class ObjectSave(Request):
 
 
 class ObjectMove(Request):
+class ObjectContent(Request):
+    """New data of one object on top of the revision that was edited."""
+
+    object_id: str
+    base_revision: int
+    data: dict[str, Any]
+
+
+class ObjectsSave(Request):
+    """New data of several objects, saved as one change of the project."""
+
+    objects: list[ObjectContent] = Field(max_length=10_000)
+    comment: str = Field(default="", max_length=2000)
+
+
     """A new name or place; what is left out stays. A new parent without index: the end of its children."""
 
     base_revision: int | None = Field(default=None, description="Refuse if the content is newer than this.")
