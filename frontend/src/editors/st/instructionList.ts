@@ -1,7 +1,7 @@
 /** Rows of IL, by their tokens: which words are operators, labels or functions and so name no value (IL-01, IL-13). */
 import { textOf, type Token } from './lexer';
 
-const OPERATORS = new Set(
+export const OPERATORS: ReadonlySet<string> = new Set(
   (
     'LD LDN ST STN S R NOT AND ANDN OR ORN XOR XORN ADD SUB MUL DIV MOD GT GE EQ NE LE LT ' +
     'JMP JMPC JMPCN JMPN CAL CALC CALCN RET RETC RETCN'
