@@ -343,6 +343,23 @@ async def test_cross_references_by_place_and_by_name() -> None:
             assert (await client.refused("tappet/crossReferences", bad))["code"] == rpc.REQUEST_FAILED
 
 
+async def test_help_for_the_cells_of_a_table() -> None:
+    """IL-01, IL-04: proposals in a text that is only tried, facts of operands."""
+    async with start() as client:
+        await client.start()
+        params = await client.open(BODY, "LD iCount\nST iCount")
+        tried = {**params, "position": {"line": 1, "character": 6}, "text": "LD iCount\nST iCo"}
+        found = await client.ask("tappet/completionIn", tried)
+        assert "iCount" in [item["label"] for item in found["items"]]
+        asked = {**params, "operands": ["iCount", "nowhere"]}
+        facts = await client.ask("tappet/operandFacts", asked)
+        assert facts == [{"type": "INT", "address": "", "comment": ""}, None]
+        for bad in ({}, {**params, "operands": ["x" * 501]}, {**params, "operands": "x"}, []):
+            assert (await client.refused("tappet/operandFacts", bad))["code"] == rpc.REQUEST_FAILED
+        for bad in ({}, {**tried, "text": 3}, {**tried, "position": {}}):
+            assert (await client.refused("tappet/completionIn", bad))["code"] == rpc.REQUEST_FAILED
+
+
 async def test_folding() -> None:
     async with start() as client:
         await client.start()
@@ -511,6 +528,7 @@ async def test_positions_outside_of_the_text() -> None:
 
 METHODS = [
     *("initialize", "shutdown", "$/cancelRequest", "tappet/document", "tappet/shorthand"),
+    *("tappet/completionIn", "tappet/operandFacts", "tappet/crossReferences"),
     "workspace/symbol",
     *(f"textDocument/{name}" for name in ("hover", "completion", "rename", "didChange", "didOpen")),
 ]

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from marked_texts import Project
 
 from tappet.lang.lexer import tokenize
-from tappet.lang.services.completion import complete
+from tappet.lang.services.completion import complete, proposals
+from tappet.lang.services.documents import Position
 from tappet.lang.services.folding import folds
 from tappet.lang.services.formatting import format_text
 from tappet.lang.services.hover import hover
 from tappet.lang.services.navigation import references
+from tappet.lang.services.operands import OperandFacts, facts
+from tappet.lang.services.results import ServiceError
 from tappet.lang.services.semantic_tokens import semantic_tokens
 from tappet.lang.source import Source
 
@@ -159,3 +163,53 @@ def test_actions_are_found_at_every_step() -> None:
     assert found == [1, 2, 3, 6]
     p = Project(PLC_PRG=body.replace("|", "").replace("ACTION Act", "ACTION |Act"))
     assert [item.place.span.line for item in references(p.snapshot, p.document, p.position)] == [2, 3, 6]
+
+
+def facts_of(*wanted: str) -> list[OperandFacts | None]:
+    body = HEAD.replace(
+        "END_VAR", "fbDelay : TON; (* Start delay *)\nxSwitch AT %IX0.3 : BOOL; // Main switch\nEND_VAR"
+    )
+    p = Project(
+        PLC_PRG=f"{body}|LD iCount\nST iTotal\nEND_PROGRAM",
+        GVL="VAR_GLOBAL\n gLimit : REAL; // Upper\nEND_VAR",
+    )
+    return list(facts(p.snapshot.view(p.document, p.position), wanted))
+
+
+def test_address_and_comment_of_an_operand_come_from_its_declaration() -> None:
+    """IL-01: the columns beside the operand."""
+    assert facts_of("XSWITCH", "gLimit", "GVL.gLimit", "fbDelay", "fbDelay.Q") == [
+        OperandFacts("BOOL", "%IX0.3", "Main switch"),
+        OperandFacts("REAL", "", "Upper"),
+        OperandFacts("REAL", "", "Upper"),
+        OperandFacts("TON", "", "Start delay"),
+        OperandFacts("BOOL", "", "Delayed signal"),
+    ]
+
+
+@pytest.mark.parametrize("operand", ["", "nowhere", "iCount.", "(", "a, b", "'x", "%IX0.0", "1 +", "\n"])
+def test_what_names_nothing_has_no_facts(operand: str) -> None:
+    assert facts_of(operand) == [None]
+
+
+def test_an_element_has_the_type_of_its_array() -> None:
+    p = Project(
+        PLC_PRG=f"{HEAD.replace('END_VAR', 'a : ARRAY[1..3] OF REAL; END_VAR')}|LD iCount\nEND_PROGRAM"
+    )
+    assert list(facts(p.snapshot.view(p.document, p.position), ["a[iCount]"])) == [
+        OperandFacts("REAL", "", "")
+    ]
+
+
+def test_proposals_in_a_text_that_is_only_tried() -> None:
+    """IL-04: the open cell of a table is no part of the text yet."""
+    p = Project(PLC_PRG=f"{HEAD}|LD iCount\nEND_PROGRAM")
+    tried = f"{HEAD}LD iCount\nEQ PLC_PRG.\nEND_PROGRAM"
+    line = tried.split("\n").index("EQ PLC_PRG.")
+    before = p.workspace.generation
+    view = p.workspace.trial_view(p.document, Position(line, len("EQ PLC_PRG.")), tried)
+    assert {"iCount", "iTotal", "xStart"} <= {item.label for item in proposals(view)}
+    assert p.workspace.generation == before
+    assert p.workspace.unsaved(p.document) is None
+    with pytest.raises(ServiceError, match="belongs to no application"):
+        p.workspace.trial_view("NOWHERE", Position(0, 0), "")

@@ -84,7 +84,11 @@ _USUAL = ("BOOL", "INT", "DINT", "REAL", "LREAL", "TIME", "STRING", "BYTE", "WOR
 
 def complete(workspace: Workspace, document: str, position: Position) -> list[Completion]:
     """The proposals at a position, best first. What is typed of a word already does not filter them."""
-    view = workspace.quick_view(document, position)
+    return proposals(workspace.quick_view(document, position))
+
+
+def proposals(view: View) -> list[Completion]:
+    """The proposals at the position of a view, best first."""
     cursor = cursor_at(view.lexed, view.position)
     if cursor.inside != "code":
         if cursor.inside == "pragma" and in_pragma(cursor):

@@ -215,6 +215,21 @@ class Workspace:
                 return View(last, index, text, result, inside)
         raise AssertionError(document)
 
+    def trial_view(self, document: str, position: Position, trial: str) -> View:
+        """What would stand at a position if `trial` were the text of the document, with the present symbols.
+
+        For a text that is only being tried, such as a cell of a table that is still open. Nothing is kept.
+        Raises ServiceError when no program shows the document.
+        """
+        snapshot = self.snapshot(document)
+        for program in self._programs({**self._unsaved, document: trial}):
+            for index, text in enumerate(program.texts):
+                inside = text.position(document, position)
+                if inside is not None and program.name == snapshot.program.name:
+                    (result,) = parse_sources([text.source])
+                    return View(snapshot, index, text, result, inside)
+        raise ServiceError(f"'{document}' belongs to no application; it is not compiled")
+
     def _analyse(self, program: Program) -> Snapshot:
         if self._analysed.get(program.name) == self.generation:
             return self._snapshots[program.name]

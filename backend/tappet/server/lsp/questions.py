@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types as lsp
@@ -12,6 +12,7 @@ from tappet.lang.services import (
     cross_references,
     folding,
     navigation,
+    operands,
     outline,
     shorthand,
 )
@@ -48,6 +49,9 @@ MAX_LINE: Final = 10_000
 """Characters of a line that may be short for a declaration."""
 MAX_NAME: Final = 500
 MAX_SYMBOLS: Final = 500
+MAX_TRIAL: Final = 1_000_000
+"""Characters of a text that is being tried."""
+MAX_OPERANDS: Final = 2000
 _MEMBERS: Final = frozenset(["variable", "field", "constant", "enum_value"])
 """What a search for nothing leaves out."""
 
@@ -57,6 +61,38 @@ def completion(session: LanguageSession, params: lsp.CompletionParams) -> lsp.Co
     uri, position = session.at(params)
     found = completions.complete(session.workspace, uri, position)
     return convert.completion_list(found, session.lines(uri)(position.line), position)
+
+
+def completion_in(session: LanguageSession, params: Any) -> lsp.CompletionList:
+    """What can be written at a place of a text that is being tried: `{textDocument, position, text}`."""
+    identifier, at = _place(params)
+    text = params.get("text")
+    if not isinstance(text, str) or len(text) > MAX_TRIAL:
+        raise ServiceError(f"'text' is the whole text of the document, at most {MAX_TRIAL} characters")
+    lines = lines_of(text)
+    position = to_position(lines, at)
+    view = session.workspace.trial_view(session.canonical(identifier.uri), position, text)
+    return convert.completion_list(completions.proposals(view), lines(position.line), position)
+
+
+def operand_facts(session: LanguageSession, params: Any) -> list[dict[str, str] | None]:
+    """What is declared for operands of a body: `{textDocument, operands}` to `{type, address, comment}` each.
+
+    None for what names no variable.
+    """
+    identifier, _ = _place(
+        params | {"position": {"line": 0, "character": 0}} if isinstance(params, dict) else None
+    )
+    wanted = params.get("operands")
+    if (
+        not isinstance(wanted, list)
+        or len(wanted) > MAX_OPERANDS
+        or not all(_is_name(item) for item in wanted)
+    ):
+        raise ServiceError(f"'operands' are at most {MAX_OPERANDS} texts of at most {MAX_NAME} characters")
+    uri = session.canonical(identifier.uri)
+    view = session.snapshot(uri).view(uri, docs.Position(0, 0))
+    return [None if found is None else asdict(found) for found in operands.facts(view, wanted)]
 
 
 def hover(session: LanguageSession, params: lsp.HoverParams) -> lsp.Hover | None:
@@ -245,11 +281,9 @@ def cross_reference_list(session: LanguageSession, params: Any) -> list[dict[str
                 places.setdefault(item.place, item)
     else:
         try:
-            identifier = lsp.TextDocumentIdentifier(str(params["textDocument"]["uri"]))
-            position = lsp.Position(int(params["position"]["line"]), int(params["position"]["character"]))
-        except (KeyError, TypeError, ValueError) as error:
+            uri, inside = session.at(lsp.DefinitionParams(*_place(params)))
+        except ServiceError as error:
             raise ServiceError("Give 'name', or 'textDocument' and 'position'") from error
-        uri, inside = session.at(lsp.DefinitionParams(identifier, position))
         for snapshot in session.workspace.snapshots():
             if snapshot.shows(uri):
                 for item in cross_references.cross_references(snapshot, uri, inside):
@@ -264,3 +298,18 @@ def cross_reference_list(session: LanguageSession, params: Any) -> list[dict[str
         }
         for item in places.values()
     ]
+
+
+def _place(params: Any) -> tuple[lsp.TextDocumentIdentifier, lsp.Position]:
+    """Document and position of a request of our own."""
+    try:
+        return (
+            lsp.TextDocumentIdentifier(str(params["textDocument"]["uri"])),
+            lsp.Position(int(params["position"]["line"]), int(params["position"]["character"])),
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise ServiceError("Give 'textDocument' and 'position'") from error
+
+
+def _is_name(item: object) -> bool:
+    return isinstance(item, str) and len(item) <= MAX_NAME

@@ -37,7 +37,10 @@ READ_DOCUMENT: Final = "tappet/document"
 """Our own request: the text of a document that is not open, such as one of a library."""
 EXPAND_SHORTHAND: Final = "tappet/shorthand"
 """Our own request: `{line}` to the declaration it is short for, or null."""
-
+COMPLETION_IN: Final = "tappet/completionIn"
+"""Our own request: completion in a text that is being tried, see `questions.completion_in`."""
+OPERAND_FACTS: Final = "tappet/operandFacts"
+"""Our own request: what is declared for the operands of a table, see `questions.operand_facts`."""
 CROSS_REFERENCES: Final = "tappet/crossReferences"
 """Our own request: every place that names something, see `questions.cross_reference_list`."""
 
@@ -357,6 +360,8 @@ _REQUESTS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     lsp.WORKSPACE_SYMBOL: questions.workspace_symbol,
     lsp.TEXT_DOCUMENT_CODE_ACTION: questions.code_action,
     CROSS_REFERENCES: questions.cross_reference_list,
+    COMPLETION_IN: questions.completion_in,
+    OPERAND_FACTS: questions.operand_facts,
     lsp.TEXT_DOCUMENT_FORMATTING: questions.formatting,
     lsp.TEXT_DOCUMENT_FOLDING_RANGE: questions.folding_range,
     lsp.TEXT_DOCUMENT_PREPARE_RENAME: questions.prepare_rename,
