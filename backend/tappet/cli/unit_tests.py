@@ -86,6 +86,8 @@ def _show(report: Report) -> None:
             typer.echo(f"  {SIGNS[item.outcome]:8}{item.name}{time}")
             for failure in item.failures:
                 _show_failure(failure)
+            for line in item.output:
+                typer.echo(f"          > {line}")
         for failure in suite.failures:
             typer.echo("  ERROR   outside of a test")
             _show_failure(failure)

@@ -19,6 +19,8 @@ WAITING, RUNNING, PASSED, FAILED, SKIPPED, BROKEN = range(6)
 _OUTCOMES: dict[int, Outcome] = {PASSED: "passed", FAILED: "failed", SKIPPED: "skipped", BROKEN: "error"}
 NS_PER_S = 1_000_000_000
 _SHOWN_CALLERS = 20
+_KINDS = ((4, "error: "), (2, "warning: "))
+"""Bits of ADSLOG_MSGTYPE_... that a line is marked for."""
 
 
 @dataclass(slots=True)
@@ -101,6 +103,7 @@ class Bench:
     def collect(self, runtime: LocalRuntime) -> None:
         """Takes over what the library has recorded in this start."""
         failures = self._failures(runtime)
+        lines = self._lines(runtime)
         for number in range(1, self._number(runtime, "diTests") + 1):
             record: Any = runtime.read(f"{self._root}.aTest[{number}]")
             if number <= len(self._tests):
@@ -111,7 +114,7 @@ class Bench:
             if test.outcome is None:
                 test.state, test.record = record["eState"], record
                 if test.state in _OUTCOMES:
-                    test.outcome = self._outcome(test, failures.get(number, []))
+                    test.outcome = self._outcome(test, failures.get(number, []), lines.get(number, []))
 
     def broken(self, runtime: LocalRuntime, report: ExceptionReport) -> str | None:
         """Gives the exception to the test, or else the suite, that it happened in."""
@@ -124,12 +127,14 @@ class Bench:
             failures = self._failures(runtime).get(number, [])
             if expected == report.code and not failures:
                 test.state = PASSED
-                test.outcome = replace(self._outcome(test, []), assertions=test.record["diAsserts"] + 1)
+                outcome = self._outcome(test, [], self._lines(runtime).get(number, []))
+                test.outcome = replace(outcome, assertions=test.record["diAsserts"] + 1)
             else:
                 if expected and expected != report.code:
                     failure = replace(failure, expected=Fault(expected).name, actual=report.name)
                 test.state = BROKEN
-                test.outcome = self._outcome(test, [*failures, failure])
+                output = self._lines(runtime).get(number, [])
+                test.outcome = self._outcome(test, [*failures, failure], output)
             test.state = BROKEN  # its code must not run again
             return None
         if 0 < suite <= len(self._suites) and not self._suites[suite - 1].broken:
@@ -172,13 +177,35 @@ class Bench:
         assert isinstance(value, int)
         return value
 
-    def _outcome(self, test: _Test, failures: list[Failure]) -> TestOutcome:
+    def _outcome(self, test: _Test, failures: list[Failure], output: list[str]) -> TestOutcome:
         record = test.record
         seconds = max(0, record["tEnd"] - record["tBegin"]) / NS_PER_S
-        return TestOutcome(test.name, _OUTCOMES[test.state], record["diAsserts"], seconds, tuple(failures))
+        return TestOutcome(
+            test.name,
+            _OUTCOMES[test.state],
+            record["diAsserts"],
+            seconds,
+            tuple(failures),
+            tuple(output),
+        )
+
+    def _lines(self, runtime: LocalRuntime) -> dict[int, list[str]]:
+        """What was written in this start by the number of the test."""
+        found: dict[int, list[str]] = {}
+        room = self._symbols.resolve(f"{self._root}.aLine").type.bounds[0][1]
+        for number in range(1, min(self._number(runtime, "diLines"), room) + 1):
+            line: Any = runtime.read(f"{self._root}.aLine[{number}]")
+            kind = next((word for bit, word in _KINDS if line["dwKind"] & bit), "")
+            found.setdefault(line["diTest"], []).append(kind + line["sText"])
+        return found
+
+    def _blame(self, number: int, failure: Failure) -> None:
+        """Something is wrong with a suite; other starts find it again."""
+        if 0 < number <= len(self._suites) and failure not in self._suites[number - 1].failures:
+            self._suites[number - 1].failures.append(failure)
 
     def _failures(self, runtime: LocalRuntime) -> dict[int, list[Failure]]:
-        """The failed assertions of this start by the number of their test."""
+        """The failed assertions of this start by the number of their test; those of a suite go to it."""
         found: dict[int, list[Failure]] = {}
         count = self._number(runtime, "diFailures")
         room = self._symbols.resolve(f"{self._root}.aFailure").type.bounds[0][1]
@@ -186,6 +213,9 @@ class Bench:
             record: Any = runtime.read(f"{self._root}.aFailure[{number}]")
             mark = record["diMark"]
             place = self._marks[mark - 1] if 0 < mark <= len(self._marks) else Mark("", "", 0)
+            if not record["diTest"]:
+                self._blame(record["diSuite"], Failure(record["sMessage"]))
+                continue
             found.setdefault(record["diTest"], []).append(
                 Failure(
                     record["sMessage"],

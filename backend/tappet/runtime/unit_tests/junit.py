@@ -13,7 +13,8 @@ _FORBIDDEN = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 def to_xml(report: Report) -> bytes:
     """The report as a document; the same report gives the same bytes."""
-    root = ET.Element("testsuites", _counts(report.application, report.suites))
+    counts = _counts(report.application, report.suites)
+    root = ET.Element("testsuites", counts | {"disabled": counts.pop("skipped")})
     for suite in report.suites:
         element = ET.SubElement(root, "testsuite", _counts(suite.name, (suite,)))
         for test in suite.tests:
@@ -53,10 +54,12 @@ def _case(parent: ET.Element, suite: SuiteOutcome, test: TestOutcome) -> None:
         ET.SubElement(case, "skipped")
     for failure in test.failures:
         _failure(case, "failure" if failure.is_assertion else "error", failure)
+    if test.output:
+        ET.SubElement(case, "system-out").text = _clean("\n".join(test.output))
 
 
 def _failure(parent: ET.Element, tag: str, failure: Failure) -> None:
-    kind = "assertion" if failure.is_assertion else f"exception {failure.code}" if failure.code else "timeout"
+    kind = "assertion" if failure.is_assertion else f"exception {failure.code}" if failure.code else "error"
     element = ET.SubElement(parent, tag, {"type": kind, "message": _clean(failure.message)})
     element.text = _clean(describe(failure))
 
@@ -76,7 +79,8 @@ def describe(failure: Failure) -> str:
     """A failure in words: message, values, place."""
     text = failure.message
     if failure.expected is not None:
-        text += f": expected {failure.expected}, but was {failure.actual}"
+        text = f"{text}: " if text else ""
+        text += f"expected {failure.expected}, but was {failure.actual}"
     if failure.uri or failure.pou:
         place = failure.pou or failure.uri
         text += f" ({place}, line {failure.line})" if failure.line else f" ({place})"

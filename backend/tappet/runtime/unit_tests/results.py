@@ -40,6 +40,8 @@ class TestOutcome:
     seconds: float = 0.0
     """Time of the PLC from its begin to its end: simulated time."""
     failures: tuple[Failure, ...] = ()
+    output: tuple[str, ...] = ()
+    """Lines it has written with TCUNIT_ADSLOGSTR."""
 
     __test__ = False  # no test class of pytest
 
@@ -103,7 +105,13 @@ def _suite(data: dict[str, Any]) -> SuiteOutcome:
         data["name"],
         data["block"],
         tuple(
-            TestOutcome(**{**test, "failures": tuple(_failure(f) for f in test["failures"])})
+            TestOutcome(
+                **{
+                    **test,
+                    "failures": tuple(_failure(f) for f in test["failures"]),
+                    "output": tuple(test.get("output", ())),
+                }
+            )
             for test in data["tests"]
         ),
         tuple(_failure(f) for f in data["failures"]),
