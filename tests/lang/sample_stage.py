@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from tappet.codegen.build import BuildOptions, LibraryReference
 from tappet.codegen.check import check_application
 from tappet.lang.analysis import AnalysisOptions, analyse, check_tasks
+from tappet.lang.coding_settings import StaticAnalysis
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.rules import CODING_RULES
@@ -55,6 +56,8 @@ class Stage:
     references: list[str] = field(default_factory=list)
     static: bool = False
     build: bool = False
+    configured: bool = False
+    """Whether every incomplete address needs a line of VAR_CONFIG."""
     frames: int | None = None
     main: bool = False
     """Whether the tasks are checked although there are none."""
@@ -94,6 +97,8 @@ def stage(text: str) -> Stage:
             made.references += rest
         elif word == "@static":
             made.static = True
+        elif word == "@configured":
+            made.configured = True
         elif word == "@build":
             made.build = True
         elif word == "@frames":
@@ -145,7 +150,8 @@ def diagnose(text: str) -> list[Diagnostic]:
         libraries = tuple(LibraryReference(name) for name in made.references)
         return check_application(made.sources, made.tasks, BuildOptions(libraries=libraries))
     results = parse_sources(made.sources, ParseOptions())
-    options = AnalysisOptions(static=ALL_CODING_RULES if made.static else frozenset())
+    static = StaticAnalysis(ALL_CODING_RULES if made.static else frozenset())
+    options = AnalysisOptions(static=static, free_addresses=not made.configured)
     with _frames_left(made.frames):
         analysis = analyse([r.unit for r in results], options)
     found = [d for r in results for d in r.diagnostics] + analysis.diagnostics

@@ -191,7 +191,7 @@ def test_constants_that_need_each_other() -> None:
         ("VAR x AT %IX0 : BOOL; END_VAR", "E0601"),
         ("VAR x AT %MW999999 : INT; END_VAR", "E0604"),
         ("VAR x AT %QX0.1 : INT; END_VAR", "E0603"),
-        ("VAR x AT %I* : BOOL; END_VAR", "E0605"),
+        ("VAR x AT %I* : BOOL; END_VAR", "W1303"),
         ("VAR_EXTERNAL x : INT; END_VAR", "E0211"),
         ("VAR_IN_OUT x : INT := 3; END_VAR", "E0430"),
         ("VAR_GLOBAL x : INT; END_VAR", "E0405"),

@@ -58,7 +58,9 @@ def sources_of(case: dict[str, Any]) -> list[Source]:
 def build(case: dict[str, Any], previous: CodePackage | None = None) -> BuildResult:
     byte_addressing = case.get("options", {}).get("byte_addressing", False)
     libraries = (LibraryReference("Standard"), LibraryReference("Standard64"))
-    options = BuildOptions(byte_addressing=byte_addressing, level=1, libraries=libraries)
+    options = BuildOptions(
+        byte_addressing=byte_addressing, level=1, libraries=libraries, free_addresses=False
+    )
     return build_application(sources_of(case), options=options, previous=previous)
 
 

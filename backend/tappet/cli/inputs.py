@@ -11,6 +11,7 @@ from tappet.cli.output import UsageError
 from tappet.codegen.build import BuildOptions, LibraryReference, as_source
 from tappet.codegen.package import TaskSpec, WatchdogSpec
 from tappet.lang import ast
+from tappet.lang.coding_settings import StaticAnalysis, static_analysis
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
 from tappet.project import folder
@@ -83,7 +84,11 @@ def project_applications(project: Project) -> list[ApplicationInput]:
             application.name,
             tuple(as_source(text) for text in project_sources.application_sources(project, application.id)),
             tuple(_task(task) for task in project_sources.tasks(project, application.id)),
-            BuildOptions(application.name, libraries=_libraries(project, application.id)),
+            BuildOptions(
+                application.name,
+                libraries=_libraries(project, application.id),
+                static=_static(project, application.id),
+            ),
         )
         for application in project.applications()
     ]
@@ -91,9 +96,16 @@ def project_applications(project: Project) -> list[ApplicationInput]:
 
 def _libraries(project: Project, application_id: str) -> tuple[LibraryReference, ...]:
     return tuple(
-        LibraryReference(reference.name, reference.version, reference.namespace or None)
+        LibraryReference(
+            reference.name, reference.version, reference.namespace or None, reference.placeholder
+        )
         for reference in project_sources.libraries(project, application_id)
     )
+
+
+def _static(project: Project, application_id: str) -> StaticAnalysis:
+    chosen = project_sources.static_analysis(project, application_id)
+    return static_analysis(chosen.rules, chosen.prefixes, chosen.limits)
 
 
 def _task(task: project_sources.TaskDefinition) -> TaskSpec:
@@ -134,7 +146,7 @@ def _plain_files(paths: Sequence[Path]) -> ApplicationInput:
     # the test library keeps room for the results of many tests: only tests get it
     names = [n for n in libraries.names() if n != TEST_LIBRARY or has_suites(texts)]
     references = tuple(LibraryReference(libraries.as_called(name, texts)) for name in names)
-    options = BuildOptions(files[0].stem, libraries=references)
+    options = BuildOptions(files[0].stem, libraries=references, free_addresses=False)
     return ApplicationInput(files[0].stem, tuple(sources), tasks, options)
 
 

@@ -27,6 +27,7 @@ from tappet.core.program import CONVERSION_LIBRARY, LoweringError
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
 from tappet.lang.analysis.tasks import Task, check_tasks
+from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.parser import ParseResult
@@ -44,6 +45,8 @@ class LibraryReference:
     name: str
     version: str = "*"
     namespace: str | None = None
+    placeholder: str | None = None
+    """The name that libraries which need it know it by, where that is another one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +70,10 @@ class BuildOptions:
     check_only: bool = False
     """Make no object code."""
     main_program: str = "PLC_PRG"
-    static: frozenset[str] = frozenset()
-    """Codes of the optional coding rules that are checked."""
+    free_addresses: bool = True
+    """Incomplete addresses without a line of VAR_CONFIG get a free place; False: they are errors (LDEC-94)."""
+    static: StaticAnalysis = NO_RULES
+    """The optional coding rules that are checked."""
 
 
 @dataclass(slots=True)
@@ -237,6 +242,7 @@ class _Build:
                 system=options.system,
                 byte_addressing=options.byte_addressing,
                 main_program=options.main_program,
+                free_addresses=options.free_addresses,
                 static=options.static,
             )
             analysis = self.session.analyse(parsed, settings)
@@ -262,7 +268,7 @@ class _Build:
 
     def library_sources(self) -> list[Source]:
         """Texts of the libraries in use, of those they need and of the conversion library."""
-        wanted = [(r.name, r.version, r.namespace) for r in self.options.libraries]
+        wanted = [(r.name, r.version, r.namespace, r.placeholder) for r in self.options.libraries]
         found, problems = installed.resolve([*wanted, (CONVERSION_LIBRARY, "*", None)])
         self.result.diagnostics += [report("E0902", "", NOWHERE, message=text) for text in problems]
         return [source for library in found for source in library.sources]

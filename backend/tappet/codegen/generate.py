@@ -90,7 +90,9 @@ class Generator:
             lowered = lower(analysis, [Task(s.name, s.programs) for s in specs], known)
         with self.timed("layout"):
             placed = self.place(lowered)
-            symbols = build_symbol_map(lowered.data, placed.objects, self.options.byte_addressing)
+            symbols = build_symbol_map(
+                lowered.data, placed.objects, self.options.byte_addressing, analysis.configured
+            )
             events = [event_place(spec, symbols, self.diagnostics) for spec in specs]
             if check_only or any(d.severity == "error" for d in self.diagnostics):
                 return None

@@ -171,6 +171,8 @@ class SymbolMap:
     areas: dict[str, tuple[int, int]] = field(default_factory=dict)
     """I, Q, M to (offset, size) in the image."""
     byte_addressing: bool = False
+    mapped: dict[str, tuple[str, int, int | None]] = field(default_factory=dict)
+    """Upper-case path of a variable with an incomplete address to area, byte and bit of its place (LDEC-93)."""
 
     # -- look-up -------------------------------------------------------------------------------------
 
@@ -178,7 +180,8 @@ class SymbolMap:
         """The variable at `path` (case-insensitive); raises SymbolError naming the part that is wrong.
 
         Understands `PRG.a.b[1, 2].c`, unqualified global variables, `.3` bits and %IX / %QW / %MD addresses.
-        Pointers and references are values here: their targets are not static.
+        Pointers and references are values here: their targets are not static. A variable `AT %I*` stands for
+        its place in the input area, from where every cycle copies it.
         """
         text = path.strip()
         if text.startswith("%"):
@@ -225,6 +228,7 @@ class SymbolMap:
             "globals": self.globals,
             "areas": {k: list(v) for k, v in self.areas.items()},
             "byte_addressing": self.byte_addressing,
+            "mapped": {k: list(v) for k, v in self.mapped.items()},
         }
 
     @classmethod
@@ -239,6 +243,7 @@ class SymbolMap:
                 {str(k): str(v) for k, v in table["globals"].items()},
                 {str(k): (int(v[0]), int(v[1])) for k, v in table["areas"].items()},
                 bool(table["byte_addressing"]),
+                {str(k): _mapped_place(v) for k, v in table.get("mapped", {}).items()},
             )
         except (KeyError, TypeError, IndexError, AttributeError) as error:
             raise ValueError(f"malformed symbol table: {error!r}") from error
@@ -291,6 +296,11 @@ class SymbolMap:
             indices = [(*done, i) for done in indices for i in range(low, high + 1)][:10_000]
         texts = (", ".join(map(str, index)) for index in indices)
         return [self._child(f"[{t}]", f"{ref.path}[{t}]", ref.type.elem) for t in texts]
+
+
+def _mapped_place(row: list[Any]) -> tuple[str, int, int | None]:
+    area, offset, bit = row
+    return str(area), int(offset), None if bit is None else int(bit)
 
 
 def _tokenize(text: str) -> list[str]:
@@ -392,6 +402,14 @@ class _Walk:
         self.info = self.symbols.types[member.type]
         self.bit = member.bit
         self.member = member
+        if self.symbols.mapped:
+            self.at_input()
+
+    def at_input(self) -> None:
+        """Go to the input area for a variable that each cycle overwrites with what lies there."""
+        place = self.symbols.mapped.get(self.path.upper())
+        if place is not None and place[0] == "I" and "I" in self.symbols.areas:
+            self.offset, self.bit = self.symbols.areas["I"][0] + place[1], place[2]
 
     def take_bit(self, bit: int) -> None:
         kind = self.info.kind

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from tappet.codegen.display import FLAG as DISPLAY_FLAG
@@ -18,6 +18,7 @@ from tappet.core.lower import DataObject as ProgramData
 from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.result import ConfiguredAddress
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Kind
 
@@ -154,9 +155,12 @@ def _exported(owner: GvlSymbol | PouSymbol, members: tuple[MemberInfo, ...]) -> 
 
 
 def build_symbol_map(
-    data: list[ProgramData], objects: Mapping[str, DataObject], byte_addressing: bool
+    data: list[ProgramData],
+    objects: Mapping[str, DataObject],
+    byte_addressing: bool,
+    configured: Iterable[ConfiguredAddress] = (),
 ) -> SymbolMap:
-    """Symbol map of placed data objects."""
+    """Symbol map of placed data objects, and of the variables that are copied from and to an address."""
     table = TypeTable()
     symbols = SymbolMap(table.types, byte_addressing=byte_addressing)
     for area in "IQM":
@@ -184,6 +188,8 @@ def build_symbol_map(
             for member in members:
                 key = member.name.upper()
                 symbols.globals[key] = "" if key in symbols.globals else name
+    for entry in configured:
+        symbols.mapped[entry.path.upper()] = (entry.area, entry.address, entry.bit)
     return symbols
 
 
@@ -359,8 +365,5 @@ def _not_initialised(decl: ast.VarDecl) -> bool:
 
 
 def _indices(type_: t.Array) -> Iterator[str]:
-    indices: list[tuple[int, ...]] = [()]
-    for low, high in type_.bounds:
-        indices = [(*done, i) for done in indices for i in range(low, high + 1)]
-    for index in indices:
+    for index in type_.indices():
         yield ", ".join(map(str, index))

@@ -6,8 +6,10 @@ Sizes and offsets are fixed here once, because SIZEOF, the memory image, DWARF a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import product
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -127,6 +129,10 @@ class Array:
         for low, high in self.bounds:
             n *= high - low + 1
         return n
+
+    def indices(self) -> Iterator[tuple[int, ...]]:
+        """The indices of the elements in the order of storage."""
+        return product(*(range(low, high + 1) for low, high in self.bounds))
 
     @property
     def size(self) -> int:

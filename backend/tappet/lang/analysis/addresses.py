@@ -79,6 +79,14 @@ def locate(b: Body, text: str, span: Span) -> Address | IncompleteAddress | None
     return Address(area, offset, bit, size, letter)
 
 
+def text_of_place(area: str, offset: int, type_: Type, byte_mode: bool) -> str:
+    """The address of a variable of `type_` that begins at a byte of an area: `%IX0.0`, `%QW2`, `%MB7`."""
+    if t.value_type(type_) is t.BOOL:
+        return f"%{area}X{offset}.0" if byte_mode else f"%{area}X{offset // 2}.{offset % 2 * 8}"
+    letter = {2: "W", 4: "D", 8: "L"}.get(type_.size, "B")
+    return f"%{area}{letter}{offset if byte_mode else offset // _SIZES[letter]}"
+
+
 def operand(b: Body, e: ast.Name) -> VarSymbol | None:
     """The anonymous variable that an address used as operand stands for (LDEC-61)."""
     place = locate(b, e.name, e.span)
@@ -87,6 +95,7 @@ def operand(b: Body, e: ast.Name) -> VarSymbol | None:
         return None
     if place is None:
         return None
+    b.session.operands.add((place.area, place.offset + place.size))
     return VarSymbol(
         e.name.upper(),
         source=b.source,

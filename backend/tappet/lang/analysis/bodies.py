@@ -13,7 +13,7 @@ from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.statements import check_jumps, statements
 from tappet.lang.analysis.suppression import kept
-from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.diagnostics import Diagnostic, with_severity
 from tappet.lang.rules import LIBRARY_POU_RULES, POU_RULES, coding_checks
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol
@@ -21,12 +21,14 @@ from tappet.lang.symbols import PouSymbol
 
 @dataclass(slots=True)
 class Record:
-    """What one part of the program has reported, named, written and called; sets hold id() of symbols."""
+    """What one part of the program has reported, named, written and called; sets hold id() of symbols.
+    `operands`: see `Session`."""
 
     messages: list[Diagnostic]
     used: set[int]
     written: set[int]
     called: set[int]
+    operands: set[tuple[str, int]]
 
 
 @dataclass(slots=True)
@@ -57,9 +59,9 @@ def with_children(pou: PouSymbol) -> Iterable[PouSymbol]:
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     """Resolves and checks the statements of one POU, method, action or accessor."""
-    record = Record([], set(), set(), set())
+    record = Record([], set(), set(), set(), set())
     session.diagnostics, session.used = record.messages, record.used
-    session.written, session.called = record.written, record.called
+    session.written, session.called, session.operands = record.written, record.called, record.operands
     node = pou.pou
     if node is None:
         return record
@@ -72,7 +74,7 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     library = body.source.scope is Scope.LIBRARY
     for check in LIBRARY_POU_RULES if library else POU_RULES:
         check(body)
-    chosen = session.options.static
+    chosen = session.options.static.codes
     if chosen and not library:
         for coding_check in coding_checks("check_pou", chosen):
             coding_check(body, chosen)
@@ -85,7 +87,7 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
 def _coding_rules(state: State) -> None:
     """The optional rules that look at whole texts or at the whole program."""
     session = state.session
-    chosen = session.options.static
+    chosen = session.options.static.codes
     if not chosen:
         return
     for check in coding_checks("check_unit", chosen):
@@ -103,6 +105,7 @@ def finish(state: State) -> Analysis:
     session.used = set().union(*(record.used for record in records))
     session.written = set().union(*(record.written for record in records))
     session.called = set().union(*(record.called for record in records))
+    session.operands = set().union(*(record.operands for record in records))
     session.diagnostics = []
     program.check(session, state.found, state.declarations)
     _coding_rules(state)
@@ -115,7 +118,7 @@ def finish(state: State) -> Analysis:
     last = len(order)
     found.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code))
     analysis = session.analysis
-    analysis.diagnostics = kept(found, state.units)
+    analysis.diagnostics = with_severity(kept(found, state.units), session.options.static.errors)
     analysis.called = session.called
     analysis.state = state
     return analysis

@@ -37,6 +37,8 @@ class Session:
     """Calls to a POU by id() of the caller, with their place."""
     called: set[int] = field(default_factory=set)
     """id() of every POU that is called, instantiated or whose address is taken."""
+    operands: set[tuple[str, int]] = field(default_factory=set)
+    """Area and last byte + 1 of every address that some code names."""
     suggestions: int = 0
 
     def report(

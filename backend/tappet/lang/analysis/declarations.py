@@ -21,6 +21,9 @@ from tappet.lang.types import Elementary, Type
 
 _STORED = frozenset({"VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"})
 _SIMPLE = (Elementary, t.String, t.Enum, t.Subrange)
+_PINS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT")
+_HANDED_OVER = ("VAR_INPUT", "VAR_IN_OUT")
+"""CONSTANT here says that the body cannot write; the value comes from the caller."""
 _POINTER_SIZE = 8
 
 
@@ -59,7 +62,7 @@ class Declarations(TypeReferences):
         if type_ is None:
             return
         self._check_variable(body, variable, decl, type_)
-        if "CONSTANT" in variable.flags and variable.section != "VAR_IN_OUT":
+        if "CONSTANT" in variable.flags and variable.section not in _HANDED_OVER:
             self._constant(body, variable, decl, type_)
 
     def _check_variable(self, body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Type) -> None:
@@ -73,13 +76,18 @@ class Declarations(TypeReferences):
 
     def _place(self, body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Type) -> None:
         assert decl.address is not None
-        if variable.section in ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"):
+        pins = ("VAR_IN_OUT",) if decl.address.endswith("*") and self._stored(body) else _PINS
+        if variable.section in pins:
             body.report("E0401", decl.span)
         elif variable.flags & {"RETAIN", "PERSISTENT"}:
             body.report("E0402", decl.span)
         else:
             self.complete(type_)
             addresses.place_variable(body, variable, decl.address, decl.span, type_)
+
+    def _stored(self, body: Body) -> bool:
+        """Whether the variables of a text are kept from call to call."""
+        return body.pou is not None and body.pou.kind in ("PROGRAM", "FUNCTION_BLOCK")
 
     def _constant(self, body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Type) -> None:
         if not isinstance(type_, _SIMPLE) and not isinstance(type_, t.Pointer):
@@ -225,7 +233,11 @@ class Declarations(TypeReferences):
             body.report("E0205", decl.name_span, what="member", name=decl.name)
             return None
         if decl.address is not None:
-            body.report("E0403", decl.span)
+            place = addresses.locate(body, decl.address, decl.span)
+            if isinstance(place, addresses.IncompleteAddress):
+                symbol.area = place.area
+            elif place is not None:
+                body.report("E0403", decl.span)
         symbol.type = self.type_of(body, decl.type_ref, f"{struct.name}_{decl.name}")
         decl.init = decl.initial or self.alias_initial(body, decl.type_ref)
         if symbol.type is None:

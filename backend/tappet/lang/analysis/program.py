@@ -1,4 +1,4 @@
-"""Checks of the whole program: recursion, interfaces, FB_Init arguments, VAR_CONFIG, address overlap."""
+"""Checks of the whole program: recursion, interfaces, FB_Init arguments, what rules see of the whole."""
 
 from __future__ import annotations
 
@@ -6,17 +6,15 @@ from collections.abc import Iterable
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import addresses
 from tappet.lang.analysis.calls import bind_arguments
 from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.configured import place_incomplete
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
-from tappet.lang.analysis.heads import plain_body
 from tappet.lang.analysis.members import find_member
-from tappet.lang.analysis.result import ConfiguredAddress
 from tappet.lang.rules import PROGRAM_RULES
-from tappet.lang.source import Scope, Source, Span
-from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, Storage, VarSymbol
+from tappet.lang.source import Source, Span
+from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, VarSymbol
 from tappet.lang.types import Type
 
 _FB_INIT_FIXED = 2
@@ -30,7 +28,7 @@ def check(session: Session, found: Collected, declarations: Declarations) -> Non
     for pou, _ in found.pous:
         _interfaces(session, pou)
         _overrides(session, pou)
-    _configured_addresses(session, found, declarations)
+    place_incomplete(session, found, declarations)
     _external_types(session, found, declarations)
     for rule in PROGRAM_RULES:
         rule(session)
@@ -231,161 +229,3 @@ def _external_types(session: Session, found: Collected, declarations: Declaratio
                         other=target.type,
                         owner=target.owner,
                     )
-
-
-# -- VAR_CONFIG -------------------------------------------------------------------------------------
-
-
-def _configured_addresses(session: Session, found: Collected, declarations: Declarations) -> None:
-    """Connects incomplete addresses `%I*` with the lines of VAR_CONFIG (LDEC-93, LDEC-94)."""
-    incomplete = _incomplete_paths(session, found)
-    session.analysis.configured = []
-    seen: set[str] = set()
-    for decl, source in found.configured:
-        body = plain_body(session, source)
-        key = decl.name.upper()
-        if key in seen:
-            body.report("E0610", decl.span, path=decl.name)
-            continue
-        seen.add(key)
-        entry = incomplete.get(key)
-        if entry is None:
-            body.report("E0606", decl.name_span, path=decl.name, hint=_path_hint(key, incomplete))
-            continue
-        _connect(session, body, decl, entry, declarations)
-    for key, (variable, _, _, path) in incomplete.items():
-        if key not in seen and variable.source is not None and variable.span is not None:
-            session.report("E0605", variable.source.uri, variable.span, path=path)
-
-
-def _path_hint(key: str, incomplete: dict[str, tuple[VarSymbol, str, int, str]]) -> str:
-    tail = key.rpartition(".")[2]
-    known = [path for k, (_, _, _, path) in incomplete.items() if k.endswith(f".{tail}")]
-    return f"Paths with an incomplete address are: {', '.join(known[:3])}." if known else ""
-
-
-def _connect(
-    session: Session,
-    body: Body,
-    decl: ast.VarDecl,
-    entry: tuple[VarSymbol, str, int, str],
-    declarations: Declarations,
-) -> None:
-    variable, owner, offset, _ = entry
-    if decl.address is None:
-        body.report("E0601", decl.span, address="")
-        return
-    place = addresses.locate(body, decl.address, decl.span)
-    if isinstance(place, addresses.IncompleteAddress):
-        body.report("E0608", decl.span)
-        return
-    type_ = declarations.type_of(body, decl.type_ref, decl.name)
-    if place is None or type_ is None or variable.type is None:
-        return
-    if place.area != variable.area or type_ != variable.type:
-        body.report(
-            "E0607",
-            decl.span,
-            path=decl.name,
-            declared=f"%{variable.area}* : {variable.type}",
-            configured=f"{decl.address} : {type_}",
-        )
-        return
-    session.analysis.configured.append(
-        ConfiguredAddress(decl.name, owner.upper(), offset, type_, place.area, place.offset, place.bit)
-    )
-
-
-def _incomplete_paths(session: Session, found: Collected) -> dict[str, tuple[VarSymbol, str, int, str]]:
-    """Every variable with an incomplete address: upper-case path to variable, data object, offset, path."""
-    paths: dict[str, tuple[VarSymbol, str, int, str]] = {}
-    concerned: dict[int, bool] = {}
-    for program in session.analysis.programs.values():
-        if program.source is not None and program.source.scope is Scope.LIBRARY:
-            continue
-        for variable in program.locals.values():
-            _walk(
-                paths,
-                concerned,
-                variable,
-                variable.type,
-                program.qualified_name,
-                variable.offset,
-                program.name,
-            )
-    for gvl, _ in found.gvls:
-        for variable in gvl.members.values():
-            _walk(paths, concerned, variable, variable.type, gvl.name, variable.offset, gvl.name)
-    return paths
-
-
-def _is_incomplete(variable: VarSymbol) -> bool:
-    return variable.area is not None and variable.home is not Storage.DIRECT
-
-
-def _walk(
-    paths: dict[str, tuple[VarSymbol, str, int, str]],
-    concerned: dict[int, bool],
-    variable: VarSymbol,
-    type_: Type | None,
-    owner: str,
-    offset: int,
-    prefix: str,
-) -> None:
-    path = f"{prefix}.{variable.name}"
-    if _is_incomplete(variable):
-        paths[path.upper()] = (variable, owner, offset, path)
-        return
-    if variable.section in ("VAR_IN_OUT", "VAR_TEMP"):
-        return
-    _walk_type(paths, concerned, type_, owner, offset, path)
-
-
-def _walk_type(
-    paths: dict[str, tuple[VarSymbol, str, int, str]],
-    concerned: dict[int, bool],
-    type_: Type | None,
-    owner: str,
-    offset: int,
-    path: str,
-) -> None:
-    if isinstance(type_, t.FunctionBlock):
-        if not _concerns(concerned, type_):
-            return
-        block = type_.pou.symbol if type_.pou is not None else None
-        if isinstance(block, PouSymbol):
-            for variable in block.locals.values():
-                if variable.home is Storage.INSTANCE and variable.owner is not None:
-                    _walk(paths, concerned, variable, variable.type, owner, offset + variable.offset, path)
-    elif isinstance(type_, t.Array) and len(type_.bounds) == 1:
-        element = type_.element
-        if not isinstance(element, t.FunctionBlock) or not _concerns(concerned, element):
-            return
-        low, high = type_.bounds[0]
-        for index in range(low, high + 1):
-            start = offset + (index - low) * element.size
-            _walk_type(paths, concerned, element, owner, start, f"{path}[{index}]")
-
-
-def _concerns(concerned: dict[int, bool], type_: t.FunctionBlock) -> bool:
-    """Whether a block, or one inside it, has an incomplete address; most have none."""
-    known = concerned.get(id(type_))
-    if known is not None:
-        return known
-    concerned[id(type_)] = False
-    block = type_.pou.symbol if type_.pou is not None else None
-    result = False
-    if isinstance(block, PouSymbol):
-        for variable in block.locals.values():
-            if _is_incomplete(variable):
-                result = True
-                break
-            inner: Type | None = variable.type
-            while isinstance(inner, t.Array):
-                inner = inner.element
-            stored = variable.section != "VAR_IN_OUT"
-            if stored and isinstance(inner, t.FunctionBlock) and _concerns(concerned, inner):
-                result = True
-                break
-    concerned[id(type_)] = result
-    return result

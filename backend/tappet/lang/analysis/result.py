@@ -82,6 +82,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tappet.lang import ast
+from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.symbols import (
     BuiltinSymbol,
@@ -108,8 +109,10 @@ class AnalysisOptions:
     """Bytes of the areas I, Q and M."""
     main_program: str = "PLC_PRG"
     """Program that runs when there is no task configuration."""
-    static: frozenset[str] = frozenset()
-    """Codes of the optional coding rules (S1xxx) that are switched on."""
+    free_addresses: bool = True
+    """Variables with an incomplete address that VAR_CONFIG does not name get a free one; False: an error."""
+    static: StaticAnalysis = NO_RULES
+    """The optional coding rules (S1xxx) that are switched on."""
 
 
 @dataclass(frozen=True, slots=True)

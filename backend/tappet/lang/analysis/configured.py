@@ -1,0 +1,236 @@
+"""Places of variables with an incomplete address `%I*`: those of VAR_CONFIG, and free ones for the others.
+
+A variable that VAR_CONFIG does not name is an error (LDEC-94), or gets the next free bytes behind all fixed
+addresses of its area, in the order of the declarations, as TwinCAT does (`AnalysisOptions.free_addresses`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tappet.lang import ast
+from tappet.lang import types as t
+from tappet.lang.analysis import addresses
+from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.context import Body, Session
+from tappet.lang.analysis.declarations import Declarations
+from tappet.lang.analysis.heads import plain_body
+from tappet.lang.analysis.result import ConfiguredAddress
+from tappet.lang.diagnostics import Related
+from tappet.lang.source import Scope
+from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
+from tappet.lang.types import Type
+
+_LISTED = 20
+"""Variables that the message about free places lists."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Incomplete:
+    """One instance of a variable with an incomplete address."""
+
+    variable: VarSymbol
+    owner: str
+    """Data object it lies in."""
+    offset: int
+    path: str
+
+
+def place_incomplete(session: Session, found: Collected, declarations: Declarations) -> None:
+    """Gives every variable with an incomplete address its place: see `Analysis.configured`."""
+    incomplete = _instances(session, found)
+    session.analysis.configured = []
+    seen: set[str] = set()
+    for decl, source in found.configured:
+        body = plain_body(session, source)
+        key = decl.name.upper()
+        if key in seen:
+            body.report("E0610", decl.span, path=decl.name)
+            continue
+        seen.add(key)
+        entry = incomplete.get(key)
+        if entry is None:
+            body.report("E0606", decl.name_span, path=decl.name, hint=_path_hint(key, incomplete))
+            continue
+        _connect(session, body, decl, entry, declarations)
+    left = [entry for key, entry in incomplete.items() if key not in seen]
+    if left and session.options.free_addresses:
+        _allocate(session, found, left)
+        return
+    for entry in left:
+        variable = entry.variable
+        if variable.source is not None and variable.span is not None:
+            session.report("E0605", variable.source.uri, variable.span, path=entry.path)
+
+
+def _path_hint(key: str, incomplete: dict[str, _Incomplete]) -> str:
+    tail = key.rpartition(".")[2]
+    known = [entry.path for k, entry in incomplete.items() if k.endswith(f".{tail}")]
+    return f"Paths with an incomplete address are: {', '.join(known[:3])}." if known else ""
+
+
+def _connect(
+    session: Session, body: Body, decl: ast.VarDecl, entry: _Incomplete, declarations: Declarations
+) -> None:
+    variable = entry.variable
+    if decl.address is None:
+        body.report("E0601", decl.span, address="")
+        return
+    place = addresses.locate(body, decl.address, decl.span)
+    if isinstance(place, addresses.IncompleteAddress):
+        body.report("E0608", decl.span)
+        return
+    type_ = declarations.type_of(body, decl.type_ref, decl.name)
+    if place is None or type_ is None or variable.type is None:
+        return
+    if place.area != variable.area or type_ != variable.type:
+        body.report(
+            "E0607",
+            decl.span,
+            path=decl.name,
+            declared=f"%{variable.area}* : {variable.type}",
+            configured=f"{decl.address} : {type_}",
+        )
+        return
+    owner = entry.owner.upper()
+    session.analysis.configured.append(
+        ConfiguredAddress(entry.path, owner, entry.offset, type_, place.area, place.offset, place.bit)
+    )
+
+
+# -- free places ------------------------------------------------------------------------------------
+
+
+def _allocate(session: Session, found: Collected, left: list[_Incomplete]) -> None:
+    """Places the variables without a line of VAR_CONFIG and says so once for each text that declares some."""
+    ends = _fixed_ends(session, found)
+    byte_mode = session.options.byte_addressing
+    placed: dict[str, list[tuple[_Incomplete, str]]] = {}
+    for entry in left:
+        variable = entry.variable
+        type_, area, source, span = variable.type, variable.area, variable.source, variable.span
+        if type_ is None or area is None or source is None or span is None:
+            continue
+        step = max(type_.align, 1)
+        offset = (ends[area] + step - 1) // step * step
+        address = addresses.text_of_place(area, offset, type_, byte_mode)
+        limit = session.options.area_limits[area]
+        if offset + type_.size > limit:
+            session.report("E0604", source.uri, span, address=address, limit=limit)
+            continue
+        ends[area] = offset + type_.size
+        session.analysis.configured.append(
+            ConfiguredAddress(entry.path, entry.owner.upper(), entry.offset, type_, area, offset, None)
+        )
+        placed.setdefault(source.uri, []).append((entry, address))
+    for uri, entries in placed.items():
+        (first, address), others = entries[0], entries[1:]
+        assert first.variable.span is not None
+        more = f" and {len(others)} more" if others else ""
+        related = [
+            Related(f"'{entry.path}' lies at {where}", uri, entry.variable.span)
+            for entry, where in others[:_LISTED]
+            if entry.variable.span is not None
+        ]
+        session.report(
+            "W1303", uri, first.variable.span, related, path=first.path, address=address, more=more
+        )
+
+
+def _fixed_ends(session: Session, found: Collected) -> dict[str, int]:
+    """The byte behind the last fixed address of each area: of declarations, operands and VAR_CONFIG."""
+    ends = dict.fromkeys("IQM", 0)
+
+    def reach(area: str | None, end: int) -> None:
+        if area is not None:
+            ends[area] = max(ends[area], end)
+
+    declared = [v for gvl, _ in found.gvls for v in gvl.members.values()]
+    declared += [v for own in found.own.values() for v in own.variables.values()]
+    for variable in declared:
+        if variable.home is Storage.DIRECT and variable.type is not None:
+            reach(variable.area, variable.offset + variable.type.size)
+    for item in session.analysis.configured:
+        reach(item.area, item.address + item.type.size)
+    for area, end in session.operands:
+        reach(area, end)
+    return ends
+
+
+# -- instances --------------------------------------------------------------------------------------
+
+
+def _instances(session: Session, found: Collected) -> dict[str, _Incomplete]:
+    """Every instance of a variable with an incomplete address, by upper-case path."""
+    walk = _Walk()
+    for program in session.analysis.programs.values():
+        if program.source is not None and program.source.scope is Scope.LIBRARY:
+            continue
+        for variable in program.locals.values():
+            if variable.section not in ("VAR_GLOBAL", "VAR_STAT"):
+                walk.variable(variable, program.qualified_name, variable.offset, program.name)
+    for gvl, _ in found.gvls:
+        for variable in gvl.members.values():
+            walk.variable(variable, gvl.name, variable.offset, gvl.name)
+    return walk.paths
+
+
+class _Walk:
+    """Descends into the instances and structures that hold incomplete addresses; most hold none."""
+
+    def __init__(self) -> None:
+        self.paths: dict[str, _Incomplete] = {}
+        self.concerned: dict[int, bool] = {}
+
+    def variable(self, variable: VarSymbol, owner: str, offset: int, prefix: str) -> None:
+        path = f"{prefix}.{variable.name}"
+        if _is_incomplete(variable):
+            self.paths[path.upper().replace(" ", "")] = _Incomplete(variable, owner, offset, path)
+        elif _holds(variable) and variable.type is not None:
+            self.inside(variable.type, owner, offset, path)
+
+    def inside(self, type_: Type, owner: str, offset: int, path: str) -> None:
+        if not self.concerns(type_):
+            return
+        if isinstance(type_, t.Array):
+            size = type_.element.size
+            for number, index in enumerate(type_.indices()):
+                text = ", ".join(map(str, index))
+                self.inside(type_.element, owner, offset + number * size, f"{path}[{text}]")
+            return
+        for variable in _parts(type_):
+            self.variable(variable, owner, offset + variable.offset, path)
+
+    def concerns(self, type_: Type) -> bool:
+        """Whether an incomplete address lies somewhere in a variable of the type."""
+        while isinstance(type_, t.Array):
+            type_ = type_.element
+        if not isinstance(type_, t.Struct | t.FunctionBlock):
+            return False
+        known = self.concerned.get(id(type_))
+        if known is None:
+            self.concerned[id(type_)] = False
+            known = self.concerned[id(type_)] = any(
+                _is_incomplete(v) or (_holds(v) and v.type is not None and self.concerns(v.type))
+                for v in _parts(type_)
+            )
+        return known
+
+
+def _parts(type_: Type) -> list[VarSymbol]:
+    """The stored variables of a block or structure, inherited ones included."""
+    if isinstance(type_, t.Struct):
+        members = [m.decl.symbol for m in type_.members.values() if m.decl is not None]
+        return [m for m in members if isinstance(m, VarSymbol)]
+    block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou is not None else None
+    if not isinstance(block, PouSymbol):
+        return []
+    return [v for v in block.locals.values() if v.home is Storage.INSTANCE and v.owner is not None]
+
+
+def _is_incomplete(variable: VarSymbol) -> bool:
+    return variable.area is not None and variable.home is not Storage.DIRECT
+
+
+def _holds(variable: VarSymbol) -> bool:
+    return variable.section not in ("VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL")
