@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import AbstractContextManager
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Request, Route, expect
 
 from .workbench import (
     add_line,
@@ -126,10 +127,44 @@ def test_rename_shows_every_place_changes_all_of_them_and_is_undone_at_once(page
     page.keyboard.press("ArrowRight")
     open_object(page, "Stations")
     expect(implementation(page)).to_contain_text("fbFiller")
+    renamed = page.evaluate(NEWEST_CHANGE)
+    assert renamed["comment"] == "Rename xSafe to xAllSafe"
+    assert renamed["object_count"] > 1
     page.get_by_role("button", name="Undo", exact=True).last.click()
     page.locator(".dv-tab").filter(has_text="PLC_PRG").first.click()
     expect(implementation(page)).to_contain_text("IF NOT xSafe THEN".replace(" ", "\xa0"))
     expect(implementation(page)).not_to_contain_text("xAllSafe")
+    undone = page.evaluate(NEWEST_CHANGE)
+    assert undone["comment"] == "Rename xAllSafe to xSafe"
+    assert undone["object_count"] == renamed["object_count"]
+
+
+def test_a_rename_that_somebody_else_came_before_changes_nothing(page: Page) -> None:
+    editor = plc_prg(page)
+
+    def somebody_else_first(route: Route, request: Request) -> None:
+        stored = request.post_data_json["objects"][0]
+        data = {**stored["data"], "declaration": stored["data"]["declaration"].replace("xAllSafe", "xSafe")}
+        data["implementation"] = "// theirs"
+        theirs = {"base_revision": stored["base_revision"], "data": data, "comment": "theirs"}
+        url = f"{request.url}/{stored['object_id']}"
+        assert page.request.put(url, data=theirs, headers={"X-Tappet-Client": "1"}).ok
+        route.continue_()
+
+    page.route(re.compile(r"/objects$"), somebody_else_first)
+    editor.locator(".view-line").first.click()
+    page.keyboard.press("Control+Home")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Control+F2")
+    dialog = page.get_by_role("dialog")
+    page.keyboard.press("Control+A")
+    page.keyboard.type("xAllSafe")
+    page.keyboard.press("Enter")
+    expect(dialog.get_by_role("alert")).to_contain_text("changed by somebody else")
+    page.keyboard.press("Escape")
+    expect(dialog).to_have_count(0)
+    expect(editor).to_contain_text("//\xa0theirs")
+    assert page.evaluate(NEWEST_CHANGE)["comment"] == "theirs"
 
 
 def test_formatting_follows_the_options_and_changes_nothing_twice(page: Page) -> None:
@@ -176,6 +211,13 @@ def test_the_members_of_an_interface_become_objects_below_the_block(page: Page) 
         made = page.get_by_role("option").filter(has_text=name).filter(has_text="FB_LsAxis")
         expect(made.first).to_be_visible()
 
+
+NEWEST_CHANGE = """async () => {
+    const [project] = await (await fetch('/api/v1/projects')).json();
+    const [newest] = await (await fetch(`/api/v1/projects/${project.id}/revisions?limit=1`)).json();
+    return newest;
+}"""
+"""What the history of the project shows on top."""
 
 INTERFACE = """async () => {
     const headers = {'X-Tappet-Client': '1', 'Content-Type': 'application/json'};

@@ -85,20 +85,47 @@ export async function saveObject<Data>(
       data,
       autosave: options.autosave ?? false,
     });
-    queryClient.setQueryData(keys.object(projectId, objectId), saved);
-    patchSummary(projectId, saved);
+    remember(projectId, saved);
     return saved;
   } catch (error) {
-    if (
-      error instanceof ApiError &&
-      error.status === 409 &&
-      typeof error.problem.current === 'object' &&
-      error.problem.current !== null
-    ) {
-      throw new StaleObject(error.problem.current as ProjectObject<Data>, data);
-    }
-    throw error;
+    throw staleOf(error, () => data) ?? error;
   }
+}
+
+/** What a save of several objects holds for each of them. */
+export interface ObjectContent<Data> {
+  object_id: string;
+  base_revision: number;
+  data: Data;
+}
+
+/** As `saveObject`, for several objects as one change of the project: all of them are saved, or none. */
+export async function saveObjects<Data>(
+  projectId: string,
+  objects: readonly ObjectContent<Data>[],
+  comment: string,
+): Promise<ProjectObject<Data>[]> {
+  try {
+    const saved = await api.put<ProjectObject<Data>[]>(`/projects/${projectId}/objects`, { objects, comment });
+    saved.forEach((object) => remember(projectId, object));
+    return saved;
+  } catch (error) {
+    throw staleOf(error, (id) => objects.find((object) => object.object_id === id)?.data as Data) ?? error;
+  }
+}
+
+function remember<Data>(projectId: string, saved: ProjectObject<Data>): void {
+  queryClient.setQueryData(keys.object(projectId, saved.id), saved);
+  patchSummary(projectId, saved);
+}
+
+/** The conflict that a refusal tells, if it is one with a version of somebody else. */
+function staleOf<Data>(error: unknown, yours: (id: string) => Data): StaleObject<Data> | null {
+  if (!(error instanceof ApiError) || error.status !== 409) return null;
+  const { current } = error.problem;
+  if (typeof current !== 'object' || current === null) return null;
+  const theirs = current as ProjectObject<Data>;
+  return new StaleObject(theirs, yours(theirs.id));
 }
 
 /** Puts a changed summary into the tree's cache. */

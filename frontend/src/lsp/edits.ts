@@ -1,14 +1,17 @@
-/** Edits of several texts at once: those of open texts are undoable there, closed objects are saved at once. */
+/** Edits of several texts at once: undoable in each open text, and stored together. */
+import { StaleObject } from '@/api/queries';
 import { openDocument, type Part, type TextDocument } from '@/editors/documents/documents';
+import { saveTogether } from '@/editors/documents/saveTogether';
 import type { Monaco } from '@/editors/st/monacoLoader';
+import { t } from '@/i18n';
 import { applyTextEdits, parsePartUri } from './convert';
 import type { TextEdit, WorkspaceEdit } from './protocol';
 
 export interface AppliedEdits {
   places: number;
   objects: number;
-  /** Takes all of it back in one act; answers how many texts have been changed meanwhile and stay as they are. */
-  undo: () => Promise<number>;
+  /** Takes all of it back in one act, for the given reason; answers how many texts have been changed meanwhile and stay as they are. */
+  undo: (comment: string) => Promise<number>;
 }
 
 interface Change {
@@ -27,40 +30,69 @@ export function editsByUri(edit: WorkspaceEdit): Map<string, TextEdit[]> {
   return all;
 }
 
-/** Carries edits out and stores the texts. Each text changes in one undoable step. */
-export async function applyEdits(monaco: Monaco, edit: WorkspaceEdit): Promise<AppliedEdits> {
-  const changes: Change[] = [];
-  let places = 0;
-  for (const [uri, edits] of editsByUri(edit)) {
+/**
+ * Carries edits out and stores the texts: each changes in one undoable step, all of them in one change of the project.
+ * Throws when a text cannot be stored; then none is, and all have their former text.
+ */
+export async function applyEdits(monaco: Monaco, edit: WorkspaceEdit, comment: string): Promise<AppliedEdits> {
+  const wanted = [...editsByUri(edit)].flatMap(([uri, edits]) => {
     const address = parsePartUri(uri);
-    if (address === null || edits.length === 0) continue;
-    const document = await openDocument(monaco, address.projectId, address.objectId);
-    const before = document.models[address.part].getValue();
-    const after = applyTextEdits(before, edits);
-    document.replaceText(address.part, after);
-    await stored(document);
-    changes.push({ ...address, before, after });
-    places += edits.length;
-  }
+    return address === null || edits.length === 0 ? [] : [{ ...address, edits }];
+  });
+  const changes = await withDocuments(monaco, wanted, async (documents) => {
+    const made = wanted.map(({ edits, ...address }, at): Change => {
+      const before = documents[at]!.models[address.part].getValue();
+      return { ...address, before, after: applyTextEdits(before, edits) };
+    });
+    await change(made, documents, comment);
+    return made;
+  });
   return {
-    places,
-    objects: new Set(changes.map((change) => change.objectId)).size,
-    undo: () => takeBack(monaco, changes),
+    places: wanted.reduce((sum, { edits }) => sum + edits.length, 0),
+    objects: new Set(changes.map(({ objectId }) => objectId)).size,
+    undo: (reason) => takeBack(monaco, changes, reason),
   };
 }
 
-async function takeBack(monaco: Monaco, changes: readonly Change[]): Promise<number> {
-  let left = 0;
-  for (const { projectId, objectId, part, before, after } of changes) {
-    const document = await openDocument(monaco, projectId, objectId);
-    if (document.models[part].getValue() === after) document.replaceText(part, before);
-    else left += 1;
-    await stored(document);
-  }
-  return left;
+async function takeBack(monaco: Monaco, changes: readonly Change[], comment: string): Promise<number> {
+  return withDocuments(monaco, changes, async (documents) => {
+    const same = changes.map(({ part, after }, at) => documents[at]!.models[part].getValue() === after);
+    const back = changes.map((one) => ({ ...one, before: one.after, after: one.before }));
+    await change(
+      back.filter((_, at) => same[at]),
+      documents.filter((_, at) => same[at]),
+      comment,
+    );
+    return same.filter((unchanged) => !unchanged).length;
+  });
 }
 
-async function stored(document: TextDocument): Promise<void> {
-  await document.save();
-  document.release();
+/** Opens the document of each change, with all that was typed before stored. */
+async function withDocuments<Result>(
+  monaco: Monaco,
+  changes: readonly { projectId: string; objectId: string }[],
+  work: (documents: TextDocument[]) => Promise<Result>,
+): Promise<Result> {
+  const documents: TextDocument[] = [];
+  try {
+    for (const { projectId, objectId } of changes) documents.push(await openDocument(monaco, projectId, objectId));
+    await Promise.all(documents.map((document) => document.save()));
+    const unsaved = documents.find((document) => document.phase !== 'clean');
+    if (unsaved !== undefined) throw new Error(t('st.editsUnsaved', { name: unsaved.name }));
+    return await work(documents);
+  } finally {
+    documents.forEach((document) => document.release());
+  }
+}
+
+async function change(changes: readonly Change[], documents: readonly TextDocument[], comment: string): Promise<void> {
+  const [first] = changes;
+  if (first === undefined) return;
+  changes.forEach(({ part, after }, at) => documents[at]!.replaceText(part, after));
+  try {
+    await saveTogether(first.projectId, [...new Set(documents)], comment);
+  } catch (error) {
+    changes.forEach(({ part, before }, at) => documents[at]!.takeBack(part, before));
+    throw error instanceof StaleObject ? new Error(t('st.editsStale', { name: error.current.name })) : error;
+  }
 }

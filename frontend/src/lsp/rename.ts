@@ -1,6 +1,7 @@
 /** Rename of a symbol in all objects that use it. */
 import type { editor } from 'monaco-editor/editor/editor.api';
 import type { Monaco } from '@/editors/st/monacoLoader';
+import { t } from '@/i18n';
 import type { LanguageClient } from './client';
 import { toPosition } from './convert';
 import { applyEdits, type AppliedEdits } from './edits';
@@ -34,8 +35,9 @@ export async function renameSymbol(
   client: LanguageClient,
   model: editor.ITextModel,
   position: { lineNumber: number; column: number },
+  oldName: string,
   newName: string,
 ): Promise<AppliedEdits> {
   const edit = await client.demand<WorkspaceEdit | null>('textDocument/rename', { ...at(model, position), newName });
-  return applyEdits(monaco, edit ?? {});
+  return applyEdits(monaco, edit ?? {}, t('st.renameComment', { from: oldName, to: newName }));
 }

@@ -11,7 +11,7 @@ import type { ProjectObject, TextData } from '@/api/types';
 import { useSession } from '@/app/session';
 import { smallestChange } from '../declaration/text';
 import { indentation, useEditorSettings } from '../settings';
-import { LANGUAGE_ID } from '../st/language';
+import { IL_LANGUAGE_ID, LANGUAGE_ID } from '../st/language';
 import type { Monaco } from '../st/monacoLoader';
 import {
   edited,
@@ -58,6 +58,9 @@ function drafts(): Drafts {
   return draftStore;
 }
 
+/** Brings data on top of a revision to the server and answers with the object as it is stored then. */
+export type Put = (baseRevision: number, data: TextData) => Promise<ProjectObject<TextData>>;
+
 export class TextDocument {
   readonly models: Readonly<Record<Part, editor.ITextModel>>;
   readonly store: StoreApi<DocumentState>;
@@ -80,7 +83,8 @@ export class TextDocument {
     this.store = createStore(() => state);
     const model = (part: Part) => {
       const uri = monaco.Uri.parse(partUri(projectId, object.id, part));
-      const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', LANGUAGE_ID, uri);
+      const language = part === 'implementation' && this.isIl ? IL_LANGUAGE_ID : LANGUAGE_ID;
+      const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', language, uri);
       made.setValue(state.text[part]);
       made.setEOL(monaco.editor.EndOfLineSequence.LF);
       made.updateOptions({
@@ -111,6 +115,11 @@ export class TextDocument {
     return this.object.name;
   }
 
+  /** Whether the body is written in Instruction List. */
+  get isIl(): boolean {
+    return this.object.data.language === 'IL';
+  }
+
   get phase(): DocumentPhase {
     return phaseOf(this.store.getState());
   }
@@ -129,14 +138,28 @@ export class TextDocument {
   }
 
   /** Stores now what is not stored; resolves when the server has answered, whatever it said. */
-  async save(autosave = false): Promise<void> {
+  save(autosave = false): Promise<void> {
+    return this.saveBy((baseRevision, data) =>
+      saveObject<TextData>(this.projectId, this.objectId, baseRevision, data, { autosave }),
+    );
+  }
+
+  /** As `save`; `put` brings the data to the server. */
+  async saveBy(put: Put): Promise<void> {
     if (this.running !== null) await this.running;
     clearTimeout(this.saveTimer);
     if (!wantsSaving(this.store.getState())) return;
-    this.running = this.send(autosave).finally(() => {
+    this.running = this.send(put).finally(() => {
       this.running = null;
     });
     await this.running;
+  }
+
+  /** Gives a part its former text after a save that was refused; a version of somebody else is then followed. */
+  takeBack(part: Part, text: string): void {
+    this.replaceText(part, text);
+    const state = this.store.getState();
+    if (state.theirs !== null && !isChanged(state)) this.change((now) => resolved(now, 'theirs'));
   }
 
   resolve(resolution: Resolution, merged?: TextParts): void {
@@ -166,13 +189,13 @@ export class TextDocument {
     return useSession.getState().user?.id ?? '';
   }
 
-  private async send(autosave: boolean): Promise<void> {
+  private async send(put: Put): Promise<void> {
     const state = this.store.getState();
     this.store.setState(savingStarted(state), true);
     try {
       const texts = Object.entries(state.text).filter(([part]) => part in this.object.data);
       const data = { ...this.object.data, ...Object.fromEntries(texts) };
-      const answer = await saveObject<TextData>(this.projectId, this.objectId, state.base.revision, data, { autosave });
+      const answer = await put(state.base.revision, data);
       this.object = answer;
       this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer.data) }));
     } catch (error) {
@@ -185,7 +208,7 @@ export class TextDocument {
   }
 
   private refused(error: unknown): void {
-    if (error instanceof StaleObject) {
+    if (error instanceof StaleObject && error.current.id === this.objectId) {
       const current = error.current as ProjectObject<TextData>;
       const theirs = { revision: current.revision, parts: partsOf(current.data) };
       this.change((now) => newerVersion({ ...now, sent: null }, theirs));

@@ -130,19 +130,19 @@ export async function rename({ monaco, projectId }: TextPanel, editor: CodeEdito
       places={places}
       nameOf={(uri) => partLabels.getUriBasenameLabel({ path: uri.slice(uri.indexOf('/')), toString: () => uri })}
       rename={async (next) => {
-        done = await renameSymbol(monaco, client, model, position, next);
+        done = await renameSymbol(monaco, client, model, position, name, next);
         chosen = next;
       }}
       close={close}
     />
   ));
   editor.focus();
-  if (done !== null) tellRenamed(chosen, done);
+  if (done !== null) tellRenamed(name, chosen, done);
 }
 
-function tellRenamed(name: string, { places, objects, undo }: AppliedEdits): void {
+function tellRenamed(before: string, name: string, { places, objects, undo }: AppliedEdits): void {
   const takeBack = async () => {
-    const left = await undo();
+    const left = await undo(t('st.renameComment', { from: name, to: before }));
     if (left > 0) notify({ tone: 'warn', title: t('st.renameKept', { count: left }) });
   };
   notify({
@@ -153,7 +153,7 @@ function tellRenamed(name: string, { places, objects, undo }: AppliedEdits): voi
 }
 
 /** Alt+Shift+F12: every place of what stands at the cursor, in the panel. */
-export async function showCrossReferences({ projectId }: TextPanel, editor: CodeEditor): Promise<void> {
+export async function showCrossReferences({ projectId }: TextPanel, editor: TextPlace): Promise<void> {
   const model = editor.getModel();
   const position = editor.getPosition();
   if (model === null || position === null) return;

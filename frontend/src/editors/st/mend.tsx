@@ -3,7 +3,7 @@ import { api } from '@/api/client';
 import { keys, queryClient, saveObject } from '@/api/queries';
 import type { LibraryReference, ObjectSummary, ProjectObject } from '@/api/types';
 import { t } from '@/i18n';
-import { MEND, type NewMember, type ServerAction } from '@/lsp/codeActions';
+import { MEND, titleOfAction, type NewMember, type ServerAction } from '@/lsp/codeActions';
 import { parsePartUri, type PartAddress } from '@/lsp/convert';
 import { applyEdits } from '@/lsp/edits';
 import { guard, notify } from '@/workbench/notices';
@@ -33,7 +33,7 @@ async function mend(monaco: Monaco, { uri, action }: Mending): Promise<void> {
   if (address === null) return;
   const { edit, data } = action;
   if (edit !== undefined && edit !== null) {
-    await applyEdits(monaco, edit);
+    await applyEdits(monaco, edit, titleOfAction(action));
     const elsewhere = Object.keys(edit.changes ?? {}).filter((other) => other !== uri);
     if (data?.key === 'declareAs' && elsewhere.length > 0)
       notify({ tone: 'ok', title: t('fix.declared', data.values) });
