@@ -12,6 +12,7 @@ from tappet import libraries
 from tappet.codegen.build import BuildOptions, LibraryReference
 from tappet.codegen.check import check_application
 from tappet.lang.analysis import Analysis, AnalysisOptions, analyse
+from tappet.lang.coding_settings import PREFIXES, StaticAnalysis, static_analysis
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.parser import parse
 from tappet.lang.rules import chosen_codes
@@ -55,13 +56,32 @@ def test_choice_of_rules() -> None:
 def test_rules_are_off_unless_chosen() -> None:
     units = [parse(source).unit for source in (_main(EDITS[2]), *OTHERS)]
     assert not [d for d in analyse(units).diagnostics if d.code[0] == "S"]
-    found = {d.code for d in analyse(units, AnalysisOptions(static=chosen_codes("S1211"))).diagnostics}
+    options = AnalysisOptions(static=StaticAnalysis(chosen_codes("S1211")))
+    found = {d.code for d in analyse(units, options).diagnostics}
     assert {code for code in found if code[0] == "S"} == {"S1211"}
+
+
+def test_a_rule_can_be_an_error_and_prefixes_and_limits_are_those_of_the_project() -> None:
+    text = (
+        "FUNCTION_BLOCK fbValve\nVAR nCount : INT; xOn : BOOL; END_VAR\n"
+        "IF xOn THEN IF nCount > 1 THEN nCount := 0; END_IF END_IF\nEND_FUNCTION_BLOCK"
+    )
+    rules = {"S1001": "error", "S1004": "warning", "S1301": "warning"}
+
+    def found(prefixes: dict[str, str], limits: dict[str, int]) -> list[tuple[str, str]]:
+        options = AnalysisOptions(static=static_analysis(rules, prefixes, limits))
+        diagnostics = analyse([parse(Source("F", text)).unit], options).diagnostics
+        return sorted((d.code, d.severity) for d in diagnostics if d.code[0] == "S")
+
+    assert found({}, {}) == [("S1001", "error"), ("S1004", "warning")]
+    ours = {"FUNCTION_BLOCK": "fb", "BOOL": "x", "INT": "i", "UNHEARD_OF": "u"}
+    assert found(ours, {"nesting": 1, "unheard_of": 1}) == [("S1004", "warning"), ("S1301", "warning")]
+    assert found(dict.fromkeys(PREFIXES, ""), {"nesting": 2}) == []
 
 
 @pytest.mark.parametrize("static", [frozenset(), ALL_CODING_RULES], ids=["off", "on"])
 def test_after_an_edit_the_messages_are_those_of_a_fresh_analysis(static: frozenset[str]) -> None:
-    options = AnalysisOptions(static=static)
+    options = AnalysisOptions(static=StaticAnalysis(static))
     others = [parse(source).unit for source in OTHERS]
     previous: Analysis | None = None
     for body in (*EDITS, *reversed(EDITS)):
@@ -105,7 +125,8 @@ def test_what_is_malformed_does_not_stop_the_analysis_of_the_rest() -> None:
         *OTHERS,
     ]
     analysis = analyse(
-        [r.unit for r in parse_sources(texts, ParseOptions())], AnalysisOptions(static=ALL_CODING_RULES)
+        [r.unit for r in parse_sources(texts, ParseOptions())],
+        AnalysisOptions(static=StaticAnalysis(ALL_CODING_RULES)),
     )
     assert "E0201" in {d.code for d in analysis.diagnostics if d.uri == "P"}
 
@@ -116,5 +137,5 @@ def test_long_flat_texts_are_no_trouble_for_the_rules() -> None:
     first = f"IF {long} THEN n := 1; ELSIF {long} THEN n := 1; ELSE n := 1; END_IF"
     body = f"{first}\nIF b THEN n := 2;\n{chain}END_IF"
     source = Source("P", f"PROGRAM P\nVAR b : BOOL; n : INT; END_VAR\n{body}\nEND_PROGRAM")
-    analysis = analyse([parse(source).unit], AnalysisOptions(static=ALL_CODING_RULES))
+    analysis = analyse([parse(source).unit], AnalysisOptions(static=StaticAnalysis(ALL_CODING_RULES)))
     assert not [d for d in analysis.diagnostics if d.severity == "error"]

@@ -125,6 +125,80 @@ def test_two_versions_in_one_application_under_two_namespaces() -> None:
     assert values == ["1", "40", "1"]
 
 
+def _run(text: str, libraries: list[LibraryReference], names: list[str]) -> list[str]:
+    """Values of expressions after one cycle."""
+    result = build_application([Source("m", text)], options=BuildOptions(libraries=tuple(libraries)))
+    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+    assert result.package is not None
+    application = LoadedApplication(result.package)
+    try:
+        application.start()
+        application.cycle()
+        return [application.literal(f"Main.{name}") for name in names]
+    finally:
+        application.close()
+
+
+def _install_user(name: str, base: str, **requirement: str) -> None:
+    """A library whose block counts by those of a version of 'Plant', by its plain and its qualified name."""
+    text = (
+        f"FUNCTION_BLOCK {name}Count\nVAR_OUTPUT\n    n : INT;\nEND_VAR\n"
+        f"VAR\n    a : Counter;\n    b : {requirement.get('namespace', 'Plant')}.Counter;\n"
+        "    c : Plant.State;\nEND_VAR\n"
+        "a();\nb();\nc.count := a.n + b.n;\nn := c.count;\nEND_FUNCTION_BLOCK\n"
+    )
+    facts = archive.manifest(name, "1.0.0.0", requires=[{"name": "Plant", "version": base, **requirement}])
+    archive.install(facts, {f"{name}Count": text})
+
+
+def test_a_library_keeps_its_version_beside_that_of_the_application() -> None:
+    for version, step in (("1.0.0.0", 1), ("2.0.0.0", 20), ("3.0.0.0", 300)):
+        install("Plant", version, step)
+    _install_user("Old", "1.0.0.0")
+    _install_user("Middle", "2.0.0.0", namespace="Works")
+    _install_user("Any", "*")
+    text = (
+        "PROGRAM Main\nVAR a : Counter; b : Plant.Counter; old : OldCount; mid : Middle.MiddleCount;\n"
+        "any_ : AnyCount; inner : Old.Plant.Counter; END_VAR\n"
+        "a(); b(); old(); mid(); any_(); inner();\nEND_PROGRAM"
+    )
+    used = [LibraryReference(name) for name in ("Plant", "Old", "Middle", "Any")]
+    found = _run(text, used, ["a.n", "b.n", "old.n", "mid.n", "any_.n", "inner.n"])
+    assert found == ["300", "300", "2", "40", "600", "1"]
+    hidden = "PROGRAM Main\nVAR a : Plant_1_0_0_0.Counter; END_VAR\na();\nEND_PROGRAM"
+    result = build_application([Source("m", hidden)], options=BuildOptions(libraries=tuple(used)))
+    assert [d.code for d in result.diagnostics if d.severity == "error"]
+
+
+def test_libraries_that_need_two_versions_of_a_third_one_that_the_application_does_not_name() -> None:
+    install("Plant", "1.0.0.0", 1)
+    install("Plant", "2.0.0.0", 20)
+    _install_user("Old", "1.0.0.0")
+    _install_user("New", "2.0.0.0")
+    text = "PROGRAM Main\nVAR old : OldCount; new_ : NewCount; END_VAR\nold(); new_();\nEND_PROGRAM"
+    for order in (("Old", "New"), ("New", "Old")):
+        found = _run(text, [LibraryReference(name) for name in order], ["old.n", "new_.n"])
+        assert found == ["2", "40"]
+
+
+def test_the_application_resolves_a_placeholder_for_its_libraries() -> None:
+    install("Plant", "1.0.0.0", 1)
+    install("Plant", "2.0.0.0", 20)
+    text = (
+        "FUNCTION_BLOCK UserCount\nVAR c : Conveyors.Counter; END_VAR\nVAR_OUTPUT n : INT; END_VAR\n"
+        "c();\nn := c.n;\nEND_FUNCTION_BLOCK\n"
+    )
+    archive.install(
+        archive.manifest("User", "1.0.0.0", requires=[{"name": "Conveyors"}]), {"UserCount": text}
+    )
+    main = "PROGRAM Main\nVAR u : UserCount; c : Conveyors.Counter; END_VAR\nu(); c();\nEND_PROGRAM"
+    for version, step in (("1.0.0.0", "1"), ("2.0.0.0", "20")):
+        resolved = LibraryReference("Plant", version, placeholder="Conveyors")
+        assert _run(main, [LibraryReference("User"), resolved], ["u.n", "c.n"]) == [step, step]
+    _, problems = resolve([("User", "*", None)])
+    assert "'User' needs it: library 'Conveyors' is not installed" in problems[0]
+
+
 def test_two_versions_under_one_namespace_are_refused() -> None:
     install("Plant", "1.0.0.0")
     install("Plant", "2.0.0.0")
@@ -146,8 +220,12 @@ def test_what_a_library_needs_comes_with_it() -> None:
     found, problems = resolve([("Base", "1.0.0.0", None), ("User", "*", None)])
     assert [x.version for x in found if x.name == "Base"] == ["1.0.0.0"]
     install("Exact", "1.0.0.0", requires=[{"name": "Base", "version": "2.0.0.0"}])
-    _, problems = resolve([("Base", "1.0.0.0", None), ("Exact", "*", None)])
-    assert "'Exact'" in problems[0]
+    found, problems = resolve([("Base", "1.0.0.0", None), ("Exact", "*", None)])
+    assert problems == []
+    assert [(x.version, x.namespace) for x in found if x.name == "Base"] == [
+        ("1.0.0.0", "Base"),
+        ("2.0.0.0", "Base_2_0_0_0"),
+    ]
     install("Lost", "1.0.0.0", requires=[{"name": "Nowhere"}])
     _, problems = resolve([("Lost", "*", None)])
     assert problems[0].startswith("'Lost' needs it: library 'Nowhere' is not installed")

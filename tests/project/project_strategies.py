@@ -78,11 +78,12 @@ KINDS = st.sampled_from(
 def _data(draw: st.DrawFn, kind: str) -> dict[str, object] | None:
     declaration = draw(TEXTS)
     if kind in ("pou", "method", "accessor"):
-        return {"declaration": declaration, "implementation": draw(TEXTS)}
+        texts = {"declaration": declaration, "implementation": draw(TEXTS)}
+        return texts | {"exclude_from_build": draw(st.booleans())}
     if kind == "action":
-        return {"implementation": draw(TEXTS)}
+        return {"implementation": draw(TEXTS), "exclude_from_build": draw(st.booleans())}
     if kind in ("property", "interface", "dut", "gvl", "persistent"):
-        return {"declaration": declaration}
+        return {"declaration": declaration, "exclude_from_build": draw(st.booleans())}
     if kind == "device":
         return {"description": draw(TEXTS), "simulated": draw(st.booleans())}
     return None
@@ -103,6 +104,13 @@ def projects(draw: st.DrawFn) -> Project:
                 project = edit.change_data(project, added.id, texts)
         except ProjectError:
             continue
+    if draw(st.booleans()):
+        application = draw(st.sampled_from(project.applications()))
+        rules = draw(
+            st.dictionaries(st.sampled_from(["S1001", "S1211"]), st.sampled_from(["warning", "error"]))
+        )
+        analysis = {"rules": rules, "prefixes": {"FUNCTION_BLOCK": "fb"}, "limits": {"nesting": 2}}
+        project = edit.change_data(project, application.id, {"static_analysis": analysis})
     for item in project.find_kind("accessor"):
         project = edit.change_data(project, item.id, _data(draw, "accessor") or {})
     if draw(st.booleans()):

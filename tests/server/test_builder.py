@@ -79,7 +79,7 @@ def compile_order(body: str) -> dict[str, Any]:
     source |= {"scope": "application"}
     return {
         "key": "p/a", "application": "A", "sources": [source], "tasks": [], "libraries": [], "previous": None,
-        "cache": "",
+        "cache": "", "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False,
     }  # fmt: skip
 
 

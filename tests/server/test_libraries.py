@@ -60,6 +60,56 @@ def test_bad_library_files_and_those_of_the_product(admin: TestClient) -> None:
     assert admin.delete(f"{URL}/Nothing/1.0").status_code == 404
 
 
+def test_who_uses_a_version_and_what_a_library_needs(admin: TestClient) -> None:
+    for version in ("1.0.0.0", "1.1.0.0"):
+        facts = archive.manifest("Plant", version, requires=[{"name": "Util", "version": "*"}])
+        data = archive.pack(facts, {"Twice": "FUNCTION Twice : INT\nEND_FUNCTION\n"})
+        assert admin.post(URL, files={"file": ("plant.tappetlib", data)}).status_code == 201
+    listed = {(item["name"], item["version"]): item for item in admin.get(URL).json()}
+    assert listed["Plant", "1.0.0.0"]["requires"] == [{"name": "Util", "version": "*", "namespace": ""}]
+    assert (
+        "Tc2_Standard" in next(item for (name, _), item in listed.items() if name == "Standard")["stands_for"]
+    )
+
+    def uses(version: str) -> list[tuple[str, str]]:
+        found = admin.get(f"{URL}/Plant/{version}/projects").json()
+        return [(use["project_name"], use["version"]) for use in found]
+
+    for name, asked in (("Fixed", "1.0.0.0"), ("Newest", "*")):
+        project = admin.post("/api/v1/projects", json={"name": name}).json()["id"]
+        objects = f"/api/v1/projects/{project}/objects"
+        manager = next(o for o in admin.get(objects).json() if o["kind"] == "library_manager")
+        references = [
+            {"name": "Plant", "version": asked},
+            {"name": "plant", "version": "1.1.0.0", "namespace": "P2"},
+        ]
+        data = {"references": references[: 1 if asked == "*" else 2]}
+        saved = admin.put(f"{objects}/{manager['id']}", json={"base_revision": 1, "data": data})
+        assert saved.status_code == 200, saved.text
+    assert uses("1.0.0.0") == [("Fixed", "1.0.0.0")]
+    assert uses("1.1.0.0") == [("Fixed", "1.1.0.0"), ("Newest", "*")]
+    assert admin.get(f"{URL}/Plant/9/projects").status_code == 404
+
+
+def test_a_project_with_errors_becomes_no_library(admin: TestClient) -> None:
+    maker = admin.post("/api/v1/projects", json={"name": "Faulty", "template": "empty"}).json()["id"]
+    data = {"declaration": "FUNCTION Twice : INT", "implementation": "Twice := unknown;"}
+    body = {"parent_id": None, "kind": "pou", "name": "Twice", "data": data}
+    item = admin.post(f"/api/v1/projects/{maker}/objects", json=body).json()
+    answer = admin.post(f"/api/v1/projects/{maker}/library", json={"version": "1.0.0.0"})
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:tappet:problem:library-errors")
+    error = next(d for d in answer.json()["diagnostics"] if d["severity"] == "error")
+    assert (error["object_id"], error["part"], error["line"]) == (item["id"], "implementation", 1)
+    assert admin.get(f"{URL}/Faulty").status_code == 404
+    admin.patch(f"/api/v1/projects/{maker}/objects/{item['id']}", json={"excluded": True})
+    good = {"declaration": "FUNCTION Thrice : INT", "implementation": "Thrice := 3;"}
+    body = {"parent_id": None, "kind": "pou", "name": "Thrice", "data": good}
+    assert admin.post(f"/api/v1/projects/{maker}/objects", json=body).status_code == 201
+    answer = admin.post(f"/api/v1/projects/{maker}/library", json={"version": "1.0.0.0"})
+    assert answer.status_code == 201, answer.text
+    assert [item["name"] for item in admin.get(f"{URL}/Faulty").json()["items"]] == ["Thrice"]
+
+
 def test_a_project_is_saved_as_library_and_used_by_another(admin: TestClient) -> None:
     maker = admin.post("/api/v1/projects", json={"name": "Maker", "template": "empty"}).json()["id"]
     body = {

@@ -94,7 +94,16 @@ def order(sources: list[Source], previous: bytes | None, cache: str) -> dict[str
     task = TaskDefinition("Task", "cyclic", 10_000_000, 1, None, None, ("Main",), None)
     fields = tuple({name: getattr(source, name) for name in _FIELDS} for source in sources)
     return asdict(
-        BuildOrder("bench", "Application", fields, (asdict(task),), (("Standard", "*", ""),), previous, cache)
+        BuildOrder(
+            "bench",
+            "Application",
+            fields,
+            (asdict(task),),
+            (("Standard", "*", "", None),),
+            previous,
+            cache,
+            {"rules": {}, "prefixes": {}, "limits": {}},
+        )
     )
 
 

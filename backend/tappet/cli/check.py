@@ -11,6 +11,7 @@ import typer
 from tappet.cli.inputs import applications
 from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
 from tappet.codegen.check import check_application, format_diagnostic
+from tappet.lang.coding_settings import StaticAnalysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.rules import chosen_codes
 
@@ -24,18 +25,21 @@ def check(
     static: Annotated[
         str | None,
         typer.Option(
-            metavar="RULES", help="coding rules to check as well: 'all', or codes such as S12,S1301"
+            metavar="RULES",
+            help="coding rules to check, not those of the project: 'all', 'none', or codes such as S12,S1301",
         ),
     ] = None,
 ) -> None:
     """Check programs without running them: one `file:line:column: severity code: message` a finding."""
     try:
-        rules = chosen_codes(static or "")
+        rules = StaticAnalysis(chosen_codes(static or ""))
     except ValueError as error:
         raise UsageError(f"--static: {error}") from error
     found: list[Diagnostic] = []
     for item in applications(paths, application):
-        found += check_application(item.sources, item.tasks, replace(item.options, static=rules))
+        found += check_application(
+            item.sources, item.tasks, item.options if static is None else replace(item.options, static=rules)
+        )
     errors = sum(diagnostic.severity == "error" for diagnostic in found)
     warnings = sum(diagnostic.severity == "warning" for diagnostic in found)
     if output is OutputFormat.JSON:

@@ -19,7 +19,7 @@ from tappet.libraries import archive
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.catalog import Item, Pin, items
 from tappet.project.errors import ProjectError
-from tappet.project.library_texts import library_requirements, library_texts
+from tappet.project.library_texts import library_requirements, library_texts, requirement
 
 app = typer.Typer(help="What the installed libraries offer.", no_args_is_help=True)
 
@@ -30,7 +30,13 @@ def list_libraries(output: FormatOption = OutputFormat.TEXT) -> None:
     found = libraries.every_version()
     if output is OutputFormat.JSON:
         keys = ("name", "version", "namespace", "company", "description")
-        show_json([{key: getattr(library, key) for key in keys} for library in found])
+        show_json(
+            [
+                {key: getattr(library, key) for key in keys}
+                | {"requires": [asdict(required) for required in library.requires]}
+                for library in found
+            ]
+        )
         return
     for library in found:
         typer.echo(f"{library.name:16} {library.version:10} {library.description}")
@@ -69,21 +75,20 @@ def save(
     project = load_project(path)
     try:
         texts = library_texts(project)
-        requires = [
-            {"name": r.name, "version": r.version, "namespace": r.namespace}
-            for r in library_requirements(project)
-        ]
+        needed = library_requirements(project)
         facts = archive.manifest(
             name or project.name,
             version,
             namespace=namespace,
             company=company,
             description=project.description if description is None else description,
-            requires=requires,
+            requires=[requirement(reference) for reference in needed],
         )
     except (ProjectError, LibraryFileError) as error:
         raise UsageError(str(error)) from error
-    references = tuple(LibraryReference(r["name"], r["version"], r["namespace"] or None) for r in requires)
+    references = tuple(
+        LibraryReference(r.name, r.version, r.namespace or None, r.placeholder) for r in needed
+    )
     sources = [Source(f"{stem}.st", text, name=stem) for stem, text in texts.items()]
     errors = [
         diagnostic

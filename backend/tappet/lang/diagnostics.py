@@ -8,8 +8,8 @@ W1xxx warnings and notes. `alias` is the number CODESYS V3 gives the same messag
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from typing import Literal
 
@@ -83,6 +83,11 @@ def _read_table() -> dict[str, Entry]:
             code, _SEVERITIES[row["severity"]], row["name"], row["alias"], row["message"], row["advice"]
         )
     return table
+
+
+def with_severity(found: Sequence[Diagnostic], errors: frozenset[str]) -> list[Diagnostic]:
+    """The messages, those whose code is in `errors` as errors."""
+    return [replace(d, severity="error") if d.code in errors else d for d in found]
 
 
 TABLE: dict[str, Entry] = _read_table()

@@ -39,6 +39,10 @@ class Source:
     text."""
     language: str | None = None
     """Language of the bodies, `ST` or `IL`; None: each body tells by its first instruction."""
+    uses: tuple[tuple[str, str], ...] = ()
+    """Libraries that the text's library needs: the name it gives to one, and the namespace that is here."""
+    private: bool = False
+    """Only libraries that use this one see it: the application has another version of it."""
 
 
 class Span(NamedTuple):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 from tappet.lang.source import Scope, Source
@@ -16,6 +16,7 @@ from tappet.libraries import repository
 from tappet.libraries.repository import NEWEST, ROOT, Installed, Requirement, UnknownLibraryError
 
 APPLICATION = "the application"
+Reference = tuple[str, str, str | None] | tuple[str, str, str | None, str | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,8 @@ class Library:
     requires: tuple[Requirement, ...] = ()
     removable: bool = False
     """It was installed besides those of the product."""
+    stands_for: tuple[str, ...] = ()
+    """Libraries of other systems that it takes the place of."""
 
 
 def names() -> tuple[str, ...]:
@@ -40,7 +43,7 @@ def names() -> tuple[str, ...]:
 
 def every_version() -> list[Library]:
     """All libraries to choose from in all versions, by name, newest first."""
-    return [_load(item, item.namespace) for item in repository.installed() if not item.internal]
+    return [_load(item, item.namespace, _label(item)) for item in repository.installed() if not item.internal]
 
 
 def load(name: str, version: str = NEWEST, namespace: str | None = None) -> Library:
@@ -50,7 +53,7 @@ def load(name: str, version: str = NEWEST, namespace: str | None = None) -> Libr
     Raises UnknownLibraryError, with what is installed, when there is no such library or version.
     """
     found = repository.find(name, version)
-    return _load(found, namespace or repository.namespace_of(found, name))
+    return _load(found, namespace or repository.namespace_of(found, name), _label(found))
 
 
 def as_called(name: str, texts: Iterable[str]) -> str:
@@ -66,48 +69,108 @@ def as_called(name: str, texts: Iterable[str]) -> str:
     return item.name
 
 
-def resolve(references: Iterable[tuple[str, str, str | None]]) -> tuple[list[Library], list[str]]:
-    """The libraries of an application (name, version, namespace) and what they need, each once (LIB-05).
+def resolve(references: Iterable[Reference]) -> tuple[list[Library], list[str]]:
+    """The libraries of an application and what they need, each once (LIB-05).
 
-    `*` in a requirement means the version that the application refers to, else the newest one. The second
-    part says what is missing, and where two libraries would share a namespace.
+    A reference is name, version, namespace or None for the usual one, and the name of the placeholder that it
+    resolves, if it is one: a library that needs the placeholder gets this library. `*` in a requirement means
+    the version that the application refers to, else the newest one. A version besides the one of the
+    application is private: only what needs it sees it. The second part says what is missing, and where the
+    application gives two libraries one namespace.
     """
-    found: dict[str, Library] = {}
-    users: dict[str, str] = {}
-    problems: list[str] = []
+    return _Resolution(list(references)).outcome()
 
-    def choose(name: str, version: str, namespace: str | None, user: str) -> None:
+
+@dataclass(slots=True)
+class _Used:
+    """A library in use, under the namespace that it has here."""
+
+    item: Installed
+    space: str
+    user: str
+    private: bool = False
+    uses: list[tuple[str, str]] = field(default_factory=list)
+
+
+class _Resolution:
+    """Finds each library that is needed, once; the first that takes a namespace has it."""
+
+    def __init__(self, references: Iterable[Reference]) -> None:
+        self.problems: list[str] = []
+        self._found: dict[str, _Used] = {}
+        self._placeholders: dict[str, _Used] = {}
+        for reference in references:
+            self._refer(*reference)
+
+    def outcome(self) -> tuple[list[Library], list[str]]:
+        done = 0
+        while done < len(self._found):
+            used = list(self._found.values())[done]
+            done += 1
+            for required in used.item.requires:
+                self._require(used, required)
+        libraries = [
+            _load(used.item, used.space, _label(used.item), tuple(used.uses), used.private)
+            for used in self._found.values()
+        ]
+        return libraries, self.problems
+
+    def _refer(self, name: str, version: str, namespace: str | None, placeholder: str | None = None) -> None:
+        """A reference of the application."""
         try:
-            library = load(name, version, namespace)
+            item = repository.find(name, version)
         except UnknownLibraryError as error:
-            problems.append(f"{user} needs it: {error}" if user != APPLICATION else str(error))
+            self.problems.append(str(error))
             return
-        key = library.namespace.upper()
-        known = found.setdefault(key, library)
-        first = users.setdefault(key, user)
-        if (known.name, known.version) != (library.name, library.version):
-            problems.append(
-                f"{first} uses '{known.name}' {known.version} and {user} '{library.name}' {library.version} "
-                f"under the namespace '{library.namespace}'; give one of them another namespace"
+        space = namespace or repository.namespace_of(item, placeholder or name)
+        known = self._found.setdefault(space.upper(), _Used(item, space, APPLICATION))
+        if known.item != item:
+            self.problems.append(
+                f"{known.user} uses '{known.item.name}' {known.item.version} and {APPLICATION} '{item.name}' "
+                f"{item.version} under the namespace '{space}'; give one of them another namespace"
             )
+        elif placeholder:
+            self._placeholders.setdefault(placeholder.upper(), known)
 
-    for name, version, namespace in references:
-        choose(name, version, namespace, APPLICATION)
-    done = 0
-    while done < len(found):
-        library = list(found.values())[done]
-        done += 1
-        for required in library.requires:
-            present = any(known.name.upper() == required.name.upper() for known in found.values())
-            if required.version != NEWEST or not present:
-                choose(required.name, required.version, required.namespace or None, f"'{library.name}'")
-    return list(found.values()), problems
+    def _require(self, user: _Used, required: Requirement) -> None:
+        """A library that another one needs: the one that is there, or beside it under a name of its own."""
+        resolved = self._placeholders.get(required.name.upper())
+        try:
+            item = resolved.item if resolved else repository.find(required.name, required.version)
+        except UnknownLibraryError as error:
+            self.problems.append(f"'{user.item.name}' needs it: {error}")
+            return
+        same = [used for used in self._found.values() if used.item.name.upper() == item.name.upper()]
+        wanted = required.namespace or repository.namespace_of(item, required.name)
+        there = resolved or next(
+            (used for used in same if required.version == NEWEST or used.item.version == item.version), None
+        )
+        if there is None:
+            there = self._beside(item, wanted, f"'{user.item.name}'", private=bool(same))
+        if there is not user and (wanted, there.space) not in user.uses:
+            user.uses.append((wanted, there.space))
+
+    def _beside(self, item: Installed, wanted: str, user: str, *, private: bool) -> _Used:
+        private = private or wanted.upper() in self._found
+        space = wanted
+        if private:
+            version = re.sub(r"\W", "_", item.version)
+            space = f"{wanted}_{version}"
+            while space.upper() in self._found:
+                space += "_"
+        return self._found.setdefault(space.upper(), _Used(item, space, user, private))
 
 
-@lru_cache(maxsize=64)
-def _load(item: Installed, space: str) -> Library:
+def _label(item: Installed) -> str:
+    """First part of the names of its texts: the version is told where it is not the newest one."""
     newest = repository.find(item.name)
-    label = item.name if newest.version == item.version else f"{item.name} {item.version}"
+    return item.name if newest.version == item.version else f"{item.name} {item.version}"
+
+
+@lru_cache(maxsize=128)
+def _load(
+    item: Installed, space: str, label: str, uses: tuple[tuple[str, str], ...] = (), private: bool = False
+) -> Library:
     sources = tuple(
         Source(
             uri=f"{label}/{path.stem}",
@@ -116,6 +179,8 @@ def _load(item: Installed, space: str) -> Library:
             name=path.stem,
             library=item.name,
             namespace=space,
+            uses=uses,
+            private=private,
         )
         for path in sorted(item.folder.glob("*.st"))
     )
@@ -128,6 +193,7 @@ def _load(item: Installed, space: str) -> Library:
         sources,
         item.requires,
         item.removable,
+        tuple(known.name for known in item.stands_for),
     )
 
 

@@ -54,6 +54,8 @@ Text = Annotated[str, Field(max_length=MAX_TEXT), AfterValidator(_clean_text)]
 Line = Annotated[str, Field(max_length=4000), AfterValidator(_clean_text)]
 Duration = Annotated[str, BeforeValidator(_microseconds_as_text), AfterValidator(_clean_time)]
 """A TIME literal (`T#20ms`) or a number of microseconds as text (`300`); TASK-17."""
+RuleCode = Annotated[str, Field(pattern=r"^S[0-9]{4}$")]
+Prefix = Annotated[str, Field(pattern=r"^[A-Za-z0-9_]{0,20}$")]
 Language = Literal["ST", "IL", "LD", "FBD", "CFC", "SFC"]
 
 
@@ -82,7 +84,43 @@ class DeviceData(Data):
     description: Text = ""
 
 
-class BodyData(Data):
+class StaticAnalysisData(Data):
+    """The coding rules of an application (`tappet check --static`); what is not named is as it is for all."""
+
+    with_build: StrictBool = Field(default=True, description="The rules run with every build.")
+    rules: dict[RuleCode, Literal["warning", "error"]] = Field(
+        default_factory=dict, description="Rules that are switched on, by code, and what their findings are."
+    )
+    prefixes: dict[Line, Prefix] = Field(
+        default_factory=dict, description="What names begin with, by kind of object or type."
+    )
+    limits: dict[Line, Annotated[StrictInt, Field(ge=0, le=1_000_000)]] = Field(
+        default_factory=dict, description="Limits of sizes, by what they limit."
+    )
+
+
+NO_RULES = StaticAnalysisData()
+
+
+class ApplicationData(Data):
+    """An application: how it is checked."""
+
+    static_analysis: StaticAnalysisData = Field(
+        default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
+    )
+
+
+class CodeData(Data):
+    """Base of what is compiled."""
+
+    exclude_from_build: StrictBool = Field(
+        default=False,
+        description="The compiler does not get this object, nor what is below it.",
+        exclude_if=lambda excluded: not excluded,
+    )
+
+
+class BodyData(CodeData):
     """A declaration and its implementation, edited apart and compiled together."""
 
     declaration: Text = ""
@@ -102,14 +140,14 @@ class AccessorData(BodyData):
     """Get or Set of a property; the declaration holds local variables only."""
 
 
-class ActionData(Data):
+class ActionData(CodeData):
     """ACTION: a further body that works on the variables of its POU (POU-08)."""
 
     implementation: Text = ""
     language: Language = "ST"
 
 
-class DeclarationData(Data):
+class DeclarationData(CodeData):
     """An object that is only declaration text: property, interface, DUT, variable list."""
 
     declaration: Text = ""
@@ -156,7 +194,12 @@ class TaskData(Data):
 class LibraryReference(Data):
     """A library that an application uses (LIB-02, LIB-08)."""
 
-    name: Line = Field(min_length=1)
+    name: Line = Field(min_length=1, description="The library; of a placeholder, what it is resolved by.")
+    placeholder: Annotated[Line, Field(min_length=1)] | None = Field(
+        default=None,
+        description="Name of the placeholder: libraries that ask for it get this library.",
+        exclude_if=lambda placeholder: placeholder is None,
+    )
     version: Line = Field(
         default="*", min_length=1, description="A version, or * for the newest installed one."
     )

@@ -9,9 +9,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from tappet.project.data import Data, DeclarationData, MethodData, PouData, TaskData, UnknownData
+from tappet.project.data import (
+    CodeData,
+    Data,
+    DeclarationData,
+    MethodData,
+    PouData,
+    TaskData,
+    UnknownData,
+)
 from tappet.project.declaration_text import rename_header
-from tappet.project.errors import NotPlaceableError
+from tappet.project.errors import InvalidDataError, NotPlaceableError
 from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
 from tappet.project.naming import name_key, normal_name, unique_name
 from tappet.project.placement import (
@@ -67,6 +75,18 @@ def add_object(
 def change_data(project: Project, object_id: str, data: AnyData) -> Project:
     """Give an object other data of its kind. Raises InvalidDataError, UnknownObjectError."""
     return _with(project, [changed_object(project.get(object_id), data=data)])
+
+
+def exclude_object(project: Project, object_id: str, excluded: bool) -> Project:
+    """Exclude an object from the build, or take it in again.
+
+    Raises InvalidDataError for objects that the compiler does not get anyway, UnknownObjectError.
+    """
+    item = project.get(object_id)
+    if not isinstance(item.data, CodeData):
+        raise InvalidDataError(f"'{item.name}' is not compiled, so it cannot be excluded from the build")
+    data = item.data.model_copy(update={"exclude_from_build": excluded})
+    return _with(project, [changed_object(item, data=data)])
 
 
 def rename_object(project: Project, object_id: str, name: str) -> Project:

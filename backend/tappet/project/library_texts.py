@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tappet.project.data import LibraryReference
+from tappet.project.data import LibraryManagerData, LibraryReference
 from tappet.project.declaration_text import subkind_of
 from tappet.project.errors import ProjectError
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of
-from tappet.project.sources import libraries, source_of
+from tappet.project.sources import SourceText, libraries, source_of
 
 KINDS = frozenset(["pou", "interface", "dut", "gvl"])
 
@@ -41,25 +41,51 @@ def library_texts(project: Project) -> dict[str, str]:
     return texts
 
 
+def library_sources(project: Project) -> list[SourceText]:
+    """What `library_texts` is made of, as a build takes it: each line knows its object."""
+    found = []
+    for item in _objects(project):
+        for part in (item, *_parts(project, item)):
+            text = source_of(project, part.id)
+            if text is not None:
+                found.append(text)
+    return found
+
+
 def library_requirements(project: Project) -> list[LibraryReference]:
-    """The libraries that the project refers to, each once."""
-    found: dict[str, LibraryReference] = {}
-    for owner in (*project.applications(), None):
-        references = libraries(project, owner.id) if owner else ()
-        for reference in references:
-            found.setdefault(name_key(reference.name), reference)
-    return list(found.values())
+    """The libraries that the project refers to, those of the POUs view also without an application."""
+    found: list[LibraryReference] = []
+    for application in project.applications():
+        found += libraries(project, application.id)
+    for item in project.children(None):
+        if isinstance(item.data, LibraryManagerData):
+            found += item.data.references
+    return list(dict.fromkeys(found))
+
+
+def requirement(reference: LibraryReference) -> dict[str, str]:
+    """How a library says that it needs another one: a placeholder is resolved by who uses the library."""
+    if reference.placeholder is not None:
+        return {"name": reference.placeholder, "version": "*", "namespace": reference.namespace}
+    return {"name": reference.name, "version": reference.version, "namespace": reference.namespace}
 
 
 def _objects(project: Project) -> Iterator[ProjectObject]:
     for owner in (*project.applications(), None):
         for item in in_scope_of(project, owner):
-            if item.kind in KINDS and not _is_program(item):
+            if item.kind in KINDS and not item.excluded and not _is_program(item):
                 yield item
 
 
 def _is_program(item: ProjectObject) -> bool:
     return item.kind == "pou" and subkind_of(getattr(item.data, "declaration", "")) == "program"
+
+
+def _parts(project: Project, item: ProjectObject) -> list[ProjectObject]:
+    """Methods and the like of a block or interface."""
+    if item.kind not in ("pou", "interface"):
+        return []
+    return [child for child in in_scope_of(project, item) if not child.excluded]
 
 
 def _text(project: Project, item: ProjectObject) -> str:
@@ -69,7 +95,7 @@ def _text(project: Project, item: ProjectObject) -> str:
     if item.kind not in ("pou", "interface"):
         return text
     parts = []
-    for child in in_scope_of(project, item):
+    for child in _parts(project, item):
         source = source_of(project, child.id)
         if source is not None:
             parts.append(source.text.rstrip("\n") + "\n")

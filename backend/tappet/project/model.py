@@ -26,6 +26,8 @@ from pydantic import (
 from tappet.project.data import (
     AccessorData,
     ActionData,
+    ApplicationData,
+    CodeData,
     DeclarationData,
     DeviceData,
     LibraryManagerData,
@@ -65,6 +67,11 @@ class ObjectHead(BaseModel):
         """What the declaration text says this is (`program`, `struct` ...), None where kind says it all."""
         return None
 
+    @property
+    def excluded(self) -> bool:
+        """The compiler does not get this object, nor what is below it."""
+        return isinstance(self.data, CodeData) and self.data.exclude_from_build
+
 
 class FolderObject(ObjectHead):
     """Groups objects; says nothing to the compiler."""
@@ -91,7 +98,7 @@ class ApplicationObject(ObjectHead):
     """An application: what is compiled and downloaded as one."""
 
     kind: Literal["application"] = "application"
-    data: NoData = NoData()
+    data: ApplicationData = ApplicationData()
 
 
 class PouObject(ObjectHead):

@@ -12,12 +12,15 @@ from dataclasses import dataclass
 from typing import Literal
 
 from tappet.project.data import (
+    NO_RULES,
     AccessorData,
     ActionData,
+    ApplicationData,
     BodyData,
     DeclarationData,
     LibraryManagerData,
     LibraryReference,
+    StaticAnalysisData,
     TaskData,
 )
 from tappet.project.declaration_text import end_keyword
@@ -112,6 +115,7 @@ class TaskDefinition:
 
 def application_sources(project: Project, application_id: str) -> list[SourceText]:
     """The texts of an application: its own, those of the applications above it, and those of the POUs view.
+    What is excluded from the build is not among them.
 
     An object of the application hides an equally named one of an application above (CON-09); what it hides in
     the POUs view is left to the compiler, which warns.
@@ -120,11 +124,12 @@ def application_sources(project: Project, application_id: str) -> list[SourceTex
     texts: list[SourceText] = []
     hidden: set[str] = set()
     for application in _with_parents(project, application_id):
-        own = list(in_scope_of(project, application))
+        own = [item for item in in_scope_of(project, application) if not item.excluded]
         visible = [item for item in own if name_key(item.name) not in hidden]
         texts += _texts(project, visible, "application")
         hidden.update(name_key(item.name) for item in own if item.kind != "folder")
-    texts += _texts(project, in_scope_of(project, None), "pous")
+    shared = (item for item in in_scope_of(project, None) if not item.excluded)
+    texts += _texts(project, shared, "pous")
     return texts
 
 
@@ -144,7 +149,7 @@ def tasks(project: Project, application_id: str) -> list[TaskDefinition]:
     if found:
         return found
     main = any(
-        item.kind == "pou" and name_key(item.name) == name_key("PLC_PRG")
+        item.kind == "pou" and name_key(item.name) == name_key("PLC_PRG") and not item.excluded
         for owner in (application, None)
         for item in in_scope_of(project, owner)
     )
@@ -154,14 +159,25 @@ def tasks(project: Project, application_id: str) -> list[TaskDefinition]:
 
 
 def libraries(project: Project, application_id: str) -> list[LibraryReference]:
-    """The libraries of an application, then those of the applications above and of the POUs view (CON-09)."""
-    found: dict[str, LibraryReference] = {}
+    """The libraries of an application, then those of the applications above and of the POUs view (CON-09).
+
+    One list may name a library in several versions; it hides the library in the lists further out.
+    """
+    found: list[LibraryReference] = []
     for owner in (*_with_parents(project, application_id), None):
+        known = {name_key(reference.name) for reference in found}
         for item in project.children(owner.id if owner else None):
             if isinstance(item.data, LibraryManagerData):
-                for reference in item.data.references:
-                    found.setdefault(name_key(reference.name), reference)
-    return list(found.values())
+                found += [r for r in item.data.references if name_key(r.name) not in known]
+    return found
+
+
+def static_analysis(project: Project, application_id: str) -> StaticAnalysisData:
+    """The coding rules that run with each build of an application: none where it runs them on demand only."""
+    data = _application(project, application_id).data
+    assert isinstance(data, ApplicationData)
+    chosen = data.static_analysis
+    return chosen if chosen.with_build else NO_RULES
 
 
 def source_of(project: Project, object_id: str) -> SourceText | None:
@@ -199,7 +215,7 @@ def _texts(
         yield text
         if item.kind in ("pou", "interface"):
             for child in in_scope_of(project, item):
-                child_text = _text(project, child, scope, item.name)
+                child_text = None if child.excluded else _text(project, child, scope, item.name)
                 if child_text is not None:
                     yield child_text
 
@@ -249,7 +265,7 @@ def _text(
 
 def _accessors(project: Project, item: ProjectObject, writer: _Writer) -> None:
     for accessor in project.children(item.id):
-        if isinstance(accessor.data, AccessorData):
+        if isinstance(accessor.data, AccessorData) and not accessor.excluded:
             keyword = accessor.name.upper()
             writer.keyword(keyword)
             if accessor.data.declaration:

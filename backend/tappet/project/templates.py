@@ -5,6 +5,7 @@ from __future__ import annotations
 from tappet.project.data import (
     AccessorData,
     ActionData,
+    ApplicationData,
     Data,
     DeclarationData,
     DeviceData,
@@ -88,6 +89,7 @@ def children_of_new(kind: str) -> tuple[tuple[str, str], ...]:
 
 _DEFAULTS: dict[str, type[Data]] = {
     "device": DeviceData,
+    "application": ApplicationData,
     "action": ActionData,
     "accessor": AccessorData,
     "task": TaskData,
@@ -124,7 +126,7 @@ def new_project(name: str, description: str = "") -> Project:
 
     device = add(None, "device", DEFAULT_DEVICE, 0, DeviceData())
     logic = add(device, "plc_logic", "PLC Logic", 0, NoData())
-    application = add(logic, "application", "Application", 0, NoData())
+    application = add(logic, "application", "Application", 0, ApplicationData())
     libraries = new_data("library_manager", "Library Manager")
     add(application, "library_manager", "Library Manager", 0, libraries)
     add(application, "pou", "PLC_PRG", 1, new_data("pou", "PLC_PRG"))

@@ -23,6 +23,7 @@ import msgpack
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
 from tappet.codegen.package import CodePackage
+from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Scope, Source
 from tappet.project.sources import TaskDefinition, WatchdogDefinition
@@ -52,12 +53,16 @@ class BuildOrder:
     """Fields of `lang.source.Source`."""
     tasks: tuple[dict[str, Any], ...]
     """Fields of `project.sources.TaskDefinition`."""
-    libraries: tuple[tuple[str, str, str], ...]
-    """Name, version, namespace or ''."""
+    libraries: tuple[tuple[str, str, str, str | None], ...]
+    """Name, version, namespace or '', placeholder."""
     previous: bytes | None
     """Package that runs now; unchanged data keep their places."""
     cache: str
     """Folder of compiled objects."""
+    static: dict[str, Any]
+    """Fields of `project.data.StaticAnalysisData`."""
+    check_only: bool = False
+    """Make no package."""
 
 
 class Compiler:
@@ -105,10 +110,15 @@ class Compiler:
         while len(self._sessions) > KEPT_SESSIONS:
             self._sessions.popitem(last=False)
         previous = self._package(order["previous"])
+        static = order["static"]
         options = BuildOptions(
             application=order["application"],
-            libraries=tuple(LibraryReference(n, v, space or None) for n, v, space in order["libraries"]),
+            libraries=tuple(
+                LibraryReference(n, v, space or None, holder) for n, v, space, holder in order["libraries"]
+            ),
             cache=Path(order["cache"]),
+            static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
+            check_only=order["check_only"],
         )
         sources = [Source(**{**source, "scope": Scope(source["scope"])}) for source in order["sources"]]
         tasks = [_task(task) for task in order["tasks"]]

@@ -7,7 +7,7 @@ import hashlib
 import logging
 import sys
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -16,6 +16,8 @@ from typing import Any
 import msgpack
 
 from tappet.project import sources as texts
+from tappet.project.data import NO_RULES, LibraryReference, StaticAnalysisData
+from tappet.project.library_texts import library_requirements, library_sources
 from tappet.project.model import Project
 from tappet.project.sources import SourceText, TaskDefinition
 from tappet.server.build_worker import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
@@ -34,6 +36,15 @@ class BuildCrashedError(RuntimeError):
     """The compiler process died or failed; a fault of the product, not of the program."""
 
 
+LibraryParts = tuple[str, str, str, str | None]
+"""Name, version, namespace or '', placeholder of a library reference."""
+
+
+def references(found: Iterable[LibraryReference]) -> tuple[LibraryParts, ...]:
+    """Library references as a build takes them."""
+    return tuple((r.name, r.version, r.namespace, r.placeholder) for r in found)
+
+
 @dataclass(frozen=True, slots=True)
 class Application:
     """An application of a project as it is to be built: its texts, tasks and libraries."""
@@ -43,9 +54,11 @@ class Application:
     name: str
     sources: tuple[SourceText, ...]
     tasks: tuple[TaskDefinition, ...]
-    libraries: tuple[tuple[str, str, str], ...]
+    libraries: tuple[LibraryParts, ...]
     paths: dict[str, str]
     """Path in the tree of each object with code, by id."""
+    static: StaticAnalysisData = NO_RULES
+    """The coding rules that are checked."""
 
     @classmethod
     def of(cls, project_id: str, project: Project, application_id: str) -> Application:
@@ -60,8 +73,24 @@ class Application:
             project.get(application_id).name,
             found,
             tasks,
-            tuple((r.name, r.version, r.namespace) for r in texts.libraries(project, application_id)),
+            references(texts.libraries(project, application_id)),
             {id: project.path_of(id) for id in ids},
+            texts.static_analysis(project, application_id),
+        )
+
+    @classmethod
+    def library(cls, project_id: str, project: Project) -> Application:
+        """What a project is as a library: all its code but programs, in no application."""
+        found = tuple(library_sources(project))
+        ids = {segment.object_id for source in found for segment in source.segments}
+        return cls(
+            project_id,
+            "",
+            project.name,
+            found,
+            (),
+            references(library_requirements(project)),
+            {id: project.path_of(id) for id in ids} | {"": project.name},
         )
 
 
@@ -109,6 +138,20 @@ class Builder:
         task.add_done_callback(lambda done: self._finished(key, done))
         return await self._wait(task)
 
+    async def check(self, application: Application) -> BuildReport:
+        """All messages about an application, without code; it does not count as a build.
+
+        Raises the problem 500 when the compiler crashed.
+        """
+        order, _ = await asyncio.to_thread(self._order, application, None, check_only=True)
+        try:
+            outcome = await self._worker(order).build(order)
+        except BuildCrashedError as error:
+            raise _crashed(error) from error
+        report = _report(application, outcome)
+        faulty = any(diagnostic.severity is Severity.ERROR for diagnostic in report.diagnostics)
+        return report.model_copy(update={"ok": not faulty})
+
     async def warm(self) -> None:
         """Starts the compiler processes before the first build asks for them."""
         await asyncio.gather(*(worker.warm() for worker in self._workers))
@@ -136,7 +179,7 @@ class Builder:
                 raise Problem(409, "build-cancelled", "The build was cancelled.") from None
             raise
         except BuildCrashedError as error:
-            raise Problem(500, "compiler-crashed", f"The compiler failed: {error}.") from error
+            raise _crashed(error) from error
 
     def _finished(self, key: tuple[str, str], task: asyncio.Task[Built]) -> None:
         if self._running.get(key, (None, None))[1] is task:
@@ -144,24 +187,35 @@ class Builder:
         if not task.cancelled() and task.exception() is not None:
             log.error("build of %s failed", key, exc_info=task.exception())
 
-    def _order(self, application: Application, previous: tuple[str, bytes] | None) -> tuple[BuildOrder, str]:
-        """The order, and a fingerprint of everything the outcome depends on."""
+    def _order(
+        self, application: Application, previous: tuple[str, bytes] | None, *, check_only: bool = False
+    ) -> tuple[BuildOrder, str]:
+        """The order, and a fingerprint of everything the outcome depends on.
+
+        A check has caches of its own: other coding rules would make the next build one of everything.
+        """
+        key = f"{application.project_id}/{application.application_id}"
         order = BuildOrder(
-            key=f"{application.project_id}/{application.application_id}",
+            key=f"{key}/check" if check_only else key,
             application=application.name,
             sources=tuple(_source_fields(source) for source in application.sources),
             tasks=tuple(asdict(task) for task in application.tasks),
             libraries=application.libraries,
             previous=previous[1] if previous else None,
             cache=str(self._cache),
+            static=application.static.model_dump(),
+            check_only=check_only,
         )
         return order, _fingerprint(order, previous[0] if previous else None)
+
+    def _worker(self, order: BuildOrder) -> _Worker:
+        number = int(hashlib.sha256(order.key.encode()).hexdigest(), 16) % len(self._workers)
+        return self._workers[number]
 
     async def _run(
         self, key: tuple[str, str], application: Application, order: BuildOrder, fingerprint: str
     ) -> Built:
-        number = int(hashlib.sha256(order.key.encode()).hexdigest(), 16) % len(self._workers)
-        outcome = await self._workers[number].build(order)
+        outcome = await self._worker(order).build(order)
         built = Built(
             application,
             fingerprint,
@@ -256,6 +310,10 @@ async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict
     return exchange.exception() is None
 
 
+def _crashed(error: BuildCrashedError) -> Problem:
+    return Problem(500, "compiler-crashed", f"The compiler failed: {error}.")
+
+
 def _source_fields(source: SourceText) -> dict[str, Any]:
     names = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line", "language")
     return {name: getattr(source, name) for name in names}
@@ -320,7 +378,7 @@ def _place_without_text(application: Application, item: dict[str, Any]) -> dict[
     line = item["line"] + 1 if item["uri"] else None
     column = item["column"] + 1 if item["uri"] else None
     return {
-        "object_id": object_id,
+        "object_id": object_id or None,
         "object_path": path,
         "part": None,
         "line": line,

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from starlette.concurrency import run_in_threadpool
 
+from tappet.project.data import ApplicationData
 from tappet.project.store import Store
 from tappet.server.builder import Application, Builder, Built
 from tappet.server.packages import PackageStore, StoredPackage
 from tappet.server.plc_client import LoadMode
 from tappet.server.problems import Problem
 from tappet.server.runtimes import RuntimeLink
-from tappet.server.schemas.build import LoginReport, Relation
+from tappet.server.schemas.build import BuildReport, LoginReport, Relation
 from tappet.server.source_places import SourcePlaces
 
 
@@ -37,6 +38,18 @@ class Commissioning:
         application = await self.application(project_id, application_id)
         last = await run_in_threadpool(self.packages.latest, project_id, application_id)
         return await self.builder.build(application, _base(last))
+
+    async def analyse(self, project_id: str, application_id: str) -> BuildReport:
+        """Checks with all coding rules that the application has chosen; makes no code."""
+
+        def read() -> Application:
+            project = self.store.load(project_id)
+            application = Application.of(project_id, project, application_id)
+            data = project.get(application_id).data
+            assert isinstance(data, ApplicationData)
+            return replace(application, static=data.static_analysis)
+
+        return await self.builder.check(await run_in_threadpool(read))
 
     async def compare(self, project_id: str, application_id: str, link: RuntimeLink) -> LoginReport:
         """What login finds; builds when the loaded application is one of this project."""

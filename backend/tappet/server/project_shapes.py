@@ -36,6 +36,7 @@ def object_summary(item: records.ObjectSummary) -> ObjectSummary:
         index=item.index,
         revision=item.revision,
         badges=[],
+        excluded=item.excluded,
     )
 
 

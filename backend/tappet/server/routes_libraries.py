@@ -7,24 +7,29 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, UploadFile
 from pydantic import TypeAdapter
+from starlette.concurrency import run_in_threadpool
 
 from tappet import libraries
 from tappet.libraries import Library, UnknownLibraryError, archive, catalog
 from tappet.libraries.archive import LibraryFileError
 from tappet.project.errors import ProjectError
-from tappet.project.library_texts import library_requirements, library_texts
+from tappet.project.library_texts import library_requirements, library_texts, requirement
 from tappet.server import audit
 from tappet.server.audit import Act
 from tappet.server.auth.identity import Identity
+from tappet.server.builder import Application
 from tappet.server.database import Database
-from tappet.server.dependencies import DatabaseDep, Engineer, StoreDep, Viewer
+from tappet.server.dependencies import CommissioningDep, DatabaseDep, Engineer, StoreDep, Viewer
 from tappet.server.problems import Problem, not_found
+from tappet.server.schemas.build import BuildReport, Severity
 from tappet.server.schemas.libraries import (
     LibraryDetail,
     LibraryItem,
     LibrarySource,
     LibrarySummary,
+    LibraryUse,
     NewLibrary,
+    RequiredLibrary,
 )
 
 router = APIRouter(tags=["libraries"])
@@ -52,6 +57,10 @@ def _summary(library: Library) -> LibrarySummary:
         company=library.company,
         description=library.description,
         removable=library.removable,
+        requires=[
+            RequiredLibrary(name=r.name, version=r.version, namespace=r.namespace) for r in library.requires
+        ],
+        stands_for=list(library.stands_for),
     )
 
 
@@ -77,6 +86,19 @@ def get_library_source(name: str, item: str, who: Viewer, version: Version = "*"
     raise not_found(f"item of library {name}", item)
 
 
+@router.get("/libraries/{name}/{version}/projects")
+def list_library_uses(name: str, version: str, who: Viewer, store: StoreDep) -> list[LibraryUse]:
+    """The projects that refer to a version of a library, or to its newest version when it is that."""
+    wanted = _load(name, version)
+    newest = _load(wanted.name).version == wanted.version
+    return [
+        LibraryUse(project_id=info.id, project_name=info.name, version=reference.version)
+        for info, reference in store.library_references()
+        if reference.name.upper() == wanted.name.upper()
+        and (reference.version == wanted.version or (newest and reference.version == "*"))
+    ]
+
+
 @router.post("/libraries", status_code=201, max_body_size=archive.MAX_BYTES)
 def install_library(file: UploadFile, who: Engineer, database: DatabaseDep) -> LibrarySummary:
     """Install a library file; the same version of a library is replaced."""
@@ -100,11 +122,19 @@ def remove_library(name: str, version: str, who: Engineer, database: DatabaseDep
 
 
 @router.post("/projects/{project_id}/library", status_code=201)
-def save_as_library(
-    project_id: str, body: NewLibrary, who: Engineer, store: StoreDep, database: DatabaseDep
+async def save_as_library(
+    project_id: str,
+    body: NewLibrary,
+    who: Engineer,
+    store: StoreDep,
+    database: DatabaseDep,
+    commissioning: CommissioningDep,
 ) -> LibrarySummary:
-    """Make a library of a project, everything but its programs, and install it."""
-    project = store.load(project_id)
+    """Make a library of a project, everything but its programs, and install it.
+
+    A project with errors is refused: the problem `library-errors` has them in `diagnostics`.
+    """
+    project = await run_in_threadpool(store.load, project_id)
     try:
         texts = library_texts(project)
         facts = archive.manifest(
@@ -113,15 +143,25 @@ def save_as_library(
             namespace=body.namespace,
             company=body.company,
             description=body.description or project.description,
-            requires=[
-                {"name": r.name, "version": r.version, "namespace": r.namespace}
-                for r in library_requirements(project)
-            ],
+            requires=[requirement(reference) for reference in library_requirements(project)],
         )
-        found = archive.install(facts, texts)
+        report = await commissioning.builder.check(Application.library(project_id, project))
+        if not report.ok:
+            raise _with_errors(report)
+        found = await run_in_threadpool(archive.install, facts, texts)
     except (ProjectError, LibraryFileError) as error:
         raise Problem(422, "no-library", f"{error}.") from None
-    return _installed(database, who, found.name, found.version)
+    return await run_in_threadpool(_installed, database, who, found.name, found.version)
+
+
+def _with_errors(report: BuildReport) -> Problem:
+    errors = [diagnostic for diagnostic in report.diagnostics if diagnostic.severity is Severity.ERROR]
+    return Problem(
+        422,
+        "library-errors",
+        f"The project has {len(errors)} error(s), so no library was made of it.",
+        diagnostics=[diagnostic.model_dump(mode="json") for diagnostic in report.diagnostics],
+    )
 
 
 def _installed(database: Database, who: Identity, name: str, version: str) -> LibrarySummary:

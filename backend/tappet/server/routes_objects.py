@@ -95,17 +95,26 @@ def save_object(
 def move_object(
     project_id: str, object_id: str, body: ObjectMove, who: Engineer, store: StoreDep
 ) -> ObjectDetail:
-    """Rename or move an object. A new name goes into the header of its declaration and into calling tasks."""
+    """Rename or move an object, or exclude it from the build.
+
+    A new name goes into the header of its declaration and into calling tasks.
+    """
     sent = body.model_fields_set
-    if not sent & {"name", "parent_id", "index"}:
-        raise Problem(422, "nothing-to-change", "Send a name, a parent_id or an index.")
+    if not sent & {"name", "parent_id", "index", "excluded"}:
+        raise Problem(422, "nothing-to-change", "Send a name, a parent_id, an index or excluded.")
     place = None
     if "parent_id" in sent:
         place = (body.parent_id, body.index)
     elif body.index is not None:
         place = (store.get(project_id, object_id).parent_id, body.index)
     moved = store.arrange(
-        project_id, who.username, object_id, name=body.name, place=place, base_revision=body.base_revision
+        project_id,
+        who.username,
+        object_id,
+        name=body.name,
+        place=place,
+        excluded=body.excluded,
+        base_revision=body.base_revision,
     )
     return object_detail(moved)
 

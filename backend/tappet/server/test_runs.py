@@ -65,7 +65,9 @@ async def _result(child: asyncio.subprocess.Process, order: bytes) -> Report:
 
 
 def _order(application: Application, test_filter: str) -> bytes:
-    libraries = tuple(LibraryReference(n, v, space or None) for n, v, space in application.libraries)
+    libraries = tuple(
+        LibraryReference(n, v, space or None, holder) for n, v, space, holder in application.libraries
+    )
     tasks = [TaskSpec(t.name, interval_ns=t.interval_ns, programs=t.programs) for t in application.tasks]
     sources = [as_source(text) for text in application.sources]
     options = BuildOptions(application.name, libraries=libraries)

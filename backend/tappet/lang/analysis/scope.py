@@ -40,6 +40,10 @@ class Level:
     """'' for application and POUs view, the namespace of a library."""
     library: str = ""
     """Name of the library; its own texts and others may qualify by it, too, when the namespace is another."""
+    uses: tuple[tuple[str, str], ...] = ()
+    """Libraries that this one needs: the name it gives to one, and the label of its level."""
+    private: bool = False
+    """Seen by the libraries that use it only."""
     objects: dict[str, Symbol] = field(default_factory=dict)
     gvls: list[GvlSymbol] = field(default_factory=list)
     enum_values: list[tuple[str, bool, EnumValueSymbol]] = field(default_factory=list)
@@ -90,6 +94,7 @@ class Levels:
     system: dict[str, Symbol] = field(default_factory=dict)
     """Names every text sees last, such as `__SYSTEM`."""
     _tables: dict[str, dict[str, Symbol]] = field(default_factory=dict)
+    _namespaces: dict[str, NamespaceSymbol] = field(default_factory=dict)
 
     def of(self, source: Source) -> Level:
         """The level the objects of a source belong to."""
@@ -98,7 +103,11 @@ class Levels:
         if source.scope is Scope.POUS:
             return self.pous
         label = source.namespace or source.library or "Library"
-        return self.libraries.setdefault(label.upper(), Level(label, source.library or label))
+        found = self.libraries.get(label.upper())
+        if found is None:
+            found = Level(label, source.library or label, source.uses, source.private)
+            self.libraries[label.upper()] = found
+        return found
 
     def seen_by(self, source: Source) -> dict[str, Symbol]:
         """What a text of this source sees by plain name, own locals excepted. Valid once all is collected."""
@@ -110,7 +119,9 @@ class Levels:
         if table is None:
             table = dict(self._library_names())
             if source.scope is Scope.LIBRARY:
-                table.update(self.of(source).names())
+                own = self.of(source)
+                table.update(self._used_names(own))
+                table.update(own.names())
             else:
                 table.update(self.pous.names())
                 if source.scope is Scope.APPLICATION:
@@ -118,17 +129,41 @@ class Levels:
             self._tables[key] = table
         return table
 
+    def _used_names(self, level: Level) -> dict[str, Symbol]:
+        """What a library sees of those it needs: these versions, also where the application has others."""
+        table: dict[str, Symbol] = {}
+        for name, label in level.uses:
+            used = self.libraries.get(label.upper())
+            if used is not None:
+                table.update(_without_qualified(used.names(), table))
+                namespace = self._namespace(used)
+                table[name.upper()] = namespace
+                table.setdefault(used.library.upper(), namespace)
+        return table
+
+    def _namespace(self, level: Level) -> NamespaceSymbol:
+        """A library behind its name: its objects, and the libraries it needs by the names it gives to them
+        (LDEC-15)."""
+        found = self._namespaces.get(level.label.upper())
+        if found is None:
+            found = NamespaceSymbol(level.label, members=dict(level.names()))
+            self._namespaces[level.label.upper()] = found
+            for name, label in level.uses:
+                used = self.libraries.get(label.upper())
+                if used is not None:
+                    found.members.setdefault(name.upper(), self._namespace(used))
+        return found
+
     def _library_names(self) -> dict[str, Symbol]:
         table = self._tables.get("libraries")
         if table is None:
             table = dict(self.system)
-            for level in self.libraries.values():
-                names = level.names()
-                table.setdefault(level.label.upper(), NamespaceSymbol(level.label, members=names))
-            for level in self.libraries.values():
-                if level.library.upper() not in table:
-                    table[level.library.upper()] = NamespaceSymbol(level.library, members=level.names())
-            for level in self.libraries.values():
+            public = [level for level in self.libraries.values() if not level.private]
+            for level in public:
+                table.setdefault(level.label.upper(), self._namespace(level))
+            for level in public:
+                table.setdefault(level.library.upper(), self._namespace(level))
+            for level in public:
                 for key, symbol in level.names().items():
                     old = table.get(key)
                     if old is None or isinstance(old, (NamespaceSymbol, QualifiedSymbol)):

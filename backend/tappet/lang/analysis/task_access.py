@@ -37,7 +37,7 @@ def check_shared(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
     if len(tasks) > 1 and isinstance(state, State):
         reaches = [_reach(task, analysis, state) for task in tasks]
         for variable in _shareable(analysis):
-            found += _check(variable, reaches, "S1505" in analysis.options.static)
+            found += _check(variable, reaches, "S1505" in analysis.options.static.codes)
     return found
 
 

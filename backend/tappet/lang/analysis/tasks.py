@@ -12,7 +12,7 @@ from tappet.lang.analysis.expressions import evaluate
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.task_access import check_shared
-from tappet.lang.diagnostics import Diagnostic, report
+from tappet.lang.diagnostics import Diagnostic, report, with_severity
 from tappet.lang.parser import parse_expression
 from tappet.lang.rules import coding_checks
 from tappet.lang.source import NOWHERE, Scope, Source
@@ -87,10 +87,10 @@ def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
         found.append(report("W1401", "", NOWHERE))
     found += _programs_without_task(tasks, analysis)
     found += check_shared(tasks, analysis)
-    chosen = analysis.options.static
-    for rule in coding_checks("check_tasks", chosen):
-        found += rule(tasks, chosen)
-    return found
+    static = analysis.options.static
+    for rule in coding_checks("check_tasks", static.codes):
+        found += rule(tasks, static.codes)
+    return with_severity(found, static.errors)
 
 
 def _check(task: Task, analysis: Analysis) -> list[Diagnostic]:

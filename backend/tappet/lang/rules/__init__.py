@@ -81,7 +81,7 @@ def coding_checks(name: str, chosen: frozenset[str]) -> tuple[Check, ...]:
 
 
 def chosen_codes(text: str) -> frozenset[str]:
-    """The codes of the coding rules that a list such as `S12,S1301` or `all` names.
+    """The codes of the coding rules that a list such as `S12,S1301`, `all` or `none` names.
 
     A part of a code names all that begin with it.
 
@@ -90,10 +90,12 @@ def chosen_codes(text: str) -> frozenset[str]:
     known = sorted(code for rule in CODING_RULES for code in rule.CODES)
     chosen: set[str] = set()
     for part in text.replace(",", " ").split():
+        if part.lower() == "none":
+            continue
         found = [code for code in known if part.lower() == "all" or code.startswith(part.upper())]
         if not found:
             raise ValueError(
-                f"no coding rule begins with '{part}'; there are {known[0]} to {known[-1]}, or 'all'"
+                f"no coding rule begins with '{part}'; there are {known[0]} to {known[-1]}, 'all' and 'none'"
             )
         chosen.update(found)
     return frozenset(chosen)

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
+from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
 from tappet.lang.source import Source, Span
 
 
@@ -100,6 +101,8 @@ class Program:
     texts: Sequence[Text]
     tasks: Sequence[str] = ()
     defines: Mapping[str, str] = field(default_factory=dict)
+    static: StaticAnalysis = NO_RULES
+    """The optional coding rules that are switched on."""
 
 
 class Programs(Protocol):

@@ -140,9 +140,8 @@ class Snapshot:
 class Workspace:
     """The programs of a project and the documents open in an editor."""
 
-    def __init__(self, programs: Programs, options: AnalysisOptions | None = None) -> None:
+    def __init__(self, programs: Programs) -> None:
         self._programs = programs
-        self._options = options or AnalysisOptions()
         self._unsaved: dict[str, str] = {}
         self._parsed: dict[str, dict[Source, ParseResult]] = {}
         self._snapshots: dict[str, Snapshot] = {}
@@ -237,11 +236,12 @@ class Workspace:
         sources = [text.source for text in program.texts]
         plain = self._parsed.get(program.name, {})
         options = ParseOptions(defines=program.defines, tasks=program.tasks)
+        settings = AnalysisOptions(static=program.static)
         results = parse_sources(sources, options, plain=plain)
         self._parsed[program.name] = dict(zip(sources, results, strict=True))
         last = self._snapshots.get(program.name)
         previous = last.analysis if last is not None else None
-        analysis = analyse([result.unit for result in results], self._options, previous)
+        analysis = analyse([result.unit for result in results], settings, previous)
         snapshot = Snapshot(program, results, analysis)
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from tappet.project.data import CodeData
+from tappet.project.model import KIND_CLASSES
+
 
 @dataclass(slots=True, eq=False)
 class Draft:
@@ -60,6 +63,13 @@ GRAPHICAL_LANGUAGES = ("LD", "FBD", "CFC", "SFC")
 def body(language: str, text: str) -> dict[str, Any]:
     """The data of an implementation."""
     return {"implementation": text, "language": language}
+
+
+def exclude(draft: Draft) -> None:
+    """Leave an object out of the build; what is no code is not in it anyway."""
+    known = KIND_CLASSES.get(draft.kind)
+    if known is not None and isinstance(known.model_fields["data"].default, CodeData):
+        draft.data["exclude_from_build"] = True
 
 
 def hex_id(text: str) -> str | None:

@@ -15,6 +15,7 @@ from tappet.project.exchange.drafts import (
     Batch,
     Draft,
     body,
+    exclude,
     hex_id,
     library_manager,
     plc_logic,
@@ -194,7 +195,17 @@ class _Reader:
         return None
 
     def _draft(self, kind: str, item: Element, data: dict[str, Any] | None = None) -> Draft:
-        return Draft(kind, item.get("name"), data or {}, self.source, item.line, [], self._id(item))
+        return self._marked(
+            Draft(kind, item.get("name"), data or {}, self.source, item.line, [], self._id(item)), item
+        )
+
+    def _marked(self, draft: Draft, item: Element) -> Draft:
+        """The draft, excluded from the build where the build properties of its element say so."""
+        for name, inner in added(item):
+            flag = inner.child("ExcludeFromBuild") if name == "buildproperties" else None
+            if flag is not None and flag.text().strip().lower() == "true":
+                exclude(draft)
+        return draft
 
     # -- programming objects
 
@@ -236,7 +247,7 @@ class _Reader:
                         part, f"{name}.{title}"
                     )
                     made = Draft("accessor", title, data, self.source, part.line, [], self._id(part))
-                    child.children.append(made)
+                    child.children.append(self._marked(made, part))
         else:
             return False
         owner.children.append(child)
@@ -349,7 +360,10 @@ class _Reader:
             if part.tag not in ("addData", "documentation"):
                 self._element(part, application)
         for name, part in added(item):
-            self._added(name, part, application)
+            if name == "object":
+                application.data = _json(self.source, part)
+            else:
+                self._added(name, part, application)
 
     def _libraries(self, item: Element, parent: Draft) -> None:
         manager = library_manager(parent)

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from tappet.project.data import (
     AccessorData,
     ActionData,
+    ApplicationData,
     BodyData,
     DeclarationData,
     DeviceData,
@@ -143,6 +144,8 @@ class _Writer(XmlLines):
             with self.tag("addData"):
                 self._added_code(code, ("dut", "pou"))
                 self._object_id(application)
+                if application.data != ApplicationData():
+                    self._object_data(application, application.data.model_dump(mode="json"))
 
     def _structure(self, parent_id: str | None = None) -> None:
         for item in self.project.children(parent_id):
@@ -179,11 +182,13 @@ class _Writer(XmlLines):
                         with self.tag("action", name=action.name):
                             self._body(action.data)
                             with self.tag("addData"):
+                                self._build_properties(action)
                                 self._object_id(action)
             self._body(item.data)
             with self.tag("addData"):
                 self._plain_text(item.data.declaration)
                 self._children(children)
+                self._build_properties(item)
                 self._object_id(item)
 
     def _members(self, item: ProjectObject) -> Iterator[ProjectObject]:
@@ -203,6 +208,7 @@ class _Writer(XmlLines):
                     self._interface_of(data.declaration, True)
                     self._body(data)
                     self._plain_text_element(data.declaration)
+                    self._added_properties(child)
             elif child.kind == "property" and isinstance(data, DeclarationData):
                 with self._data("property"):
                     self._property(child, data)
@@ -216,7 +222,9 @@ class _Writer(XmlLines):
                         self._interface_of(accessor.data.declaration, False)
                         self._body(accessor.data)
                         self._plain_text_element(accessor.data.declaration)
+                        self._added_properties(accessor)
             self._plain_text_element(data.declaration)
+            self._added_properties(item)
 
     def _interface(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
@@ -224,6 +232,7 @@ class _Writer(XmlLines):
             self._plain_text_element(item.data.declaration)
             with self.tag("addData"):
                 self._children(list(self._members(item)))
+                self._build_properties(item)
 
     def _data_type(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
@@ -231,6 +240,7 @@ class _Writer(XmlLines):
             self.line(type_element("baseType", item.data.declaration))
             with self.tag("addData"):
                 self._plain_text(item.data.declaration)
+                self._build_properties(item)
                 self._object_id(item)
 
     def _globals(self, item: ProjectObject) -> None:
@@ -242,6 +252,7 @@ class _Writer(XmlLines):
                 self._variables(section)
             with self.tag("addData"):
                 self._plain_text(item.data.declaration)
+                self._build_properties(item)
                 self._object_id(item)
                 with self._own_data(), self.tag("Object", kind=item.kind):
                     pass
@@ -316,6 +327,16 @@ class _Writer(XmlLines):
                         )
                 self._object_id(item)
                 self._object_data(item, data.model_dump(mode="json"))
+
+    def _build_properties(self, item: ProjectObject) -> None:
+        if item.excluded:
+            with self._data("buildproperties"), self.tag("BuildProperties"):
+                self.line("<ExcludeFromBuild>true</ExcludeFromBuild>")
+
+    def _added_properties(self, item: ProjectObject) -> None:
+        if item.excluded:
+            with self.tag("addData"):
+                self._build_properties(item)
 
     def _object_id(self, item: ProjectObject) -> None:
         with self._data("objectid", "discard"):

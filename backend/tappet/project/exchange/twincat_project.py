@@ -7,7 +7,14 @@ import re
 from collections.abc import Mapping
 from urllib.parse import unquote
 
-from tappet.project.exchange.drafts import Batch, Draft, library_manager, plc_logic, task_configuration
+from tappet.project.exchange.drafts import (
+    Batch,
+    Draft,
+    exclude,
+    library_manager,
+    plc_logic,
+    task_configuration,
+)
 from tappet.project.exchange.libraries import reference
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.twincat import ENDINGS, read_object
@@ -58,20 +65,26 @@ def read_project(
                 continue
             used.add(path)
             place = link.text().replace("\\", "/") if link is not None else include
-            _add(application, _folders(posixpath.dirname(place)), path, files[path], report)
+            excluded = item.child("ExcludeFromBuild")
+            drafts = _read(path, files[path], report)
+            if excluded is not None and excluded.text().strip().casefold() == "true":
+                for draft in drafts:
+                    exclude(draft)
+            _add(application, _folders(posixpath.dirname(place)), path, drafts)
         elif item.tag in ("PlaceholderReference", "LibraryReference") and include:
             _library(source, item, include, application, report)
     return used
 
 
-def _add(
-    application: Draft, folders: tuple[str, ...], path: str, content: bytes, report: ImportReport
-) -> None:
+def _read(path: str, content: bytes, report: ImportReport) -> list[Draft]:
     try:
-        drafts = read_object(path, content, report)
+        return read_object(path, content, report)
     except ExchangeError as error:
         report.add("refused", error.source, str(error).partition(": ")[2], line=error.line)
-        return
+        return []
+
+
+def _add(application: Draft, folders: tuple[str, ...], path: str, drafts: list[Draft]) -> None:
     for draft in drafts:
         parent = task_configuration(application) if draft.kind == "task" else application.below(folders, path)
         parent.children.append(draft)

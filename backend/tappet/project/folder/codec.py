@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from tappet.project.data import NoData
+from tappet.project.data import ApplicationData, NoData
 from tappet.project.declaration_text import subkind_of, words
 from tappet.project.errors import FolderFormatError, ProjectError
 from tappet.project.folder.filenames import name_of, stem_of
@@ -127,9 +127,10 @@ def _with_ancestors(path: str) -> Iterator[str]:
 
 
 def _may_be_empty(kind: str) -> bool:
-    """Whether an object of this kind needs no file: it has no data, or its plug-in is not here to say."""
+    """Whether an object of this kind needs no file: it has no data as a rule, or its plug-in is not here to
+    say."""
     known = KIND_CLASSES.get(kind)
-    return known is None or isinstance(known.model_fields["data"].default, NoData)
+    return known is None or isinstance(known.model_fields["data"].default, NoData | ApplicationData)
 
 
 class _Reader:

@@ -140,6 +140,7 @@ def _object_row(project_id: str, item: ProjectObject, position: int) -> dict[str
         "position": position,
         "revision": item.revision,
         "data": data_of(item),
+        "excluded": item.excluded,
     }
 
 

@@ -101,11 +101,21 @@ def read_summaries(connection: Connection, project_id: str) -> list[ObjectSummar
         objects.c.name,
         objects.c.position,
         objects.c.revision,
+        objects.c.excluded,
     )
     rows = connection.execute(select(*columns).where(objects.c.project_id == project_id)).all()
     ranks = ranks_of((row.id, row.parent_id, row.kind, row.position, row.name) for row in rows)
     found = [
-        ObjectSummary(row.id, row.parent_id, row.kind, row.subkind, row.name, ranks[row.id], row.revision)
+        ObjectSummary(
+            row.id,
+            row.parent_id,
+            row.kind,
+            row.subkind,
+            row.name,
+            ranks[row.id],
+            row.revision,
+            row.excluded,
+        )
         for row in rows
     ]
     return sorted(found, key=lambda item: (item.parent_id or "", item.kind != "device", item.index))
@@ -114,7 +124,14 @@ def read_summaries(connection: Connection, project_id: str) -> list[ObjectSummar
 def summary_of(item: ProjectObject) -> ObjectSummary:
     """The summary of an object."""
     return ObjectSummary(
-        item.id, item.parent_id, item.kind, item.subkind, item.name, item.index, item.revision
+        item.id,
+        item.parent_id,
+        item.kind,
+        item.subkind,
+        item.name,
+        item.index,
+        item.revision,
+        item.excluded,
     )
 
 

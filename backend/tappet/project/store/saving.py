@@ -76,7 +76,8 @@ def with_index(connection: Connection, project_id: str, stored: StoredObject) ->
 def check_base(
     connection: Connection, project_id: str, object_id: str, base_revision: int, yours: Mapping[str, Any]
 ) -> StoredObject:
-    """The object as it is, provided its content is that of `base_revision`: a mere move disturbs nobody.
+    """The object as it is, provided its content is that of `base_revision`: a mere move disturbs nobody, nor
+    does excluding it from the build.
 
     Raises StaleRevision when somebody else changed or deleted it, UnknownObjectError when it never was.
     """
@@ -86,18 +87,45 @@ def check_base(
         raise _deleted(connection, project_id, object_id, base_revision, yours) from None
     if stored.item.revision == base_revision:
         return stored
-    base = connection.execute(
-        select(revisions.c.name, revisions.c.data).where(
-            revisions.c.project_id == project_id,
-            revisions.c.object_id == object_id,
-            revisions.c.revision == base_revision,
-        )
-    ).one_or_none()
-    if base is not None and (base.name, base.data) == (stored.item.name, data_of(stored.item)):
+    base = _state(connection, project_id, stored.item, base_revision)
+    if base is not None and (base.name, _content(base)) == (stored.item.name, _content(stored.item)):
         return stored
     author = object_revisions(connection, project_id, object_id)[0].author
     current = with_index(connection, project_id, stored)
     raise StaleRevision(object_id, base_revision, current, yours, author)
+
+
+def _state(
+    connection: Connection, project_id: str, item: ProjectObject, revision: int
+) -> ProjectObject | None:
+    """The object with the name and data of an earlier revision of it; None when there is none."""
+    row = connection.execute(
+        select(revisions.c.name, revisions.c.data).where(
+            revisions.c.project_id == project_id,
+            revisions.c.object_id == item.id,
+            revisions.c.revision == revision,
+        )
+    ).one_or_none()
+    return None if row is None else changed_object(item, name=row.name, data=row.data)
+
+
+def _content(item: ProjectObject) -> object:
+    """What an editor edits."""
+    if isinstance(item.data, CodeData):
+        return item.data.model_copy(update={"exclude_from_build": False})
+    return item.data
+
+
+def _with_flag(
+    connection: Connection, info: ProjectInfo, before: ProjectObject, revision: int, wanted: ProjectObject
+) -> ProjectObject:
+    """`wanted`, excluded from the build as it is now when the save did not change that itself."""
+    if before.excluded == wanted.excluded:
+        return wanted
+    base = _state(connection, info.id, before, revision)
+    if base is None or base.excluded != wanted.excluded:
+        return wanted
+    return changed_object(wanted, data=wanted.data.model_copy(update={"exclude_from_build": before.excluded}))
 
 
 def save_data(
@@ -118,7 +146,7 @@ def save_data(
         before = read_object(connection, info.id, object_id)
     except UnknownObjectError:
         raise _deleted(connection, info.id, object_id, base_revision, {"data": data}) from None
-    wanted = changed_object(before.item, data=data)
+    wanted = _with_flag(connection, info, before.item, base_revision, changed_object(before.item, data=data))
     if wanted.data == before.item.data:
         if not autosave:
             _keep_autosave(connection, info, before.item, comment)
@@ -132,7 +160,7 @@ def save_data(
             objects.c.id == object_id,
             objects.c.revision == before.item.revision,
         )
-        .values(data=data_of(saved), subkind=saved.subkind, revision=saved.revision)
+        .values(data=data_of(saved), subkind=saved.subkind, revision=saved.revision, excluded=saved.excluded)
     )
     assert updated.rowcount == 1, "the project is locked, so nobody else can have saved"
     replaced = _replaceable(connection, info, before.item, author) if autosave else None
@@ -145,6 +173,31 @@ def save_data(
     result = with_index(connection, info.id, StoredObject(saved, before.position))
     event = ChangeEvent(info.id, number, "save", author, (ObjectChange("updated", summary_of(result)),))
     return result, event
+
+
+def with_contents(
+    connection: Connection, info: ProjectInfo, project: Project, contents: Iterable[ObjectContent]
+) -> Project:
+    """A locked project with other data in several objects, all of which are as they were read.
+
+    Raises StaleRevision for the first that is not, InvalidDataError, UnknownObjectError.
+    """
+    given: dict[str, ProjectObject] = {}
+    for content in contents:
+        object_id, base = content.object_id, content.base_revision
+        if object_id in given:
+            raise InvalidDataError(
+                f"The object {object_id} is given twice; one content an object can be saved"
+            )
+        item = project.objects.get(object_id)
+        if item is None:
+            raise _deleted(connection, info.id, object_id, base, {"data": content.data})
+        wanted = _with_flag(connection, info, item, base, changed_object(item, data=content.data))
+        if wanted.data != item.data:
+            check_base(connection, info.id, object_id, base, {"data": data_of(wanted)})
+        given[object_id] = wanted
+    objects_now = {**project.objects, **given}
+    return Project(project.name, project.description, objects_now, extra_files=project.extra_files)
 
 
 def _deleted(
@@ -175,31 +228,6 @@ def _last_change(connection: Connection, info: ProjectInfo, item: ProjectObject)
 
 def _replaceable(connection: Connection, info: ProjectInfo, item: ProjectObject, author: str) -> Any:
     """The autosave that the next one may take the place of, or None.
-def with_contents(
-    connection: Connection, info: ProjectInfo, project: Project, contents: Iterable[ObjectContent]
-) -> Project:
-    """A locked project with other data in several objects, all of which are as they were read.
-
-    Raises StaleRevision for the first that is not, InvalidDataError, UnknownObjectError.
-    """
-    given: dict[str, ProjectObject] = {}
-    for content in contents:
-        object_id, base = content.object_id, content.base_revision
-        if object_id in given:
-            raise InvalidDataError(
-                f"The object {object_id} is given twice; one content an object can be saved"
-            )
-        item = project.objects.get(object_id)
-        if item is None:
-            raise _deleted(connection, info.id, object_id, base, {"data": content.data})
-        wanted = changed_object(item, data=content.data)
-        if wanted.data != item.data:
-            check_base(connection, info.id, object_id, base, {"data": data_of(wanted)})
-        given[object_id] = wanted
-    objects_now = {**project.objects, **given}
-    return Project(project.name, project.description, objects_now, extra_files=project.extra_files)
-
-
 
     Not when an explicit change of the project came after it: going back to that one must find the object as
     it was then.

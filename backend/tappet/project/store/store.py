@@ -12,6 +12,7 @@ from sqlalchemy import Engine, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from tappet.project import edit
+from tappet.project.data import LibraryReference
 from tappet.project.errors import NameTakenError
 from tappet.project.model import ObjectHead, Project, ProjectObject
 from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
@@ -19,6 +20,7 @@ from tappet.project.placement import check_project
 from tappet.project.store import history
 from tappet.project.store.changes import apply_project
 from tappet.project.store.engine import migrate, open_engine, reading
+from tappet.project.store.library_use import read_library_references
 from tappet.project.store.records import (
     ChangeEvent,
     ObjectContent,
@@ -77,6 +79,11 @@ class Store:
                 select(*PROJECT_COLUMNS).where(condition).order_by(projects.c.name_key, projects.c.id)
             )
             return [ProjectInfo(*row) for row in rows]
+
+    def library_references(self) -> list[tuple[ProjectInfo, LibraryReference]]:
+        """The libraries that the projects refer to, by project."""
+        with self._reading.begin() as connection:
+            return read_library_references(connection)
 
     def project(self, project_id: str) -> ProjectInfo:
         """One project. Raises UnknownProjectError."""
@@ -325,10 +332,11 @@ class Store:
         *,
         name: str | None = None,
         place: tuple[str | None, int | None] | None = None,
+        excluded: bool | None = None,
         base_revision: int | None = None,
         comment: str = "",
     ) -> ProjectObject:
-        """Rename an object, or put it at `place` (parent, index or None for the end), or both.
+        """Rename an object, put it at `place` (parent, index or None for the end), exclude it from the build.
 
         Raises StaleRevision when `base_revision` is given and old, and what `edit` raises.
         """
@@ -338,11 +346,13 @@ class Store:
                 project = edit.rename_object(project, object_id, name)
             if place is not None:
                 project = edit.move_object(project, object_id, *place)
+            if excluded is not None:
+                project = edit.exclude_object(project, object_id, excluded)
             return project, project.get(object_id)
 
         yours = {} if name is None else {"name": name}
         base = None if base_revision is None else (object_id, base_revision, yours)
-        action = "rename" if name is not None else "move"
+        action = "rename" if name is not None else "move" if place is not None else "build"
         moved = object_id if place is not None else None
         return self.edit(project_id, author, action, arranged, comment, base=base, moved=moved)
 

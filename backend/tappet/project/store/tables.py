@@ -21,6 +21,7 @@ from sqlalchemy import (
     Table,
     Text,
     TypeDecorator,
+    false,
     text,
 )
 
@@ -100,9 +101,11 @@ objects = Table(
     Column("position", BigInteger, nullable=False),
     Column("revision", Integer, nullable=False),
     Column("data", JSON, nullable=False),
+    Column("excluded", Boolean, nullable=False, server_default=false()),
     Index("ix_project_objects_project_id_parent_id_position", "project_id", "parent_id", "position"),
 )
-"""The objects as they are now. `position` orders siblings and has gaps, so that a move writes one row."""
+"""The objects as they are now. `position` orders siblings and has gaps, so that a move writes one row.
+`subkind` and `excluded` follow from `data`: the tree is shown without reading these."""
 
 revisions = Table(
     "object_revisions",

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from tappet import libraries
+from tappet.lang.coding_settings import static_analysis
 from tappet.lang.services.documents import Program, Segment, Text, library_text
 from tappet.lang.source import Scope, Source
 from tappet.project import sources as project_sources
@@ -64,11 +65,13 @@ class ProjectPrograms:
     def _application(self, project: Project, application: ProjectObject) -> Program:
         texts = self._texts(project, project_sources.application_sources(project, application.id))
         references = project_sources.libraries(project, application.id)
-        wanted = [(r.name, r.version, r.namespace or None) for r in references]
+        wanted = [(r.name, r.version, r.namespace or None, r.placeholder) for r in references]
         found, _ = libraries.resolve(wanted)  # what is missing, the build and the library manager say
         texts += [library_text(source) for library in found for source in library.sources]
         tasks = [task.name for task in project_sources.tasks(project, application.id)]
-        return Program(f"{application.name} {application.id}", texts, tasks)
+        chosen = project_sources.static_analysis(project, application.id)
+        static = static_analysis(chosen.rules, chosen.prefixes, chosen.limits)
+        return Program(f"{application.name} {application.id}", texts, tasks, static=static)
 
     def _without_application(self, project: Project) -> Program:
         return Program(project.name, self._texts(project, _objects_with_text(project)))

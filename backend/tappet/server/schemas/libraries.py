@@ -7,6 +7,14 @@ from pydantic import Field
 from tappet.server.schemas.base import Reply, Request
 
 
+class RequiredLibrary(Reply):
+    """A library that another one needs."""
+
+    name: str
+    version: str = Field(description="A version, or * for the one that the application refers to.")
+    namespace: str = Field(description="Prefix of its names there; empty: its own.")
+
+
 class LibrarySummary(Reply):
     """An installed library."""
 
@@ -16,6 +24,8 @@ class LibrarySummary(Reply):
     company: str
     description: str
     removable: bool = Field(description="Installed besides those of the product.")
+    requires: list[RequiredLibrary]
+    stands_for: list[str] = Field(description="Libraries of other systems that it takes the place of.")
 
 
 class Pin(Reply):
@@ -54,6 +64,14 @@ class LibraryDetail(LibrarySummary):
     """A library with everything in it."""
 
     items: list[LibraryItem]
+
+
+class LibraryUse(Reply):
+    """A project that refers to a library."""
+
+    project_id: str
+    project_name: str
+    version: str = Field(description="What the project asks for: a version, or * for the newest one.")
 
 
 class LibrarySource(Reply):

@@ -51,6 +51,7 @@ class ObjectSummary(Reply):
     index: int = Field(description="Order among the siblings, from 0.")
     revision: int
     badges: list[str]
+    excluded: bool = Field(description="From the build.")
 
 
 class ObjectDetail(ObjectSummary):
@@ -85,7 +86,6 @@ class ObjectSave(Request):
     )
 
 
-class ObjectMove(Request):
 class ObjectContent(Request):
     """New data of one object on top of the revision that was edited."""
 
@@ -101,11 +101,13 @@ class ObjectsSave(Request):
     comment: str = Field(default="", max_length=2000)
 
 
+class ObjectMove(Request):
     """A new name or place; what is left out stays. A new parent without index: the end of its children."""
 
     base_revision: int | None = Field(default=None, description="Refuse if the content is newer than this.")
     name: Name | None = None
     parent_id: str | None = Field(default=None, description="Null: the root of the view (when sent at all).")
+    excluded: bool | None = Field(default=None, description="From the build.")
     index: int | None = Field(default=None, ge=0)
 
 

@@ -46,7 +46,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.settings import SETTINGS
 from tappet.lang.types import Elementary, Pointer
 from tappet.lang.walk import own_expressions, statements
 
@@ -54,6 +53,8 @@ if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("S1211", "S1212", "S1213", "S1214", "S1215", "S1216", "S1217", "S1218", "S1219")
+_NAMELESS = frozenset({0, 1, -1, 2, 10, 100, 1000})
+"""Numbers that need no name."""
 
 
 def check_pou(b: Body, chosen: frozenset[str]) -> None:
@@ -61,6 +62,7 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
     if b.pou is None or b.pou.pou is None:
         return
     compared: set[int] = set()
+    limit = b.session.options.static.settings.operators
     for s in statements(b.pou.pou.body):
         operators = 0
         for e in own_expressions(s):
@@ -68,19 +70,15 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
             for code, fields in _faults(e, s, compared):
                 if code in chosen:
                     b.report(code, e.span, **fields)
-        if operators > SETTINGS.operators and "S1213" in chosen:
-            b.report("S1213", s.span, count=operators, limit=SETTINGS.operators)
+        if operators > limit and "S1213" in chosen:
+            b.report("S1213", s.span, count=operators, limit=limit)
         if isinstance(s, ast.Assign) and "S1217" in chosen:
             _conversion(b, s)
 
 
 def _faults(e: ast.Expr, s: ast.Stmt, compared: set[int]) -> Iterator[tuple[str, dict[str, object]]]:
     if isinstance(e, ast.Literal):
-        if (
-            e.kind in ("int", "real")
-            and e.value not in SETTINGS.magic
-            and not isinstance(s, (ast.Case, ast.For))
-        ):
+        if e.kind in ("int", "real") and e.value not in _NAMELESS and not isinstance(s, (ast.Case, ast.For)):
             yield "S1211", {"value": e.text}
     elif isinstance(e, ast.Binary):
         for side in (e.left, e.right):

@@ -1,6 +1,6 @@
 """Objects and types are told by the prefix of their name.
 
-The prefixes stand in `settings`.
+The prefixes stand in `lang.coding_settings`.
 
 Source: coding guidelines of PLCopen, N1 (naming conventions), N5, N8.
 
@@ -26,7 +26,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.settings import SETTINGS
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
@@ -36,18 +35,18 @@ CODES = ("S1001", "S1002", "S1003")
 
 def check_unit(session: Session, unit: ast.Unit) -> None:
     """Reports names of objects without their prefix."""
+    prefixes = session.options.static.settings.prefixes
     for d in unit.declarations:
         if isinstance(d, ast.Pou):
-            _check(
-                session, unit, d, SETTINGS.kinds.get(d.kind, ""), "S1001", d.kind.lower().replace("_", " ")
-            )
+            prefix = prefixes.get(d.kind, "")
+            _check(session, unit, d, prefix, "S1001", d.kind.lower().replace("_", " "))
         elif isinstance(d, ast.Interface):
-            _check(session, unit, d, SETTINGS.kinds.get("INTERFACE", ""), "S1001", "interface")
+            _check(session, unit, d, prefixes.get("INTERFACE", ""), "S1001", "interface")
         elif isinstance(d, ast.TypeDecl):
             what = _what(d.type_ref)
-            _check(session, unit, d, SETTINGS.types.get(what, ""), "S1002", what)
+            _check(session, unit, d, prefixes.get(what.upper(), ""), "S1002", what)
         elif isinstance(d, ast.GlobalList) and d.blocks:
-            _check(session, unit, d, SETTINGS.lists, "S1003", "global variable list")
+            _check(session, unit, d, prefixes.get("GVL", ""), "S1003", "global variable list")
 
 
 def _what(ref: ast.TypeRef) -> str:
@@ -57,5 +56,5 @@ def _what(ref: ast.TypeRef) -> str:
 
 
 def _check(session: Session, unit: ast.Unit, d: ast.Declaration, prefix: str, code: str, what: str) -> None:
-    if prefix and d.name and not d.name.startswith(prefix) and code in session.options.static:
+    if prefix and d.name and not d.name.startswith(prefix) and code in session.options.static.codes:
         session.report(code, unit.source.uri, d.name_span, name=d.name, what=what, prefix=prefix)

@@ -39,7 +39,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.settings import SETTINGS
 from tappet.lang.types import BOOL
 from tappet.lang.walk import bodies, own_expressions, statements
 
@@ -57,10 +56,11 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
     if pou is None or pou.pou is None:
         return
     node = pou.pou
+    limits = b.session.options.static.settings
     measured = {
-        "S1302": (1 + _decisions(node.body), SETTINGS.complexity),
-        "S1303": (sum(p.section in _PARAMETERS for p in pou.parameters), SETTINGS.parameters),
-        "S1304": (sum(1 for _ in statements(node.body)), SETTINGS.statements),
+        "S1302": (1 + _decisions(node.body), limits.complexity),
+        "S1303": (sum(p.section in _PARAMETERS for p in pou.parameters), limits.parameters),
+        "S1304": (sum(1 for _ in statements(node.body)), limits.statements),
     }
     for code, (count, limit) in measured.items():
         if count > limit and code in chosen:
@@ -86,10 +86,11 @@ def _decisions(body: list[ast.Stmt]) -> int:
 
 
 def _nesting(b: Body, body: list[ast.Stmt], depth: int) -> None:
+    limit = b.session.options.static.settings.nesting
     for s in body:
         inner = bodies(s)
-        if inner and depth > SETTINGS.nesting:
-            b.report("S1301", s.span, depth=depth, limit=SETTINGS.nesting)
+        if inner and depth > limit:
+            b.report("S1301", s.span, depth=depth, limit=limit)
             return
         for part in inner:
             _nesting(b, part, depth + 1)

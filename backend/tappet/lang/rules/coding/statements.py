@@ -75,7 +75,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.settings import SETTINGS
 from tappet.lang.types import Enum
 from tappet.lang.walk import statements
 
@@ -92,6 +91,7 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
         return
     body = b.pou.pou.body
     returns = 0
+    limit = b.session.options.static.settings.returns
     for s in statements(body):
         code = _SIMPLE.get(s.__class__, "")
         fields: dict[str, object] = {}
@@ -99,8 +99,8 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
             returns += 1
             if s is body[-1]:
                 code = "S1210"
-            elif returns > SETTINGS.returns:
-                code, fields = "S1202", {"limit": SETTINGS.returns}
+            elif returns > limit:
+                code, fields = "S1202", {"limit": limit}
         elif isinstance(s, ast.Case):
             if s.otherwise is None and not isinstance(s.selector.type, Enum):
                 code = "S1205"

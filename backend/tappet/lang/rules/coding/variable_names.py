@@ -1,7 +1,7 @@
 """Variables are told by their names: prefix by type, length, spelling.
 
 Source: coding guidelines of PLCopen, N2 (prefixes), N4 (length), N6 (characters), N7 (reserved words), N10
-(names of constants); `settings` holds prefixes and limits.
+(names of constants); `lang.coding_settings` holds prefixes and limits.
 
 Passes:
     @static
@@ -36,11 +36,11 @@ Fails:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.settings import SETTINGS
+from tappet.lang.coding_settings import CodingSettings
 from tappet.lang.symbols import VarSymbol
 from tappet.lang.types import Array, Pointer, Reference, String
 from tappet.lang.walk import all_expressions
@@ -62,7 +62,7 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
     for block in pou.pou.blocks:
         constant = "CONSTANT" in block.flags
         for decl in block.variables:
-            for code, fields in _faults(decl, constant):
+            for code, fields in _faults(decl, constant, b.session.options.static.settings):
                 if code in chosen:
                     b.report(code, decl.name_span, name=decl.name, **fields)
     if "S1007" in chosen:
@@ -73,31 +73,32 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
                     b.report("S1007", e.span, name=e.name, declared=declared)
 
 
-def _faults(decl: ast.VarDecl, constant: bool) -> Iterator[tuple[str, dict[str, object]]]:
+def _faults(
+    decl: ast.VarDecl, constant: bool, settings: CodingSettings
+) -> Iterator[tuple[str, dict[str, object]]]:
     name = decl.name
     if constant:
         if name != name.upper():
             yield "S1008", {"proposal": name.upper()}
     else:
-        prefix = _prefix(getattr(decl.symbol, "type", None))
+        prefix = _prefix(getattr(decl.symbol, "type", None), settings.prefixes)
         if prefix and not name.startswith(prefix):
             yield "S1004", {"prefix": prefix, "type": getattr(decl.symbol, "type", "")}
-    if len(name) > SETTINGS.longest_name:
-        yield "S1005", {"length": len(name), "limit": SETTINGS.longest_name}
-    if len(name) < SETTINGS.shortest_name and name.lower() not in ("i", "j", "k"):
-        yield "S1006", {"limit": SETTINGS.shortest_name}
+    if len(name) > settings.longest_name:
+        yield "S1005", {"length": len(name), "limit": settings.longest_name}
+    if len(name) < settings.shortest_name and name.lower() not in ("i", "j", "k"):
+        yield "S1006", {"limit": settings.shortest_name}
     if name.upper() in _STANDARD:
         yield "S1009", {}
 
 
-def _prefix(type_: object) -> str:
-    prefixes = SETTINGS.variables
+def _prefix(type_: object, prefixes: Mapping[str, str]) -> str:
     if isinstance(type_, Pointer):
-        return prefixes.get("pointer", "")
+        return prefixes.get("POINTER", "")
     if isinstance(type_, Reference):
-        return prefixes.get("reference", "")
+        return prefixes.get("REFERENCE", "")
     if isinstance(type_, Array):
-        return prefixes.get("array", "")
+        return prefixes.get("ARRAY", "")
     if isinstance(type_, String):
         return prefixes.get("STRING", "")
     return prefixes.get(str(type_), "")

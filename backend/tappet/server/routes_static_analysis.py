@@ -1,0 +1,38 @@
+"""Static analysis: the coding rules there are, and running those that an application has chosen."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from tappet.lang.coding_settings import LIMITS, OF_RULE, PREFIXES
+from tappet.lang.diagnostics import TABLE
+from tappet.lang.rules import chosen_codes
+from tappet.server.dependencies import CommissioningDep, Engineer, Viewer
+from tappet.server.schemas.build import BuildReport
+from tappet.server.schemas.static_analysis import CodingRule
+
+router = APIRouter(tags=["build"])
+
+
+@router.get("/static-analysis/rules")
+def list_coding_rules(who: Viewer) -> list[CodingRule]:
+    """All coding rules, by code."""
+    return [
+        CodingRule(
+            code=code,
+            name=TABLE[code].name,
+            message=TABLE[code].message,
+            advice=TABLE[code].advice,
+            prefixes={key: PREFIXES[key] for key in OF_RULE.get(code, ()) if key in PREFIXES},
+            limits={key: LIMITS[key] for key in OF_RULE.get(code, ()) if key in LIMITS},
+        )
+        for code in sorted(chosen_codes("all"))
+    ]
+
+
+@router.post("/projects/{project_id}/applications/{application_id}/static-analysis")
+async def run_static_analysis(
+    project_id: str, application_id: str, who: Engineer, commissioning: CommissioningDep
+) -> BuildReport:
+    """Check the application with the rules it has chosen, also with those that do not run with each build."""
+    return await commissioning.analyse(project_id, application_id)
