@@ -3,11 +3,18 @@ import { create } from 'zustand';
 import { loadSetting, saveSetting } from '@/app/preferences';
 import type { NumberFormat } from '@/online/format';
 
-export type DeclarationView = 'text' | 'table';
+/** How a text that has a table form is shown. */
+export type TextView = 'text' | 'table';
 
 export interface EditorSettings {
   /** View in which declarations open (DECL-03). */
-  declarationView: DeclarationView;
+  declarationView: TextView;
+  /** View in which bodies in IL open. */
+  ilView: TextView;
+  /** Optional columns of the table of IL (FBD-41, IL-01). */
+  ilAddress: boolean;
+  ilSymbolComment: boolean;
+  ilOperandComment: boolean;
   /** Height of the declaration pane, as part of the editor. */
   declarationShare: number;
   /** Number format of inline values and online tables. */
@@ -34,6 +41,10 @@ export function indentation({ formatIndent }: EditorSettings): { tabSize: number
 
 const DEFAULTS: EditorSettings = {
   declarationView: 'text',
+  ilView: 'table',
+  ilAddress: true,
+  ilSymbolComment: true,
+  ilOperandComment: true,
   declarationShare: 0.4,
   numberFormat: 'dec',
   lastType: 'BOOL',

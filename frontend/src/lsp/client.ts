@@ -1,11 +1,11 @@
 /**
- * The language client of the open project: one connection, kept up, and every ST text model on it.
+ * The language client of the open project: one connection, kept up, and every text model in ST or IL on it.
  *
  * A thin layer: it mirrors the models to the server and shows what the server publishes. The providers ask through it.
  */
 import type { CancellationToken, editor, IDisposable } from 'monaco-editor/editor/editor.api';
 import { socketUrl } from '@/api/client';
-import { LANGUAGE_ID } from '@/editors/st/language';
+import { LANGUAGE_ID, TEXT_LANGUAGES } from '@/editors/st/language';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import { fromDiagnostic, parsePartUri, toRange } from './convert';
 import type { Diagnostic, InitializeResult, ServerCapabilities } from './protocol';
@@ -160,7 +160,9 @@ export class LanguageClient {
   }
 
   private mine(model: editor.ITextModel): boolean {
-    return model.getLanguageId() === LANGUAGE_ID && parsePartUri(model.uri.toString())?.projectId === this.projectId;
+    return (
+      TEXT_LANGUAGES.includes(model.getLanguageId()) && parsePartUri(model.uri.toString())?.projectId === this.projectId
+    );
   }
 
   private models(): editor.ITextModel[] {

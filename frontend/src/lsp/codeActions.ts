@@ -1,6 +1,6 @@
 /** What mends a message, for Monaco's light bulb and Ctrl+. ; what an action does is carried out by `editors/st/mend`. */
 import type { IDisposable, languages } from 'monaco-editor/editor/editor.api';
-import { LANGUAGE_ID } from '@/editors/st/language';
+import { TEXT_LANGUAGES } from '@/editors/st/language';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import { t, type TextKey } from '@/i18n';
 import type { LanguageClient } from './client';
@@ -42,7 +42,7 @@ export function titleOfAction({ title, data }: ServerAction): string {
 
 export function registerCodeActions(monaco: Monaco, client: LanguageClient): IDisposable {
   return monaco.languages.registerCodeActionProvider(
-    LANGUAGE_ID,
+    TEXT_LANGUAGES,
     {
       provideCodeActions: async (model, range, context, token) => {
         const params = {

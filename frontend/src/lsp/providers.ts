@@ -1,6 +1,6 @@
-/** Registers the language server's abilities with Monaco, for all ST texts. */
+/** Registers the language server's abilities with Monaco, for all texts in ST and IL. */
 import type { editor, IDisposable, languages } from 'monaco-editor/editor/editor.api';
-import { LANGUAGE_ID } from '@/editors/st/language';
+import { TEXT_LANGUAGES } from '@/editors/st/language';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import type { LanguageClient } from './client';
 import { registerCodeActions } from './codeActions';
@@ -61,7 +61,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
   };
 
   const made: IDisposable[] = [
-    registry.registerCompletionItemProvider(LANGUAGE_ID, {
+    registry.registerCompletionItemProvider(TEXT_LANGUAGES, {
       triggerCharacters: triggers,
       provideCompletionItems: async (model, position, _context, token) => {
         const answer = await client.request<CompletionList | CompletionItem[]>(
@@ -83,21 +83,21 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
         };
       },
     }),
-    registry.registerHoverProvider(LANGUAGE_ID, {
+    registry.registerHoverProvider(TEXT_LANGUAGES, {
       provideHover: async (model, position, token) => {
         const hover = await client.request<Hover>('textDocument/hover', at(model, position), token);
         return hover === null ? null : fromHover(hover);
       },
     }),
-    registry.registerDefinitionProvider(LANGUAGE_ID, {
+    registry.registerDefinitionProvider(TEXT_LANGUAGES, {
       provideDefinition: (model, position, token) =>
         locations('textDocument/definition', model, at(model, position), token),
     }),
-    registry.registerReferenceProvider(LANGUAGE_ID, {
+    registry.registerReferenceProvider(TEXT_LANGUAGES, {
       provideReferences: (model, position, context, token) =>
         locations('textDocument/references', model, { ...at(model, position), context }, token),
     }),
-    registry.registerDocumentHighlightProvider(LANGUAGE_ID, {
+    registry.registerDocumentHighlightProvider(TEXT_LANGUAGES, {
       provideDocumentHighlights: async (model, position, token) => {
         const answer = await client.request<{ range: Location['range']; kind?: number }[]>(
           'textDocument/documentHighlight',
@@ -107,14 +107,14 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
         return answer?.map((h) => ({ range: fromRange(h.range), kind: (h.kind ?? 1) - 1 })) ?? null;
       },
     }),
-    registry.registerDocumentSymbolProvider(LANGUAGE_ID, {
+    registry.registerDocumentSymbolProvider(TEXT_LANGUAGES, {
       provideDocumentSymbols: async (model, token) => {
         const params = { textDocument: { uri: model.uri.toString() } };
         const answer = await client.request<DocumentSymbol[]>('textDocument/documentSymbol', params, token);
         return answer?.map(fromSymbol) ?? [];
       },
     }),
-    registry.registerSignatureHelpProvider(LANGUAGE_ID, {
+    registry.registerSignatureHelpProvider(TEXT_LANGUAGES, {
       signatureHelpTriggerCharacters: signature?.triggerCharacters ?? ['(', ','],
       signatureHelpRetriggerCharacters: signature?.retriggerCharacters ?? [')'],
       provideSignatureHelp: async (model, position, token) => {
@@ -123,7 +123,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
         return { value: fromSignatureHelp(help), dispose: () => undefined };
       },
     }),
-    registry.registerDocumentFormattingEditProvider(LANGUAGE_ID, {
+    registry.registerDocumentFormattingEditProvider(TEXT_LANGUAGES, {
       provideDocumentFormattingEdits: async (model, options, token) => {
         const params = { textDocument: { uri: model.uri.toString() }, options };
         const edits = await client.request<TextEdit[]>('textDocument/formatting', params, token);
@@ -133,7 +133,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
   ];
   made.push(
     registerCodeActions(monaco, client),
-    registry.registerFoldingRangeProvider(LANGUAGE_ID, {
+    registry.registerFoldingRangeProvider(TEXT_LANGUAGES, {
       provideFoldingRanges: async (model, _context, token) => {
         const params = { textDocument: { uri: model.uri.toString() } };
         const found = await client.request<{ startLine: number; endLine: number; kind?: string }[]>(
@@ -151,7 +151,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
   );
   const legend = client.capabilities.semanticTokensProvider?.legend;
   if (legend !== undefined)
-    made.push(registry.registerDocumentSemanticTokensProvider(LANGUAGE_ID, semanticTokens(client, legend)));
+    made.push(registry.registerDocumentSemanticTokensProvider(TEXT_LANGUAGES, semanticTokens(client, legend)));
   return made;
 }
 

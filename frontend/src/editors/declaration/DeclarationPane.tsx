@@ -1,19 +1,17 @@
-import { Table2, TextInitial } from 'lucide-react';
 import { useCallback, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
 import { useObjectSession } from '@/online/useObjectSession';
 import type { EditorProps } from '@/workbench/editors';
-import { IconButton } from '@/workbench/ui/Button';
 import type { OpenText } from '../documents/useTextDocument';
 import { OnlineDeclaration } from '../online/OnlineDeclaration';
 import { useFaultLine } from '../online/useFaultLine';
-import { setEditorSettings, useEditorSettings, type DeclarationView } from '../settings';
+import { setEditorSettings, useEditorSettings, type TextView } from '../settings';
 import { CodePane, type CodeEditor } from '../st/CodePane';
 import { addPanelEditor, removePanelEditor } from '../st/focus';
 import { useEditingLock } from '../st/useEditingLock';
-import styles from './DeclarationPane.module.css';
+import { ViewSwitch } from '../ViewSwitch';
 import { DeclarationTable } from './DeclarationTable';
 import { useShorthand } from './useShorthand';
 
@@ -26,42 +24,28 @@ export function DeclarationPane(props: DeclarationPaneProps) {
   const session = useObjectSession(props.projectId, object);
   const preferred = useEditorSettings((settings) => settings.declarationView);
   // Online the values come first; who looks at the text then has chosen it for this editor only.
-  const [onlineView, setOnlineView] = useState<DeclarationView>('table');
+  const [onlineView, setOnlineView] = useState<TextView>('table');
   // A jump to a line shows the text until the user chooses again.
   const [dismissed, setDismissed] = useState<number | null>(null);
   const online = session !== null;
   const jump = reveal?.part === 'declaration' && reveal.line !== undefined ? reveal.serial : null;
   const view = jump !== null && jump !== dismissed ? 'text' : online ? onlineView : preferred;
 
-  const choose = (next: DeclarationView) => {
+  const choose = (next: TextView) => {
     setDismissed(jump);
     if (online) setOnlineView(next);
     else setEditorSettings({ declarationView: next });
   };
   return (
-    <div className={styles.pane}>
-      <div className={styles.view}>
-        {view === 'text' && <DeclarationText {...props} />}
-        {view === 'table' && online && <OnlineDeclaration {...props} session={session} />}
-        {view === 'table' && !online && <DeclarationTable {...props} showText={() => choose('text')} />}
-      </div>
-      <div className={styles.switch} role="group" aria-label={t('decl.view')}>
-        <IconButton
-          small
-          icon={TextInitial}
-          label={t('decl.viewText')}
-          pressed={view === 'text'}
-          onClick={() => choose('text')}
-        />
-        <IconButton
-          small
-          icon={Table2}
-          label={t('decl.viewTable')}
-          pressed={view === 'table'}
-          onClick={() => choose('table')}
-        />
-      </div>
-    </div>
+    <ViewSwitch
+      labels={{ group: t('decl.view'), text: t('decl.viewText'), table: t('decl.viewTable') }}
+      view={view}
+      onView={choose}
+    >
+      {view === 'text' && <DeclarationText {...props} />}
+      {view === 'table' && online && <OnlineDeclaration {...props} session={session} />}
+      {view === 'table' && !online && <DeclarationTable {...props} showText={() => choose('text')} />}
+    </ViewSwitch>
   );
 }
 

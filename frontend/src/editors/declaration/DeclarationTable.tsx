@@ -2,15 +2,19 @@ import { ArrowDown, ArrowUp, ListPlus, TextInitial, Trash2 } from 'lucide-react'
 import { useCallback, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
+import type { Position } from '@/lsp/protocol';
 import type { EditorProps } from '@/workbench/editors';
 import { Button, IconButton } from '@/workbench/ui/Button';
 import { Empty } from '@/workbench/ui/Empty';
 import { ContextMenu, type MenuEntry } from '@/workbench/ui/Menu';
+import { activeDescendant, openMenuAt } from '@/workbench/ui/menuKey';
+import { partUri } from '../documents/documents';
 import type { OpenText } from '../documents/useTextDocument';
 import { useModelText } from '../documents/useModelText';
 import { Grid, type GridEditing, type GridHandle } from '../grid/Grid';
 import { useGridSelection } from '../grid/useGridSelection';
-import { setPanelHistory } from '../st/focus';
+import { setPanelTable } from '../st/focus';
+import { quickFixEntries } from '../st/quickFixes';
 import { useEditingLock } from '../st/useEditingLock';
 import { CellEditor } from './CellEditor';
 import styles from './DeclarationTable.module.css';
@@ -21,11 +25,16 @@ import { DRAFT_KEY, displayOrder, type Draft, type Sorting } from './tableModel'
 import { cellContent, tableColumns } from './tableView';
 import { useTableActs } from './useTableActs';
 
+function positionAt(text: string, offset: number): Position {
+  const { line, column } = placeOf(text, offset);
+  return { line: line - 1, character: column - 1 };
+}
+
 type DeclarationTableProps = EditorProps & OpenText & { object: ObjectSummary; showText: () => void };
 
 /** The declaration as numbered rows; every edit changes the one text in place (DECL-20 .. DECL-36). */
 export function DeclarationTable(props: DeclarationTableProps) {
-  const { panelId, document, monaco, object, showText } = props;
+  const { panelId, projectId, document, monaco, object, showText } = props;
   const t = useText();
   const text = useModelText(document.models.declaration);
   const model = useMemo(() => parseDeclaration(text), [text]);
@@ -52,7 +61,7 @@ export function DeclarationTable(props: DeclarationTableProps) {
 
   const onFocus = useCallback(() => {
     const history = document.models.declaration as unknown as { undo: () => void; redo: () => void };
-    setPanelHistory(panelId, { undo: () => history.undo(), redo: () => history.redo() });
+    setPanelTable(panelId, { undo: () => history.undo(), redo: () => history.redo() });
   }, [document, panelId]);
 
   const serious = model.problems.filter((problem) => problem.kind !== 'not-tabular');
@@ -81,10 +90,24 @@ export function DeclarationTable(props: DeclarationTableProps) {
     if (event.key === 'Insert') return (acts.insert(true), true);
     if (event.altKey && event.key === 'ArrowUp') return (event.preventDefault(), acts.move(-1), true);
     if (event.altKey && event.key === 'ArrowDown') return (event.preventDefault(), acts.move(1), true);
+    if (event.ctrlKey && event.key === '.') {
+      event.preventDefault();
+      openMenuAt(activeDescendant(event.currentTarget));
+      return true;
+    }
     if (event.key === ' ' && selection.cursor) return (event.preventDefault(), acts.edit(selection.cursor), true);
     return false;
   };
-  const entries = (): MenuEntry[] => [
+  /** What mends the messages of the row with the cursor. */
+  const fixes = async (): Promise<MenuEntry[]> => {
+    const row = model.rows[shown[selection.cursor?.row ?? -1] ?? DRAFT_KEY];
+    if (row === undefined || locked) return [];
+    const range = { start: positionAt(text, row.element.start), end: positionAt(text, row.element.end) };
+    const found = await quickFixEntries(projectId, partUri(projectId, object.id, 'declaration'), range);
+    return found.length === 0 ? [] : [...found, { kind: 'line', key: 'fixes' }];
+  };
+  const entries = async (): Promise<MenuEntry[]> => [
+    ...(await fixes()),
     {
       kind: 'item',
       key: 'insert',

@@ -27,6 +27,7 @@ import { setEditorSettings, useEditorSettings } from '../settings';
 import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
 import type { CodeEditor } from './CodePane';
 import { typeByName } from './declareTarget';
+import type { TextPlace } from './focus';
 import { isKeyword } from './keywords';
 import { partLabels } from './labels';
 import { RenameDialog } from './RenameDialog';
@@ -69,13 +70,13 @@ export async function inputAssistant({ projectId, object }: TextPanel, editor: C
 /** Shift+F2: declares the name at the cursor in this object or in a variable list. */
 export async function autoDeclare(
   panel: TextPanel,
-  editor: CodeEditor,
+  editor: TextPlace | null,
   name?: string,
   proposedType?: string,
 ): Promise<void> {
   const { monaco, projectId, object, document } = panel;
-  const position = editor.getPosition();
-  const found = name ?? (position === null ? '' : (editor.getModel()?.getWordAtPosition(position)?.word ?? ''));
+  const position = editor?.getPosition() ?? null;
+  const found = name ?? (position === null ? '' : (editor?.getModel()?.getWordAtPosition(position)?.word ?? ''));
   const word = isKeyword(found) ? '' : found;
   const objects = objectsOf(projectId);
   // An action declares in its POU.
@@ -101,7 +102,7 @@ export async function autoDeclare(
       close={close}
     />
   ));
-  editor.focus();
+  editor?.focus();
   if (declared === undefined) return;
   setEditorSettings({ lastType: declared.variable.type });
   const target = await openDocument(monaco, projectId, declared.objectId);
@@ -110,7 +111,7 @@ export async function autoDeclare(
 }
 
 /** Ctrl+F2: gives a symbol another name wherever it is used, after a look at all the places. */
-export async function rename({ monaco, projectId }: TextPanel, editor: CodeEditor): Promise<void> {
+export async function rename({ monaco, projectId }: TextPanel, editor: TextPlace): Promise<void> {
   const client = activeLanguageClient();
   const model = editor.getModel();
   const position = editor.getPosition();

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { CodeEditor } from './CodePane';
-import { addPanelEditor, panelChosen, panelHistory, removePanelEditor, setPanelChosen, setPanelHistory } from './focus';
+import { addPanelEditor, panelChosen, panelTable, removePanelEditor, setPanelChosen, setPanelTable } from './focus';
 
 let enter: () => void;
 
@@ -28,9 +28,9 @@ describe('a table beside a text editor', () => {
 
   it('is not meant any more when the text editor is entered', () => {
     setPanelChosen('p', () => ['GVL.a']);
-    setPanelHistory('p', { undo: () => undefined, redo: () => undefined });
+    setPanelTable('p', { undo: () => undefined, redo: () => undefined });
     enter();
     expect(panelChosen('p')).toBeNull();
-    expect(panelHistory('p')).toBeNull();
+    expect(panelTable('p')).toBeNull();
   });
 });

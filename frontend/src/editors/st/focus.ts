@@ -3,23 +3,30 @@ import { setCursor } from '@/workbench/selection';
 import type { CodeEditor } from './CodePane';
 import type { Part } from '../documents/documents';
 
-/** Undo and redo of a view that is no text editor but changes a text. */
-export interface PanelHistory {
+/** What acts on a name need of the view that shows it. */
+export type TextPlace = Pick<CodeEditor, 'getModel' | 'getPosition' | 'focus'>;
+
+/** A view that is no text editor but shows and changes a text. */
+export interface PanelTable {
   undo: () => void;
   redo: () => void;
+  /** Where in the text its cursor stands. */
+  place?: TextPlace;
+  /** Its own acts, by command. */
+  acts?: Readonly<Record<string, () => void | Promise<void>>>;
 }
 
 interface PanelEditors {
   editors: Partial<Record<Part, CodeEditor>>;
   active: Part;
-  history: PanelHistory | null;
+  table: PanelTable | null;
   chosen: (() => readonly string[]) | null;
 }
 
 const panels = new Map<string, PanelEditors>();
 
 function panelOf(panelId: string): PanelEditors {
-  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const, history: null, chosen: null };
+  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const, table: null, chosen: null };
   panels.set(panelId, known);
   return known;
 }
@@ -38,7 +45,7 @@ export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor):
   };
   editor.onDidFocusEditorText(() => {
     panel.active = part;
-    panel.history = null;
+    panel.table = null;
     panel.chosen = null;
     tell();
   });
@@ -69,12 +76,17 @@ export function panelEditorOf(panelId: string, part: Part): CodeEditor | null {
 }
 
 /** A table has the focus: undo and redo are its affair until a text editor is entered; null when it goes away. */
-export function setPanelHistory(panelId: string, history: PanelHistory | null): void {
-  panelOf(panelId).history = history;
+export function setPanelTable(panelId: string, table: PanelTable | null): void {
+  panelOf(panelId).table = table;
 }
 
-export function panelHistory(panelId: string): PanelHistory | null {
-  return panels.get(panelId)?.history ?? null;
+export function panelTable(panelId: string): PanelTable | null {
+  return panels.get(panelId)?.table ?? null;
+}
+
+/** Where the user is: in the table or the text editor of the panel that had the focus last. */
+export function panelPlace(panelId: string): TextPlace | null {
+  return panelTable(panelId)?.place ?? panelEditor(panelId);
 }
 
 /** A table of values has the focus: its selected expressions are meant until a text editor is entered. */

@@ -1,5 +1,5 @@
 /** What the delegated commands do in a text editor. */
-import type { Handlers } from '@/workbench/commands';
+import type { Handler, Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
 import {
   addExpressionsToWatch,
@@ -12,7 +12,7 @@ import {
   type TextPanel,
 } from './acts';
 import type { CodeEditor } from './CodePane';
-import { panelChosen, panelEditor, panelHistory } from './focus';
+import { panelChosen, panelEditor, panelPlace, panelTable, type TextPlace } from './focus';
 import { partsShown } from './parts';
 
 /** Monaco's own command behind each of ours. */
@@ -44,6 +44,12 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       if (editor !== null) return run(editor);
     },
   });
+  const onPlace = (run: (place: TextPlace) => Promise<void> | void) => ({
+    run: () => {
+      const place = panelPlace(panelId);
+      if (place !== null) return run(place);
+    },
+  });
   const act = (id: string) => ({
     run: () => {
       const editor = panelEditor(panelId);
@@ -54,7 +60,7 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
   });
   const history = (command: 'undo' | 'redo') => ({
     run: () => {
-      const table = panelHistory(panelId);
+      const table = panelTable(panelId);
       if (table !== null) {
         table[command]();
         return;
@@ -65,14 +71,14 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       editor?.trigger('command', command, null);
     },
   });
-  return {
+  const handlers: Handlers = {
     ...Object.fromEntries(Object.entries(ACTIONS).map(([command, action]) => [command, act(action)])),
     'edit.undo': history('undo'),
     'edit.redo': history('redo'),
     'st.inputAssistant': onEditor((editor) => inputAssistant(panel, editor)),
-    'st.autoDeclare': onEditor((editor) => autoDeclare(panel, editor)),
-    'st.renameSymbol': onEditor((editor) => rename(panel, editor)),
-    'st.crossReferences': onEditor((editor) => showCrossReferences(panel, editor)),
+    'st.autoDeclare': onPlace((place) => autoDeclare(panel, place)),
+    'st.renameSymbol': onPlace((place) => rename(panel, place)),
+    'st.crossReferences': onPlace((place) => showCrossReferences(panel, place)),
     'watch.add': {
       run: () => {
         const chosen = panelChosen(panelId);
@@ -89,5 +95,22 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
         setDirty(panelId, document.phase !== 'clean');
       },
     },
+  };
+  return Object.fromEntries(
+    Object.entries(handlers).map(([command, handler]) => [
+      command,
+      { ...handler, run: first(panelId, command, handler) },
+    ]),
+  );
+}
+
+/** What a table does in its own way comes first while it has the focus; an editor beside it is not meant then. */
+function first(panelId: string, command: string, handler: Handler): Handler['run'] {
+  return (argument) => {
+    const table = panelTable(panelId);
+    const own = table?.acts?.[command];
+    if (own !== undefined) return own();
+    if (table?.acts !== undefined && command in ACTIONS) return;
+    return handler.run(argument);
   };
 }

@@ -1,4 +1,4 @@
-/** Structured Text for Monaco: grammar for colours, brackets, comments, indentation. */
+/** Structured Text and Instruction List for Monaco: grammar for colours, brackets, comments, indentation. */
 import type { languages } from 'monaco-editor/editor/editor.api';
 import {
   CONSTANT_KEYWORDS,
@@ -8,8 +8,13 @@ import {
   OPERATOR_KEYWORDS,
   STATEMENT_KEYWORDS,
 } from './keywords';
+import { OPERATORS } from './instructionList';
 
 export const LANGUAGE_ID = 'iec-st';
+/** Bodies in IL: the same words, but other ones are keywords at the beginning of a line. */
+export const IL_LANGUAGE_ID = 'iec-il';
+/** What the language server knows. */
+export const TEXT_LANGUAGES: readonly string[] = [LANGUAGE_ID, IL_LANGUAGE_ID];
 
 const OPENING =
   /^\s*(?:IF\b.*\bTHEN|ELSIF\b.*\bTHEN|ELSE|CASE\b.*\bOF|FOR\b.*\bDO|WHILE\b.*\bDO|REPEAT|VAR(?:_\w+)?\b(?!.*\bEND_VAR)[A-Z_ ]*|STRUCT|UNION)\s*(?:\/\/.*)?$/i;
@@ -122,6 +127,26 @@ export const monarchLanguage: languages.IMonarchLanguage = {
       [/\$(?:[$"LNPRT]|[0-9A-F]{4})/, 'string.escape'],
       [/\$/, 'string.invalid'],
       [/"/, 'string', '@pop'],
+    ],
+  },
+};
+
+const OPERATOR = new RegExp(`(?:${[...OPERATORS].join('|')})(?![\\w\\u0080-\\uffff.#])`);
+
+/** IL: the first word of a row is an operator, also behind a label. */
+export const ilMonarchLanguage: languages.IMonarchLanguage = {
+  ...monarchLanguage,
+  tokenizer: {
+    ...monarchLanguage.tokenizer,
+    root: [
+      [/^\s*[A-Z_\u0080-\uffff][\w\u0080-\uffff]*\s*:(?!=)/, { token: 'annotation', next: '@labelled' }],
+      [new RegExp(`^\\s*${OPERATOR.source}`), 'keyword'],
+      ...(monarchLanguage.tokenizer['root'] ?? []),
+    ],
+    labelled: [
+      [/\s+/, ''],
+      [OPERATOR, 'keyword', '@pop'],
+      [/(?=.)/, '', '@pop'],
     ],
   },
 };

@@ -23,6 +23,19 @@ beforeAll(async () => {
   known = (id) => CommandsRegistry.getCommand(id) !== undefined;
 }, 60_000);
 
+describe('the colours of IL', () => {
+  it('are there without the language server', async () => {
+    const { monaco } = await import('./monaco');
+    const text = 'loop: LDN xStart\nST (* c *) s\nS.Run LD\nmark:\nJMPC mark';
+    const words = monaco.editor.tokenize(text, 'iec-il').map((tokens, line) =>
+      tokens
+        .filter((token) => token.type.startsWith('keyword'))
+        .map((token) => /\w+/.exec(text.split('\n')[line]!.slice(token.offset))?.[0]),
+    );
+    expect(words).toEqual([['LDN'], ['ST'], [], [], ['JMPC']]);
+  });
+});
+
 describe('the text editor', () => {
   it.each([
     'editor.contrib.suggestController',

@@ -1,5 +1,5 @@
 /**
- * Monaco with the features a PLC programmer uses and one language: Structured Text.
+ * Monaco with the features a PLC programmer uses and two languages: Structured Text and Instruction List.
  *
  * Only this module imports `monaco-editor`; everything else goes through `loadMonaco` and types.
  */
@@ -51,7 +51,7 @@ import 'monaco-editor/editor/contrib/semanticTokens/browser/documentSemanticToke
 import 'monaco-editor/editor/contrib/suggest/browser/suggestController';
 import { StandaloneServices } from 'monaco-editor/editor/standalone/browser/standaloneServices';
 import { partLabels } from './labels';
-import { languageConfiguration, LANGUAGE_ID, monarchLanguage } from './language';
+import { IL_LANGUAGE_ID, ilMonarchLanguage, languageConfiguration, LANGUAGE_ID, monarchLanguage } from './language';
 import { followTheme } from './theme';
 
 self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
@@ -59,8 +59,11 @@ self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
 // Only before anything else asks for a service.
 StandaloneServices.initialize({ labelService: partLabels });
 monaco.languages.register({ id: LANGUAGE_ID, extensions: ['.st'], aliases: ['Structured Text', 'ST'] });
+monaco.languages.register({ id: IL_LANGUAGE_ID, aliases: ['Instruction List', 'IL'] });
 monaco.languages.setLanguageConfiguration(LANGUAGE_ID, languageConfiguration);
+monaco.languages.setLanguageConfiguration(IL_LANGUAGE_ID, languageConfiguration);
 monaco.languages.setMonarchTokensProvider(LANGUAGE_ID, monarchLanguage);
+monaco.languages.setMonarchTokensProvider(IL_LANGUAGE_ID, ilMonarchLanguage);
 followTheme(monaco);
 
 export { monaco };
