@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tappet.core import assign, builtins, calls, conversions, initial, ir, places
+from tappet.core import addressed, assign, builtins, calls, conversions, initial, ir, places
 from tappet.core.body import Body
 from tappet.core.method_tables import number_methods
 from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_value, data_symbol, export_name
@@ -18,7 +18,7 @@ from tappet.core.scalars import scalar_of
 from tappet.core.statements import lower_statements
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.result import Analysis, ConfiguredAddress
+from tappet.lang.analysis.result import Analysis
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
 INIT = "tappet.init"
@@ -153,6 +153,9 @@ def _init_function(program: Program, data: list[DataObject]) -> None:
         function.body = [*b.entry, *b.out]
         program.module.functions[name] = function
         entry.body.append(ir.Evaluate(ir.Call(ir.VOID, name, [])))
+    b = Body(program, entry, None)
+    addressed.initialise(b)
+    entry.body += [*b.entry, *b.out]
 
 
 def _exit_function(program: Program, data: list[DataObject]) -> None:
@@ -188,44 +191,14 @@ def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
 def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
     function = ir.Function(task.symbol, exported=True, uri="", inline="never")
     program.taken.add(task.symbol)
-    for item in program.analysis.configured:
-        end = item.address + max(item.type.size, 1)
-        program.area_use[item.area] = max(program.area_use.get(item.area, 0), end)
-    configured = [c for c in program.analysis.configured if _task_of(c, tasks) is task]
-    for item in configured:
-        if item.area == "I":
-            function.body.append(_transfer(item, to_area=False))
+    before, after = addressed.transfers(program, task, tasks)
+    function.body += before
     for name in task.programs:
         pou = program.analysis.programs.get(name.upper())
         if pou is not None:
             function.body.append(ir.Evaluate(ir.Call(ir.VOID, program.function(pou), [])))
-    for item in configured:
-        if item.area != "I":
-            function.body.append(_transfer(item, to_area=True))
+    function.body += after
     program.module.functions[task.symbol] = function
-
-
-def _task_of(item: ConfiguredAddress, tasks: Sequence[Task]) -> Task:
-    """The task that runs the program a configured variable is in; the first one for lists."""
-    for task in tasks:
-        if item.owner.upper() in (p.upper() for p in task.programs):
-            return task
-    return tasks[0]
-
-
-def _transfer(item: ConfiguredAddress, to_area: bool) -> ir.Stmt:
-    """Copy a VAR_CONFIG variable from or to its address (LDEC-93)."""
-    variable = ir.Place(ir.Data("tappet.data." + item.owner.upper()), item.offset)
-    area = ir.Place(ir.Data(AREA_PREFIX + item.area), item.address)
-    if item.bit is None:
-        return ir.Copy(area, variable, item.type.size) if to_area else ir.Copy(variable, area, item.type.size)
-    shift = ir.Const(ir.U32, item.bit)
-    byte = ir.Load(ir.U8, area)
-    if not to_area:
-        return ir.Store(variable, ir.Convert(ir.BOOL, ir.Binary(ir.U8, "shr", byte, shift)))
-    cleared = ir.Binary(ir.U8, "and", byte, ir.Const(ir.U8, ~(1 << item.bit)))
-    value = ir.Binary(ir.U8, "shl", ir.Convert(ir.U8, ir.Load(ir.BOOL, variable)), shift)
-    return ir.Store(area, ir.Binary(ir.U8, "or", cleared, value))
 
 
 def _export_functions(program: Program) -> None:
