@@ -153,6 +153,22 @@ def test_codesys_23_export() -> None:
     assert (lines["TURN"], lines["STORE.CLEAR"], lines["LIBRARY"]) == (7, 48, 103)
 
 
+def test_codesys_23_words_that_mean_something_else_today() -> None:
+    source = (
+        "(* @NESTEDCOMMENTS := 'Yes' *)\nFUNCTION WHOLE : INT\nVAR_INPUT\n\tX : REAL;\nEND_VAR\n"
+        "VAR\n\tSIGNS : STRING(2) := '\u20ac\u00b0';\nEND_VAR\n(* @END_DECLARATION := '0' *)\n"
+        "(* TRUNC cuts, in \u20ac *)\nWHOLE := Trunc(X); SIGNS := 'TRUNC';\nEND_FUNCTION\n"
+    )
+    done = import_files({"whole.exp": source.encode("cp1252")})
+    path = "Tappet Soft PLC/PLC Logic/Application/WHOLE"
+    assert "SIGNS : STRING(2) := '$80\u00b0';" in text(done.project, path)
+    assert text(done.project, path, "implementation") == (
+        "(* TRUNC cuts, in \u20ac *)\nWHOLE := TRUNC_INT(X); SIGNS := 'TRUNC';"
+    )
+    notes = [entry.text for entry in done.report.entries if entry.object == "WHOLE"]
+    assert len([note for note in notes if "TRUNC_INT" in note or "$80" in note]) == 2
+
+
 def test_plain_text_with_everything() -> None:
     project, report = imported("plain.st")
     app = "Tappet Soft PLC/PLC Logic/Application"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 
+from tappet.project.declaration_text import words
 from tappet.project.exchange.drafts import Batch, Draft, task_configuration
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.split_text import split_text
@@ -64,6 +65,7 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
             index += 1
         for item in (draft, *draft.children):
             _tell_language(item, report)
+            _say_in_words_of_today(item, report)
         batch.loose.below(path, source).children.append(draft)
     read_configurations(split, batch.loose, report)
 
@@ -168,6 +170,46 @@ def _tell_language(draft: Draft, report: ImportReport) -> None:
     if language not in (None, "IL"):
         note = f"the body in {language} is kept as it is; it cannot be compiled yet"
         report.add("kept", draft.source, note, name=draft.name, line=draft.line)
+
+
+def _say_in_words_of_today(draft: Draft, report: ImportReport) -> None:
+    """Rewrite what CODESYS 3 reads differently: TRUNC gave an INT, a character of a STRING was one byte."""
+    notes: list[str] = []
+    for part in ("declaration", "implementation"):
+        text = draft.data.get(part)
+        if not text or (part == "implementation" and draft.data.get("language") not in (None, "ST", "IL")):
+            continue
+        pieces: list[str] = []
+        position = 0
+        for word in words(text):
+            written = text[word.start : word.end]
+            now = "TRUNC_INT" if word.text == "TRUNC" else written
+            if written.startswith("'") and not written.isascii():
+                now = "".join(_as_byte(character) for character in written)
+            if now == written:
+                continue
+            note = _TRUNC_NOTE if word.text == "TRUNC" else _BYTES_NOTE
+            notes += [note] if note not in notes else []
+            pieces += [text[position : word.start], now]
+            position = word.end
+        if pieces:
+            draft.data[part] = "".join([*pieces, text[position:]])
+    for note in notes:
+        report.add("changed", draft.source, note, name=draft.name, line=draft.line)
+
+
+_TRUNC_NOTE = "TRUNC gives INT in CoDeSys 2.3; it became TRUNC_INT"
+_BYTES_NOTE = "characters of Windows-1252 in texts became their bytes, such as $80 for the euro sign"
+
+
+def _as_byte(character: str) -> str:
+    """A character of a text as it is in Latin-1; one that only Windows-1252 has by its byte."""
+    if ord(character) < 256:
+        return character
+    try:
+        return f"${character.encode('cp1252').hex().upper()}"
+    except UnicodeEncodeError:
+        return character
 
 
 def _is_il(text: str) -> bool:
