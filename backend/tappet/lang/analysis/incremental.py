@@ -49,7 +49,9 @@ def reanalyse(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOp
     state.units = tuple(units)
     for symbol in changed:
         state.records[id(symbol)] = analyse_body(state.session, symbol, state.declarations.bodies[id(symbol)])
-    return finish(state)
+    result = finish(state)
+    # a new address in a body may take the place of a variable that other bodies are linked with
+    return result if result.configured == previous.configured else None
 
 
 # -- comparison -------------------------------------------------------------------------------------
