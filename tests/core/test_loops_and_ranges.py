@@ -15,8 +15,21 @@ HEAD = """
 FUNCTION Pure : INT VAR_INPUT n : INT; END_VAR Pure := n + 1; END_FUNCTION
 FUNCTION Nosy : INT Nosy := PLC_PRG.i; END_FUNCTION
 FUNCTION_BLOCK FB VAR_OUTPUT q : INT; END_VAR q := q + 1; END_FUNCTION_BLOCK
+INTERFACE I_S
+METHOD Deaf : INT END_METHOD
+METHOD Listen : INT END_METHOD
+END_INTERFACE
+FUNCTION_BLOCK FB_S IMPLEMENTS I_S
+VAR k : INT; END_VAR
+METHOD Deaf : INT k := k + 1; Deaf := k; END_METHOD
+METHOD Listen : INT Listen := 1; END_METHOD
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB_T EXTENDS FB_S
+METHOD Listen : INT Listen := PLC_PRG.x; END_METHOD
+END_FUNCTION_BLOCK
 PROGRAM PLC_PRG
 VAR
+    s : FB_S; t : FB_T; any : I_S;
     a : ARRAY [0..9] OF INT; b : ARRAY [1..10] OF INT; big : ARRAY [0..255] OF INT;
     last : ARRAY [0..32767] OF BYTE;
     i, n, x : INT; u : USINT; w : WORD; f : FB; p : POINTER TO INT; di : DINT; r : REFERENCE TO INT;
@@ -95,6 +108,8 @@ def promoted(function: ir.Function) -> set[int]:
         ("FOR i := 0 TO 9 DO x := x + Pure(i); END_FOR", 2),
         ("FOR i := 0 TO 9 DO f(); x := x + f.q; END_FOR", 2),
         ("FOR i := 0 TO 9 DO x := x + Nosy(); END_FOR", 0),
+        ("any := s; FOR i := 0 TO 9 DO x := x + any.Deaf(); END_FOR", 3),
+        ("any := s; FOR i := 0 TO 9 DO x := x + any.Listen(); END_FOR", 0),
         ("p := ADR(x); FOR i := 0 TO 9 DO p^ := p^ + x; END_FOR", 2),
         ("p := ADR(x); WHILE x < 5 DO p^ := p^ + 1; END_WHILE", 1),
         ("WHILE n < 5 DO n := n + 1; IF n = 3 THEN RETURN; END_IF END_WHILE", 1),

@@ -8,14 +8,12 @@ from __future__ import annotations
 import gc
 import sys
 import tempfile
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
-from tappet.project.sources import TaskDefinition
-from tappet.server.build_worker import BuildOrder, Compiler
+from tappet.bench.build import order
+from tappet.lang.source import Source
+from tappet.server.build_worker import Compiler
 
-_FIELDS = {"scope": "application", "owner": None, "library": None, "namespace": None, "body_line": 0}
 _BLOCK = """FUNCTION_BLOCK FB_Unit{n}
 VAR_INPUT x : LREAL; END_VAR
 VAR_OUTPUT y : LREAL; END_VAR
@@ -27,24 +25,20 @@ END_FUNCTION_BLOCK
 """
 
 
-def source(name: str, text: str) -> dict[str, Any]:
-    return {"uri": name, "text": text, "name": name, "language": "ST", **_FIELDS}
-
-
-def blocks(turn: int) -> list[dict[str, Any]]:
+def blocks(turn: int) -> list[Source]:
     """Thirty blocks; each turn changes a body, every tenth a declaration, every seventh makes an error."""
     found = []
     for n in range(30):
         edited = n == turn % 30
         extra = f"v{turn} : DINT;" if edited and turn % 10 == 0 else ""
         text = _BLOCK.format(n=n, extra=extra, factor=turn if edited else n)
-        found.append(
-            source(f"FB_Unit{n}", text.replace("a[3]", "unknown") if edited and turn % 7 == 3 else text)
-        )
+        if edited and turn % 7 == 3:
+            text = text.replace("a[3]", "unknown")
+        found.append(Source(f"FB_Unit{n}", text, name=f"FB_Unit{n}"))
     instances = " ".join(f"u{n} : FB_Unit{n};" for n in range(30))
     calls = "\n".join(f"u{n}(x := u{(n + 1) % 30}.y + 1.0);" for n in range(30))
-    found.append(source("PLC_PRG", f"PROGRAM PLC_PRG\nVAR {instances} END_VAR\n{calls}\nEND_PROGRAM\n"))
-    return found
+    main = f"PROGRAM Main\nVAR {instances} END_VAR\n{calls}\nEND_PROGRAM\n"
+    return [*found, Source("Main", main, name="Main")]
 
 
 def resident_kib() -> int:
@@ -57,14 +51,10 @@ def resident_kib() -> int:
 def main(count: int) -> None:
     compiler = Compiler()
     gc.disable()
-    task = TaskDefinition("Task", "cyclic", 10_000_000, 1, None, None, ("PLC_PRG",), None)
     previous: bytes | None = None
     with tempfile.TemporaryDirectory() as cache:
         for turn in range(count):
-            order = BuildOrder(
-                "a", "App", tuple(blocks(turn)), (asdict(task),), (("Standard", "*", ""),), previous, cache
-            )
-            outcome = compiler.outcome(asdict(order))
+            outcome = compiler.outcome(order(blocks(turn), previous, cache))
             assert "crash" not in outcome, outcome
             previous = outcome["package"] or previous
             compiler.tidy()

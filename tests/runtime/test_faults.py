@@ -34,6 +34,17 @@ Down := THIS^.Down(n + 1) + local[(n + 7) MOD 50];
 END_METHOD
 END_FUNCTION_BLOCK
 
+INTERFACE I_Lamp
+METHOD Blink : BOOL
+END_METHOD
+END_INTERFACE
+
+FUNCTION_BLOCK FB_Lamp IMPLEMENTS I_Lamp
+METHOD Blink : BOOL
+Blink := TRUE;
+END_METHOD
+END_FUNCTION_BLOCK
+
 PROGRAM PLC_PRG
 VAR
     mode : INT;
@@ -44,6 +55,8 @@ VAR
     pValue : POINTER TO DINT;
     deep : FB_Deep;
     out AT %QB0 : BYTE;
+    lamp : FB_Lamp;
+    none : I_Lamp;
 END_VAR
 count := count + 1;
 out := 16#55;
@@ -54,6 +67,7 @@ CASE mode OF
     4: pValue := 16#13579BD0; pValue^ := 1;
     5: zero := LINT_TO_DINT(deep.Down(1));
     6: WHILE zero = 0 DO count := count + 1; END_WHILE
+    7: none.Blink();
 END_CASE
 END_PROGRAM
 """
@@ -70,6 +84,7 @@ CASES = {
     3: (Fault.NULL_REFERENCE, "PLC_PRG", line_of("3: pValue")),
     4: (Fault.ACCESS_VIOLATION, "PLC_PRG", line_of("4: pValue")),
     6: (Fault.WATCHDOG, "PLC_PRG", line_of("6: WHILE")),
+    7: (Fault.NULL_REFERENCE, "PLC_PRG", line_of("7: none")),
 }
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from tappet.codegen.emit_place import COLD, PlaceEmitter
-from tappet.codegen.emit_text import PREFIX, constant, llvm_type, memory_type, symbol
+from tappet.codegen.emit_calls import CallEmitter
+from tappet.codegen.emit_place import COLD
+from tappet.codegen.emit_text import constant, llvm_type, memory_type
 from tappet.codegen.faults import Fault
 from tappet.core import ir
 
@@ -46,7 +47,7 @@ def is_simple(expr: ir.Expr) -> bool:
     return False
 
 
-class ExpressionEmitter(PlaceEmitter):
+class ExpressionEmitter(CallEmitter):
     """Everything about values."""
 
     def expr(self, expr: ir.Expr) -> str:
@@ -76,17 +77,6 @@ class ExpressionEmitter(PlaceEmitter):
 
     def _argument(self, expr: ir.Argument) -> str:
         return f"%a{expr.number}"
-
-    def _function_address(self, expr: ir.FunctionAddress) -> str:
-        self.state.called.add(expr.name)
-        return self.function_name(expr.name)
-
-    def function_name(self, name: str) -> str:
-        """Global name of a function or import."""
-        function = self.state.module.functions.get(name)
-        if function is None or function.exported:
-            return symbol(name)
-        return symbol(PREFIX + name)
 
     # -- arithmetic ----------------------------------------------------------------------------------
 
@@ -289,36 +279,7 @@ class ExpressionEmitter(PlaceEmitter):
         self.statements(expr.statements)
         return self.expr(expr.value)
 
-    # -- calls ---------------------------------------------------------------------------------------
-
-    def _call(self, expr: ir.Call) -> str:
-        args = [f"{llvm_type(a.type)} {self.expr(a)}" for a in expr.args]
-        self.state.called.add(expr.function)
-        return self.invoke(expr.type, self.function_name(expr.function), args, expr.function)
-
-    def _call_pointer(self, expr: ir.CallPointer) -> str:
-        pointer = self.expr(expr.pointer)
-        args = [f"{llvm_type(a.type)} {self.expr(a)}" for a in expr.args]
-        return self.invoke(expr.type, pointer, args, "")
-
-    def invoke(self, result: ir.Scalar, callee: str, args: list[str], name: str) -> str:
-        """A call; promoted variables are written before it, and read again where the callee reaches them.
-
-        A fault in a callee that cannot reach them must find them in memory, too (decision 2).
-        """
-        barriers = [p for p in self.promoted if name not in p.free]
-        for promoted in self.promoted:
-            self.store_promoted(promoted)
-        t = llvm_type(result)
-        text = f"call {t} {callee}({', '.join(args)}){self.location}"
-        if t == "void":
-            self.out.append(text)
-            value = ""
-        else:
-            value = self.value(text)
-        for promoted in barriers:
-            self.load_promoted(promoted)
-        return value
+    # -- machine operations ---------------------------------------------------------------------------
 
     def _intrinsic(self, expr: ir.Intrinsic) -> str:
         op = expr.op
@@ -383,18 +344,6 @@ class ExpressionEmitter(PlaceEmitter):
         self.state.used.add(name)
         return self.value(f"call i32 @{name}(ptr {left}, ptr {right}){self.location}")
 
-    def dispatch(self, expr: ir.Intrinsic) -> str:
-        """Code address of the virtual method in a slot for the type number stored in the instance."""
-        instance, slot = self.expr(expr.args[0]), expr.args[1]
-        assert isinstance(slot, ir.Const)
-        self.state.used.add("tappet.dispatch")
-        number = self.value(f"load i32, ptr {instance}{self.location}")
-        wide = self.value(f"zext i32 {number} to i64")
-        row = self.value(f'getelementptr inbounds ptr, ptr @"tappet.dispatch", i64 {wide}')
-        table = self.value(f"load ptr, ptr {row}, !invariant.load !1")
-        entry = self.value(f"getelementptr inbounds ptr, ptr {table}, i64 {slot.value}")
-        return self.value(f"load ptr, ptr {entry}, !invariant.load !1")
-
     def memory_value(self, expr: ir.Expr) -> str:
         """Operand as it is stored: BOOL as byte 0 or 1."""
         value = self.expr(expr)
@@ -431,7 +380,6 @@ _MACHINE = {
     "fence": "_fence",
     "strcompare": "_compare_strings",
     "wstrcompare": "_compare_strings",
-    "dispatch": "dispatch",
 }
 
 _E = ExpressionEmitter
@@ -449,6 +397,7 @@ _HANDLERS: dict[type[ir.Expr], Callable[[ExpressionEmitter, Any], str]] = {
     ir.ShortCircuit: _E._short_circuit,
     ir.Call: _E._call,
     ir.CallPointer: _E._call_pointer,
+    ir.CallVirtual: _E._call_virtual,
     ir.Intrinsic: _E._intrinsic,
     ir.Sequence: _E._sequence,
 }

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tappet.codegen.debug_info import DebugInfo, Metadata
+from tappet.codegen.emit_calls import TABLE
 from tappet.codegen.emit_function import FunctionEmitter, parameter_attributes
 from tappet.codegen.emit_place import ModuleState
 from tappet.codegen.emit_text import function_symbol, llvm_type, quoted, symbol
@@ -134,25 +135,23 @@ def _dispatch_home(module: ir.Module) -> set[str]:
 
 
 def _dispatch(module: ir.Module, state: ModuleState, whole: bool, home: bool) -> list[str]:
-    """The method tables: in the one module where they are used, or in the first of several."""
-    used = "tappet.dispatch" in state.used
-    if not used and (whole or not home or not any(t.methods for t in module.dispatch)):
-        return []
+    """The method tables, one per slot: in the one module where they are used, or in the first of several."""
+    entries: dict[int, dict[int, str]] = {}
+    for block in module.dispatch:
+        for slot, name in block.methods.items():
+            entries.setdefault(slot, {})[block.type_id] = name
     highest = max((t.type_id for t in module.dispatch), default=0)
-    if not whole and not home:
-        return [f'@"tappet.dispatch" = external hidden constant [{highest + 1} x ptr]']
-    slots = max((s for t in module.dispatch for s in t.methods), default=0) + 1
-    lines, rows = [], {}
-    for table in module.dispatch:
-        entries = []
-        for slot in range(slots):
-            name = table.methods.get(slot)
-            if name:
-                state.called.add(name)
-            entries.append(f"ptr {function_symbol(module.functions[name])}" if name else "ptr null")
-        rows[table.type_id] = row = f'@"tappet.vt.{table.type_id}"'
-        lines.append(f"{row} = private unnamed_addr constant [{slots} x ptr] [{', '.join(entries)}]")
-    pointers = ", ".join(f"ptr {rows.get(i, 'null')}" for i in range(highest + 1))
-    linkage = "internal " if whole else "hidden "
-    lines.append(f'@"tappet.dispatch" = {linkage}constant [{highest + 1} x ptr] [{pointers}]')
+    slots = {*entries, *(method.slot for method in module.virtual.values())}
+    lines = []
+    for slot in sorted(slots):
+        table = f"{TABLE}{slot}"
+        numbers = entries.get(slot, {})
+        if table in state.used and not whole and not home:
+            lines.append(f"{symbol(table)} = external hidden constant [{highest + 1} x ptr]")
+        elif table in state.used or (home and not whole):
+            state.called.update(numbers.values())
+            names = [numbers.get(number) for number in range(highest + 1)]
+            bodies = (f"ptr {function_symbol(module.functions[n])}" if n else "ptr null" for n in names)
+            linkage = "internal" if whole else "hidden"
+            lines.append(f"{symbol(table)} = {linkage} constant [{highest + 1} x ptr] [{', '.join(bodies)}]")
     return lines

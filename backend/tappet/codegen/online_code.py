@@ -89,9 +89,9 @@ def _run_new(b: Body, base: ir.Place, steps: list[initial.Step], offset: int, fr
 
 
 def _reinitialise(b: Body, place: ir.Place, type_: t.FunctionBlock) -> None:
-    for method in initial.life_cycle_methods(type_, "FB_REINIT"):
+    for method in life_cycle_methods(type_, "FB_REINIT"):
         prepared = calls.Prepared()
-        calls.finish(b, prepared, method, [], places.address_of(place), False)
+        calls.finish(b, prepared, method, [], places.address_of(place), None)
         b.out.extend(prepared.statements())
 
 

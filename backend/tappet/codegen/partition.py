@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from tappet.codegen.emit_calls import direct_targets
 from tappet.core import ir
 from tappet.core.walk import visit
 
@@ -56,7 +57,7 @@ def copies_for(module: ir.Module, names: list[str]) -> list[str]:
     found: dict[str, None] = {}
     todo = list(names)
     while todo:
-        for callee in _callees(module.functions[todo.pop()]):
+        for callee in _callees(module, module.functions[todo.pop()]):
             function = module.functions.get(callee)
             if function is None or callee in own or callee in found:
                 continue
@@ -72,14 +73,21 @@ def copies_for(module: ir.Module, names: list[str]) -> list[str]:
     return sorted(chosen)
 
 
-def _callees(function: ir.Function) -> set[str]:
+def _callees(module: ir.Module, function: ir.Function) -> list[str]:
+    """Functions that one calls; those that a virtual call reaches when it is one of few."""
     found: set[str] = set()
 
     def note(node: ir.Expr | ir.Stmt) -> None:
         if isinstance(node, ir.Call):
             found.add(node.function)
+        elif isinstance(node, ir.CallVirtual):
+            found.add(node.method.key)
 
     if function.callees is None:
         visit(function.body, note)
         function.callees = found
-    return function.callees
+    names: list[str] = []
+    for name in function.callees:
+        virtual = module.virtual.get(name)
+        names += [name] if virtual is None else direct_targets(virtual)
+    return names

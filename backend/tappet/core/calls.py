@@ -18,13 +18,11 @@ from tappet.core.body import (
 from tappet.core.program import attribute_value
 from tappet.core.scalars import NULL, require_scalar, scalar_of
 from tappet.core.values import member_value, variable_value
+from tappet.core.virtual_calls import BODY, Static, call_virtual, is_fixed
 from tappet.lang import any_type, ast
 from tappet.lang import types as t
 from tappet.lang.any_type import is_any
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol, PropertySymbol, VarSymbol
-
-BODY = "__BODY"
-"""Name of a block's body in its table of methods."""
 
 
 @dataclass(slots=True)
@@ -144,32 +142,39 @@ def prepare(b: Body, e: ast.Call) -> Prepared:
     if target.kind == "PROGRAM":
         return _instance_call(b, e, target, places.program_data(target), [])
     prepared = Prepared()
-    own: ir.Expr | None = None
-    virtual = False
-    if has_self(target):
-        own, virtual = _instance_of(b, e.callee, target, prepared)
-    finish(b, prepared, target, e.args, own, virtual)
+    own, static = _instance_of(b, e.callee, target)
+    finish(b, prepared, target, e.args, own, static)
     return prepared
 
 
-def _instance_of(b: Body, callee: ast.Expr, target: PouSymbol, prepared: Prepared) -> tuple[ir.Expr, bool]:
-    """Address of the instance a method or action is called on, and whether the call is virtual."""
+def _instance_of(b: Body, callee: ast.Expr, target: PouSymbol) -> tuple[ir.Expr | None, Static | None]:
+    """Address of the instance a method is called on, and its type where that may be a derived one."""
+    if not has_self(target):
+        return None, None
     if not isinstance(callee, ast.Member):
         assert b.own_data is not None
-        return places.address_of(b.own_data), True
+        return places.address_of(b.own_data), b.block
     base = callee.base
     if isinstance(base.type, t.Interface):
-        return b.value(base), True
+        return b.value(base), base.type
     if isinstance(base, ast.Deref) and isinstance(base.base, ast.Super):
         assert b.own_data is not None
-        return places.address_of(b.own_data), False
+        return places.address_of(b.own_data), None
     if base.type is None:
         # FB_Base.Method inside a derived block: static
         assert b.own_data is not None
-        return places.address_of(b.own_data), False
-    place = b.place(base)
+        return places.address_of(b.own_data), None
+    address = places.address_of(b.place(base))
     exact = not isinstance(base, ast.Deref) and not _through_reference(base)
-    return places.address_of(place), not exact
+    return address, None if exact else _block_of(base)
+
+
+def _block_of(e: ast.Expr) -> t.FunctionBlock | None:
+    """The function block type that an expression has or refers to."""
+    type_ = e.type
+    while isinstance(type_, t.Reference):
+        type_ = type_.base
+    return type_ if isinstance(type_, t.FunctionBlock) else None
 
 
 def _through_reference(e: ast.Expr) -> bool:
@@ -186,11 +191,14 @@ def finish(
     target: PouSymbol,
     args: list[ast.Argument],
     own: ir.Expr | None,
-    virtual: bool,
+    static: Static | None,
 ) -> None:
-    """Complete a call of a function or method: result space, arguments, outputs."""
+    """Complete a call of a function or method: result space, arguments, outputs.
+
+    `static` is the type of the instance `own` where its real type may be a derived one.
+    """
     values: list[ir.Expr] = [] if own is None else [own]
-    if own is not None and virtual and not isinstance(own, ir.Argument):
+    if own is not None and static is not None and not isinstance(own, ir.Argument):
         local = b.temp(ir.PTR)
         prepared.before.append(ir.Store(ir.Place(local), own))
         values = [ir.Load(ir.PTR, ir.Place(local))]
@@ -206,38 +214,19 @@ def finish(
     given = {id(a.parameter): a for a in args if a.parameter is not None}
     for parameter in target.parameters:
         values.append(_argument(b, prepared, parameter, given.get(id(parameter))))
-    prepared.call = _call(b, target, scalar, values, own is not None and virtual)
+    prepared.call = _call(b, target, scalar, values, static)
 
 
-def _call(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr], virtual: bool) -> ir.Expr:
+def _call(
+    b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr], static: Static | None
+) -> ir.Expr:
     external = external_name(target)
     if external is not None:
         declare_external(b, target, external)
         return ir.Call(scalar, external, values)
-    if virtual and not _is_fixed(target):
-        return dispatch(b, target, scalar, values)
+    if static is not None and not is_fixed(target):
+        return call_virtual(b, target.name.upper(), static, scalar, values, target)
     return ir.Call(scalar, b.program.function(target), values)
-
-
-def _is_fixed(target: PouSymbol) -> bool:
-    """Whether no derived block replaces `target`: an action of a block with no_virtual_actions (LSFC-26)."""
-    owner = target.owner
-    return target.kind == "ACTION" and owner is not None and target.name.upper() not in owner.vtable
-
-
-def dispatch(b: Body, target: PouSymbol, scalar: ir.Scalar, values: list[ir.Expr]) -> ir.Expr:
-    """Call through the method table of the instance; a direct call when nothing overrides the method."""
-    only = b.program.only_implementation(target)
-    if only is not None:
-        return ir.Call(scalar, b.program.function(only), values)
-    return _through_table(b, target.name.upper(), scalar, values)
-
-
-def _through_table(b: Body, name: str, scalar: ir.Scalar, values: list[ir.Expr]) -> ir.Expr:
-    b.program.dispatched.setdefault(name)
-    code = ir.Intrinsic(ir.PTR, "dispatch", [values[0], ir.Const(ir.I64, 0)])
-    b.program.pending_slots.append((code, name))
-    return ir.CallPointer(scalar, code, values)
 
 
 def external_name(pou: PouSymbol) -> str | None:
@@ -378,7 +367,7 @@ def _block_call(b: Body, e: ast.Call, target: PouSymbol) -> Prepared:
         return _instance_call(b, e, target, b.own_data, before)
     place = places.freeze(b, b.place(callee), before)
     virtual = isinstance(callee, ast.Deref) or _through_reference(callee)
-    return _instance_call(b, e, target, place, before, virtual=virtual)
+    return _instance_call(b, e, target, place, before, _block_of(callee) if virtual else None)
 
 
 def _instance_call(
@@ -387,8 +376,7 @@ def _instance_call(
     target: PouSymbol,
     instance: ir.Place,
     before: list[ir.Stmt],
-    *,
-    virtual: bool = False,
+    static: t.FunctionBlock | None = None,
 ) -> Prepared:
     prepared = Prepared(before)
     given = {id(a.parameter) for a in e.args if a.value is not None}
@@ -418,8 +406,8 @@ def _instance_call(
                 assign.store_member(b, slot, parameter, value)
             before += store
     own = [places.address_of(instance)] if target.kind == "FUNCTION_BLOCK" else []
-    if virtual and b.program.is_extended(target):
-        prepared.call = _through_table(b, BODY, ir.VOID, own)
+    if static is not None:
+        prepared.call = call_virtual(b, BODY, static, ir.VOID, own, target)
     else:
         prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
     return prepared
@@ -439,24 +427,14 @@ def _root(instance: ir.Place, offset: int) -> int | None:
 # -- properties -------------------------------------------------------------------------------------
 
 
-def _property_call(
-    b: Body, e: ast.Name | ast.Member, accessor: PouSymbol
-) -> tuple[Prepared, ir.Expr | None, bool]:
-    prepared = Prepared()
-    own: ir.Expr | None = None
-    virtual = False
-    if has_self(accessor):
-        own, virtual = _instance_of(b, e, accessor, prepared)
-    return prepared, own, virtual
-
-
 def read_property(b: Body, e: ast.Name | ast.Member, symbol: PropertySymbol) -> Prepared:
     """Call of the getter."""
     if symbol.getter is None:
         raise b.error(f"property '{symbol.name}' has no Get", e)
-    prepared, own, virtual = _property_call(b, e, symbol.getter)
+    prepared = Prepared()
+    own, static = _instance_of(b, e, symbol.getter)
     b.foreign_writes = True
-    finish(b, prepared, symbol.getter, [], own, virtual)
+    finish(b, prepared, symbol.getter, [], own, static)
     return prepared
 
 
@@ -464,12 +442,13 @@ def write_property(b: Body, e: ast.Name | ast.Member, symbol: PropertySymbol, va
     """Call of the setter with `value`."""
     if symbol.setter is None:
         raise b.error(f"property '{symbol.name}' has no Set", e)
-    prepared, own, virtual = _property_call(b, e, symbol.setter)
+    prepared = Prepared()
+    own, static = _instance_of(b, e, symbol.setter)
     b.foreign_writes = True
     argument = ast.Argument(name=None, value=value, span=value.span)
     if symbol.setter.parameters:
         argument.parameter = symbol.setter.parameters[0]
-    finish(b, prepared, symbol.setter, [argument], own, virtual)
+    finish(b, prepared, symbol.setter, [argument], own, static)
     b.out.extend(prepared.statements())
 
 

@@ -35,6 +35,8 @@ class Instances:
             function = self.module.functions.get(node.function)
             if function is not None and function.self_type and node.args:
                 self.arguments.append(node.args[0])
+        elif isinstance(node, ir.CallVirtual):
+            self.arguments.append(node.args[0])
         elif (
             isinstance(node, ir.Store) and node.value.type is ir.PTR and isinstance(node.place.base, ir.Local)
         ):
@@ -65,7 +67,10 @@ class EffectsTable:
         self.closed: dict[str, Effects] = {}
 
     def of(self, name: str) -> Effects:
-        """Effects of a function and of everything it calls; unknown for functions outside the module."""
+        """Effects of a function, or of all that a virtual call reaches, and of everything called there.
+
+        Unknown for functions outside the module.
+        """
         found = self.closed.get(name)
         if found is None:
             found = self.closed[name] = self._close(name)
@@ -89,7 +94,9 @@ class EffectsTable:
             seen.add(current)
             function = self.module.functions.get(current)
             if function is None:
-                total.unknown = True
+                virtual = self.module.virtual.get(current)
+                total.unknown |= virtual is None
+                todo += virtual.targets.values() if virtual is not None else ()
                 continue
             effects = self.own.get(current)
             if effects is None:
@@ -128,6 +135,8 @@ def _own(module: ir.Module, function: ir.Function) -> Effects:
                 effects.calls.add(node.function)
             else:
                 effects.unknown = True
+        elif isinstance(node, ir.CallVirtual):
+            effects.calls.add(node.method.key)
         elif kind is ir.CallPointer:
             effects.unknown = True
         elif kind is ir.CopyBytes or kind is ir.FillBytes:

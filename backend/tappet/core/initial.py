@@ -7,17 +7,20 @@ function calls, addresses and FB_Init become dynamic steps, in order of declarat
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from tappet.core import assign, calls, ir, places
 from tappet.core.body import INITIALISERS, Body
+from tappet.core.constant_bytes import constant_bytes
+from tappet.core.life_cycle import after_init_methods, init_methods, life_cycle_methods
 from tappet.core.program import Program, attribute_value
-from tappet.core.scalars import scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 
+InitArguments = Sequence[list[ast.Argument]]
+"""Arguments of FB_Init: none, those of all instances, or those of each element of an array."""
 VFTABLE = "__VFTABLE"
 _UNROLL = 4
 """Arrays of more elements are initialised by a loop."""
@@ -68,7 +71,7 @@ class Initialiser:
                 self.types[id(type_)] = found
                 self._members(found, type_)
             elif isinstance(type_, t.Array):
-                self._elements(found, 0, type_, None, [])
+                self._elements(found, 0, type_, None, ())
             elif isinstance(type_, t.Enum) and type_.default:
                 found.data[:] = type_.default.to_bytes(type_.size, "little", signed=type_.default < 0)
         return found
@@ -98,7 +101,7 @@ class Initialiser:
     ) -> None:
         """Add a declared variable at `offset`."""
         init = decl.init if decl is not None else None
-        args = _init_arguments(decl)
+        given = _init_arguments(decl)
         if bit is not None:
             if init is not None and init.constant:
                 template.data[offset] |= 1 << bit
@@ -107,7 +110,7 @@ class Initialiser:
             if not (init.is_constant and not places.is_place(init)):
                 template.steps.append(Step(offset, type_, init, reference=True))
             return
-        self.fill(template, offset, type_, init, args)
+        self.fill(template, offset, type_, init, given)
 
     def fill(
         self,
@@ -115,13 +118,13 @@ class Initialiser:
         offset: int,
         type_: t.Type,
         init: ast.Expr | None,
-        args: list[ast.Argument] | None = None,
+        given: InitArguments = (),
     ) -> None:
         """Add a value of `type_` at `offset`."""
         if isinstance(type_, t.FunctionBlock):
-            self._instance(template, offset, type_, init, args or [])
+            self._instance(template, offset, type_, init, given[0] if given else [])
         elif isinstance(type_, t.Array) and (init is None or isinstance(init, ast.ArrayInit)):
-            self._elements(template, offset, type_, init, args or [])
+            self._elements(template, offset, type_, init, given)
         elif isinstance(type_, t.Struct) and (init is None or isinstance(init, ast.StructInit)):
             self._copy_in(template, offset, self.of_type(type_))
             if isinstance(init, ast.StructInit):
@@ -190,14 +193,14 @@ class Initialiser:
         offset: int,
         type_: t.Array,
         init: ast.ArrayInit | None,
-        args: list[ast.Argument],
+        given: InitArguments,
     ) -> None:
-        if init is not None:
-            _ArrayFiller(self, template, type_, offset).run(init)
+        if init is not None or len(given) > 1:
+            _ArrayFiller(self, template, type_, offset, given).run(init)
             return
         element, count = type_.element, type_.count
         part = Template(bytearray(element.size))
-        self.fill(part, 0, element, None, args)
+        self.fill(part, 0, element, None, given)
         if any(part.data):
             template.data[offset : offset + type_.size] = bytes(part.data) * count
         if part.steps:
@@ -211,15 +214,25 @@ class Initialiser:
 class _ArrayFiller:
     """Writes an array initialiser in storage order; nested arrays may be flat (LTYP-91)."""
 
-    def __init__(self, initialiser: Initialiser, template: Template, type_: t.Array, offset: int) -> None:
+    def __init__(
+        self,
+        initialiser: Initialiser,
+        template: Template,
+        type_: t.Array,
+        offset: int,
+        given: InitArguments,
+    ) -> None:
         self.initialiser = initialiser
         self.template = template
         self.type = type_
         self.offset = offset
+        self.given = given
+        self.each = _instances_in(type_.element)
+        """Lists of arguments that concern one element."""
         self.next = 0
 
-    def run(self, init: ast.ArrayInit) -> None:
-        for element in init.elements:
+    def run(self, init: ast.ArrayInit | None) -> None:
+        for element in init.elements if init is not None else ():
             self._put(element)
         self._repeated(self.type.count - self.next, lambda: self._one(None))
 
@@ -259,89 +272,31 @@ class _ArrayFiller:
         if self.next >= self.type.count:
             return
         element = self.type.element
-        self.initialiser.fill(self.template, self.offset + self.next * element.size, element, value)
+        given = self.given
+        if len(given) > 1:
+            given = given[self.next * self.each : (self.next + 1) * self.each]
+        self.initialiser.fill(self.template, self.offset + self.next * element.size, element, value, given)
         self.next += 1
+
+
+def _instances_in(type_: t.Type) -> int:
+    """Elements of an array and of the arrays in it; 1 for anything else."""
+    return type_.count * _instances_in(type_.element) if isinstance(type_, t.Array) else 1
 
 
 def _moved(step: Step, offset: int) -> Step:
     return replace(step, offset=step.offset + offset)
 
 
-def _init_arguments(decl: ast.VarDecl | None) -> list[ast.Argument]:
+def _init_arguments(decl: ast.VarDecl | None) -> InitArguments:
     ref = decl.type_ref if decl is not None else None
     while isinstance(ref, ast.ArrayType):
         ref = ref.element
-    return ref.args or [] if isinstance(ref, ast.NamedType) else []
-
-
-def init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
-    """User-written FB_Init methods, base first (LDEC-107)."""
-    return life_cycle_methods(type_, "FB_INIT")
-
-
-def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
-    """FB_Init, FB_Exit or FB_Reinit of a type and its bases, base first."""
-    found: list[PouSymbol] = []
-    walk = type_.pou.symbol if type_.pou is not None else None
-    while isinstance(walk, PouSymbol):
-        method = walk.methods.get(name)
-        if method is not None:
-            found.insert(0, method)
-        walk = walk.base
-    return found
-
-
-def after_init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
-    """Methods with attribute call_after_init of a block that has it too (LDEC-109)."""
-    found: list[PouSymbol] = []
-    walk = type_.pou.symbol if type_.pou is not None else None
-    while isinstance(walk, PouSymbol):
-        if walk.pou is not None and attribute_value(walk.pou.attributes, "call_after_init") is not None:
-            found += [
-                m
-                for m in walk.methods.values()
-                if m.pou is not None and attribute_value(m.pou.attributes, "call_after_init") is not None
-            ]
-        walk = walk.base
-    return found[::-1]
-
-
-# -- constants --------------------------------------------------------------------------------------
-
-
-def constant_bytes(type_: t.Type, init: ast.Expr) -> bytes | None:
-    """Bytes of a constant initialiser of a simple type or string, None when it is no constant."""
-    if not init.is_constant or init.constant is None:
-        return None
-    value = init.constant
-    if isinstance(type_, t.String):
-        return _string_bytes(type_, value)
-    scalar = scalar_of(type_)
-    if scalar is None or isinstance(value, str | bytes):
-        return None
-    return scalar_bytes(scalar, value)
-
-
-def _string_bytes(type_: t.String, value: ast.Constant) -> bytes | None:
-    if isinstance(value, str):
-        raw = value.encode("utf-16-le", "surrogatepass") if type_.wide else value.encode("latin-1", "replace")
-    elif isinstance(value, bytes):
-        raw = value
-    else:
-        return None
-    raw = raw[: type_.length * (2 if type_.wide else 1)]
-    return raw + bytes(type_.size - len(raw))
-
-
-def scalar_bytes(scalar: ir.Scalar, value: int | float) -> bytes:
-    """A number in memory."""
-    if scalar.floating:
-        try:
-            return struct.pack("<f" if scalar.bits == 32 else "<d", value)
-        except OverflowError:
-            return struct.pack("<f", float("inf") if value > 0 else float("-inf"))
-    bits = scalar.size * 8
-    return (int(value) & ((1 << bits) - 1)).to_bytes(scalar.size, "little")
+    if not isinstance(ref, ast.NamedType):
+        return ()
+    if ref.elements:
+        return [element.args for element in ref.elements]
+    return [ref.args] if ref.args else ()
 
 
 # -- code -------------------------------------------------------------------------------------------
@@ -415,7 +370,7 @@ def construct(b: Body, place: ir.Place, type_: t.FunctionBlock, args: list[ast.A
     b.foreign_writes = True
     for method in init_methods(type_):
         prepared = calls.Prepared()
-        calls.finish(b, prepared, method, _init_call_arguments(method, args), address, False)
+        calls.finish(b, prepared, method, _init_call_arguments(method, args), address, None)
         b.out.extend(prepared.statements())
 
 
@@ -448,7 +403,7 @@ def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol]) -> None:
     frozen = places.freeze(b, place, b.out)
     for method in methods:
         prepared = calls.Prepared()
-        calls.finish(b, prepared, method, [], places.address_of(frozen), False)
+        calls.finish(b, prepared, method, [], places.address_of(frozen), None)
         b.out.extend(prepared.statements())
 
 

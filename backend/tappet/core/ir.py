@@ -250,12 +250,32 @@ class CallPointer(Expr):
 
 
 @dataclass(eq=False, slots=True)
+class VirtualMethod:
+    """What the virtual calls of one name on instances of one static type reach."""
+
+    key: str
+    """`virtual I_VALVE.STEP`: names it among the callees of a function."""
+    slot: int = 0
+    """Number of the method table."""
+    targets: dict[int, str] = field(default_factory=dict)
+    """Functions by type number of the instance: of the block types that have instances."""
+
+
+@dataclass(eq=False, slots=True)
+class CallVirtual(Expr):
+    """Call of the method that the type number in the instance, the first argument, selects."""
+
+    method: VirtualMethod
+    args: list[Expr]
+
+
+@dataclass(eq=False, slots=True)
 class Intrinsic(Expr):
     """A machine-level operation.
 
     now_ns setjmp longjmp frame_address load_acquire store_release fetch_add compare_swap fence, the libm
     functions sin cos tan asin acos atan exp log log10 pow, strcompare wstrcompare (addresses; negative, 0,
-    positive) and dispatch (instance, slot number: address of the virtual method).
+    positive).
     """
 
     op: str
@@ -463,7 +483,7 @@ class Promoted(Stmt):
     variables: list[tuple[Place, Local, Scalar, bool]]
     loop: Stmt
     free: frozenset[str] = frozenset()
-    """Functions known to touch none of the variables."""
+    """Functions, and virtual methods, known to touch none of the variables."""
 
 
 # -- functions and modules ----------------------------------------------------------------------------
@@ -508,9 +528,9 @@ class Function:
     loops: bool = False
     """Whether the body contains a loop."""
     callees: set[str] | None = None
-    """Functions it calls, once somebody has looked."""
+    """Functions it calls, and keys of virtual methods, once somebody has looked."""
     assumed: dict[str, object] = field(default_factory=dict)
-    """Effects of called functions that register variables of this one rest on."""
+    """Effects of called functions and virtual methods that register variables of this one rest on."""
     promoted_bases: set[str] = field(default_factory=set)
     """Data objects and block types whose exposure touches variables that this function keeps in registers."""
     subscripted: dict[Base, set[int]] = field(default_factory=dict)
@@ -546,7 +566,7 @@ class Constant:
 
 @dataclass(eq=False, slots=True)
 class DispatchTable:
-    """Virtual methods of one function block type: function names by slot, "" where it has none."""
+    """Virtual methods of one function block type: function names by slot."""
 
     type_id: int
     methods: dict[int, str]
@@ -562,6 +582,8 @@ class Module:
     data: dict[str, tuple[int, int]] = field(default_factory=dict)
     """Data objects used: symbol to (size, align)."""
     dispatch: list[DispatchTable] = field(default_factory=list)
+    virtual: dict[str, VirtualMethod] = field(default_factory=dict)
+    """What virtual calls reach, by key."""
     families: dict[str, frozenset[str]] = field(default_factory=dict)
     """Function block types that share bases, by each of their names."""
     containers: dict[str, set[str]] = field(default_factory=dict)

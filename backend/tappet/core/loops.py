@@ -144,6 +144,8 @@ def _survey(module: ir.Module, loop: ir.Stmt) -> _Survey:
             found.calls.add(node.function)
             if node.function not in module.functions:
                 found.refused = True
+        elif isinstance(node, ir.CallVirtual):
+            found.calls.add(node.method.key)
         elif isinstance(node, ir.Intrinsic):
             found.refused |= node.op in _THREADED
         elif kind is ir.CopyBytes or kind is ir.FillBytes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tappet.core import ir
 from tappet.core.program import Program
+from tappet.core.virtual_calls import fits
 from tappet.lang.analysis.conversion import implements
 from tappet.lang.symbols import PouSymbol
 
@@ -32,8 +33,6 @@ def number_methods(program: Program) -> None:
         for owner in having:
             taken[owner].add(slot)
     program.slots = slots
-    for code, name in program.pending_slots:
-        code.args[1] = ir.Const(ir.I64, slots.get(name, 0))
     for block_name, block in program.blocks.items():
         symbol = block.pou.symbol if block.pou is not None else None
         methods = {}
@@ -42,7 +41,17 @@ def number_methods(program: Program) -> None:
                 if name in slots:
                     methods[slots[name]] = program.functions[id(method)]
         program.module.dispatch.append(ir.DispatchTable(program.type_ids[block_name], methods))
+    _fill_virtual(program)
     _fill_queries(program)
+
+
+def _fill_virtual(program: Program) -> None:
+    """What every virtual call reaches: the bodies of the blocks with instances that fit its static type."""
+    tables = {table.type_id: table.methods for table in program.module.dispatch}
+    for method, name, static in program.virtual.values():
+        method.slot = slot = program.slots[name]
+        numbers = sorted(program.type_ids[n] for n, block in program.blocks.items() if fits(block, static))
+        method.targets = {number: tables[number][slot] for number in numbers if slot in tables[number]}
 
 
 def _fill_queries(program: Program) -> None:

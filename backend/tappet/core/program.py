@@ -57,10 +57,12 @@ class Program:
     """Upper-case names of methods that are called virtually."""
     lower_pou: Callable[[PouSymbol], None] = lambda pou: None
     """Set by `lower`: lowers one body."""
-    pending_slots: list[tuple[ir.Intrinsic, str]] = field(default_factory=list)
-    """Dispatch operations whose slot number is known at the end, with the method's upper-case name."""
-    implementations: dict[str, dict[int, PouSymbol]] = field(default_factory=dict)
-    """What a virtual call of a name can reach, over all function blocks."""
+    virtual: dict[tuple[int, str], tuple[ir.VirtualMethod, str, t.FunctionBlock | t.Interface]] = field(
+        default_factory=dict
+    )
+    """Virtual methods by id() of the static type and upper-case name; what they reach is known at the end."""
+    having: dict[str, list[PouSymbol]] = field(default_factory=dict)
+    """Function blocks with a method, an accessor or a body that is called by this name."""
     area_use: dict[str, int] = field(default_factory=dict)
     """Bytes of the areas I, Q, M that variables and direct addresses reach to."""
     library: dict[str, PouSymbol] = field(default_factory=dict)
@@ -82,8 +84,8 @@ class Program:
         for pou in self.analysis.pous:
             if pou.kind == "PROGRAM":
                 self._claim(pou)
-            for name, method in pou.vtable.items():
-                self.implementations.setdefault(name, {})[id(method)] = method
+            for name in pou.vtable:
+                self.having.setdefault(name, []).append(pou)
 
     def _claim(self, pou: PouSymbol) -> None:
         symbol = data_symbol(pou)
@@ -121,18 +123,6 @@ class Program:
             candidate, number = f"{name}#{number}", number + 1
         self.taken.add(candidate)
         return candidate
-
-    def only_implementation(self, method: PouSymbol) -> PouSymbol | None:
-        """The body that every call of a method or its head reaches, None if the instance decides."""
-        found = self.implementations.get(method.name.upper(), {})
-        if len(found) == 1:
-            return next(iter(found.values()))
-        return method if not found and method.owner is not None else None
-
-    def is_extended(self, block: PouSymbol) -> bool:
-        """Whether another block extends this one, so that its body may not be the one to call."""
-        bodies = self.implementations.get("__BODY", {}).values()
-        return any(_extends(pou, block) for pou in bodies)
 
     def library_function(self, name: str) -> PouSymbol | None:
         """A function of the conversion library that every application is built with."""
@@ -213,13 +203,6 @@ class Program:
         elif isinstance(type_, t.Struct):
             for member in type_.members.values():
                 self._expose_blocks(member.type)
-
-
-def _extends(pou: PouSymbol, block: PouSymbol) -> bool:
-    base = pou.base
-    while base is not None and base is not block:
-        base = base.base
-    return base is not None
 
 
 def qualified_name(pou: PouSymbol) -> str:

@@ -28,7 +28,13 @@ _EXPRESSIONS: dict[type, tuple[str, ...]] = {
     ir.CallPointer: ("pointer",),
 }
 """Fields that hold one expression."""
-_LISTS: dict[type, str] = {ir.Call: "args", ir.CallPointer: "args", ir.Intrinsic: "args", ir.FaultIf: "args"}
+_LISTS: dict[type, str] = {
+    ir.Call: "args",
+    ir.CallPointer: "args",
+    ir.CallVirtual: "args",
+    ir.Intrinsic: "args",
+    ir.FaultIf: "args",
+}
 """Fields that hold a list of expressions."""
 _PLACES: dict[type, tuple[str, ...]] = {
     ir.Load: ("place",),
