@@ -71,7 +71,7 @@ class BuildOptions:
     """Make no object code."""
     main_program: str = "PLC_PRG"
     free_addresses: bool = True
-    """Incomplete addresses without a line of VAR_CONFIG get a free place; False: they are errors (LDEC-94)."""
+    """Incomplete addresses that VAR_CONFIG does not name get a free place; False: an error (LDEC-94)."""
     static: StaticAnalysis = NO_RULES
     """The optional coding rules that are checked."""
 

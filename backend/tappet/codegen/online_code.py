@@ -10,6 +10,7 @@ from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, DataObject
 from tappet.codegen.symbol_map import SymbolMap, TypeInfo
 from tappet.core import calls, initial, ir, places
 from tappet.core.body import Body
+from tappet.core.life_cycle import life_cycle_methods
 from tappet.core.lower import Lowered, complete
 from tappet.core.program import Program
 from tappet.lang import types as t

@@ -172,7 +172,7 @@ class SymbolMap:
     """I, Q, M to (offset, size) in the image."""
     byte_addressing: bool = False
     mapped: dict[str, tuple[str, int, int | None]] = field(default_factory=dict)
-    """Upper-case path of a variable with an incomplete address to area, byte and bit of its place (LDEC-93)."""
+    """Upper-case path of a variable with an incomplete address to area, byte and bit (LDEC-93)."""
 
     # -- look-up -------------------------------------------------------------------------------------
 

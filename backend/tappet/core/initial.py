@@ -14,7 +14,7 @@ from tappet.core import assign, calls, ir, places
 from tappet.core.body import INITIALISERS, Body
 from tappet.core.constant_bytes import constant_bytes
 from tappet.core.life_cycle import after_init_methods, init_methods, life_cycle_methods
-from tappet.core.program import Program, attribute_value
+from tappet.core.program import Program
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol

@@ -250,6 +250,9 @@ class ExprStmt(Stmt):
     """An expression standing alone (reported as without effect)."""
 
     expr: Expr
+    # resolved
+    call: Call | None = None
+    """The call that is meant where `expr` names what can be called: an action, a program, an instance."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -392,10 +395,20 @@ class TypeRef(Node):
 
 @dataclass(slots=True, kw_only=True)
 class NamedType(TypeRef):
-    """`INT`, `Namespace.FB_Motor`, with FB_Init arguments in `args` when written `FB(1, x := 2)`."""
+    """`INT`, `Namespace.FB_Motor`, for instances with arguments of FB_Init."""
 
     name: str
     args: list[Argument] | None = None
+    """Written `FB(1, x := 2)`."""
+    elements: list[InitArguments] = field(default_factory=list)
+    """Written `ARRAY[1..2] OF FB[(1), (x := 2)]`: those of each element, in storage order."""
+
+
+@dataclass(slots=True, kw_only=True)
+class InitArguments(Node):
+    """FB_Init arguments of one element of an array of instances."""
+
+    args: list[Argument]
 
 
 @dataclass(slots=True, kw_only=True)

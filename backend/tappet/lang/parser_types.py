@@ -66,6 +66,9 @@ class TypeParser(StatementParser):
             self.i += 1
             part, _ = self.member_name()
             name = f"{name}.{part}"
+        if kinds[self.i] == "[" and kinds[self.i + 1] == "(":
+            elements = self._element_arguments()
+            return ast.NamedType(span=self.span_from(start), name=name, elements=elements)
         if kinds[self.i] != "(":
             return ast.NamedType(span=self.span_from(start), name=name)
         # `INT(1..10)` is a subrange, `FB(1, x := 2)` passes arguments to FB_Init
@@ -86,6 +89,22 @@ class TypeParser(StatementParser):
             args.append(self.argument())
         self.take(")")
         return ast.NamedType(span=self.span_from(start), name=name, args=args)
+
+    def _element_arguments(self) -> list[ast.InitArguments]:
+        """`[(a), (n := b)]`: arguments of FB_Init for each element of an array."""
+        found: list[ast.InitArguments] = []
+        while True:
+            self.i += 1
+            start = self.i
+            if self.kinds[start] != "(":
+                self.expected("'('", "Write the values of each element in parentheses: [(n := 1), (n := 2)].")
+                return found
+            args = self.arguments()
+            found.append(ast.InitArguments(span=self.span_from(start), args=args))
+            if self.kinds[self.i] != ",":
+                break
+        self.take("]")
+        return found
 
     def _string_type(self, start: int, wide: bool) -> ast.TypeRef:
         self.i = start + 1

@@ -178,5 +178,11 @@ def _rebind_variable(
         session.diagnostics = []  # the same declaration has been checked before
         initialise(body, after.initial, variable.type)
         session.diagnostics = kept
-    if isinstance(after.type_ref, ast.NamedType) and after.type_ref.args and variable.type is not None:
+    if variable.type is not None and _passes_arguments(after.type_ref):
         check_fb_init(body, variable, after, variable.type)
+
+
+def _passes_arguments(ref: ast.TypeRef) -> bool:
+    while isinstance(ref, ast.ArrayType):
+        ref = ref.element
+    return isinstance(ref, ast.NamedType) and bool(ref.args or ref.elements)

@@ -190,23 +190,45 @@ def check_fb_init(body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Typ
     ref: ast.TypeRef = decl.type_ref
     while isinstance(ref, ast.ArrayType):
         ref = ref.element
+    count = 1
     while isinstance(type_, t.Array):
+        count *= type_.count
         type_ = type_.element
     args = ref.args if isinstance(ref, ast.NamedType) else None
+    elements = ref.elements if isinstance(ref, ast.NamedType) else []
     block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou is not None else None
     if not isinstance(block, PouSymbol) or variable.section in ("VAR_IN_OUT", "VAR_EXTERNAL"):
-        if args:
-            body.report("E0503", ref.span, callee=str(type_), expected=0, actual=len(args), hint="")
+        given = args or [a for element in elements for a in element.args]
+        if given:
+            body.report("E0503", ref.span, callee=str(type_), expected=0, actual=len(given), hint="")
         return
     init = find_member(block, "FB_INIT")
     extra = init.parameters[_FB_INIT_FIXED:] if isinstance(init, PouSymbol) else []
+    if not elements:
+        _bind_fb_init(body, args or [], extra, block, variable, ref.span if args else decl.span)
+        return
+    if len(elements) != count:
+        body.report("E0441", ref.span, actual=len(elements), type=variable.type, expected=count)
+    for element in elements:
+        _bind_fb_init(body, element.args, extra, block, variable, element.span)
+
+
+def _bind_fb_init(
+    body: Body,
+    args: list[ast.Argument],
+    extra: list[VarSymbol],
+    block: PouSymbol,
+    variable: VarSymbol,
+    span: Span,
+) -> None:
+    """Arguments of one instance, or of all elements of an array."""
     if args:
-        bind_arguments(body, args, extra, f"{block.name}.FB_Init", ref.span, "FB_INIT")
-    given = {id(a.parameter) for a in args or ()}
+        bind_arguments(body, args, extra, f"{block.name}.FB_Init", span, "FB_INIT")
+    given = {id(a.parameter) for a in args}
     for parameter in extra:
         optional = parameter.decl is not None and parameter.decl.initial is not None
         if parameter.section == "VAR_INPUT" and id(parameter) not in given and not optional:
-            body.report("E0421", decl.span, name=parameter.name, variable=variable.name, type=block.name)
+            body.report("E0421", span, name=parameter.name, variable=variable.name, type=block.name)
 
 
 def _external_types(session: Session, found: Collected, declarations: Declarations) -> None:

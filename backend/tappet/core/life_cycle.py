@@ -1,0 +1,39 @@
+"""FB_Init, FB_Exit, FB_Reinit and the methods called after them (LDEC-100..LDEC-109)."""
+
+from __future__ import annotations
+
+from tappet.core.program import attribute_value
+from tappet.lang import types as t
+from tappet.lang.symbols import PouSymbol
+
+
+def init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
+    """User-written FB_Init methods, base first (LDEC-107)."""
+    return life_cycle_methods(type_, "FB_INIT")
+
+
+def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
+    """FB_Init, FB_Exit or FB_Reinit of a type and its bases, base first."""
+    found: list[PouSymbol] = []
+    walk = type_.pou.symbol if type_.pou is not None else None
+    while isinstance(walk, PouSymbol):
+        method = walk.methods.get(name)
+        if method is not None:
+            found.insert(0, method)
+        walk = walk.base
+    return found
+
+
+def after_init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
+    """Methods with attribute call_after_init of a block that has it too (LDEC-109)."""
+    found: list[PouSymbol] = []
+    walk = type_.pou.symbol if type_.pou is not None else None
+    while isinstance(walk, PouSymbol):
+        if walk.pou is not None and attribute_value(walk.pou.attributes, "call_after_init") is not None:
+            found += [
+                m
+                for m in walk.methods.values()
+                if m.pou is not None and attribute_value(m.pou.attributes, "call_after_init") is not None
+            ]
+        walk = walk.base
+    return found[::-1]
