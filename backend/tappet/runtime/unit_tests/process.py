@@ -113,7 +113,7 @@ def main() -> None:
         output.write(json.dumps(report) + "\n")
         output.flush()
 
-    perform(msgpack.unpackb(sys.stdin.buffer.read(), raw=False, strict_map_key=False), write)
+    perform(msgpack.unpackb(sys.stdin.buffer.read(), raw=False, strict_map_key=False, use_list=False), write)
 
 
 if __name__ == "__main__":
