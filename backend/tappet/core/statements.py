@@ -39,7 +39,7 @@ def _call(b: Body, s: ast.CallStmt) -> None:
 
 
 def _expression(b: Body, s: ast.ExprStmt) -> None:
-    e = s.expr
+    e = s.call or s.expr
     if isinstance(e, ast.AssignExpr):
         assign.assign(b, e.op, e.target, e.value)
     elif isinstance(e, ast.Call):

@@ -23,7 +23,7 @@ _CHILDREN: dict[type, _Children] = {
 _OWN: dict[type, _Children] = {
     ast.Assign: lambda s: (s.value, s.target),
     ast.CallStmt: lambda s: (s.call,),
-    ast.ExprStmt: lambda s: (s.expr,),
+    ast.ExprStmt: lambda s: (s.call or s.expr,),
     ast.If: lambda s: (condition for condition, _ in s.branches),
     ast.Case: lambda s: (s.selector,),
     ast.For: lambda s: (s.start, s.stop, s.step, s.variable),

@@ -4,12 +4,14 @@ reported."""
 from __future__ import annotations
 
 import math
+from copy import copy
 
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import conversion, folding
 from tappet.lang.analysis.context import Body
 from tappet.lang.source import Span
+from tappet.lang.symbols import BuiltinSymbol
 from tappet.lang.types import Elementary, Kind, Type
 
 _DURATION_TO_LONG = {
@@ -35,6 +37,8 @@ def require(b: Body, e: ast.Expr, target: Type) -> bool:
         if source is target:
             return True
     code = conversion.verdict(source, target)
+    if code and e.__class__ is ast.Call and _adapt_choice(e, t.value_type(target)):
+        return True
     if e.is_constant:
         value = e.constant
         if target.__class__ is t.Subrange and isinstance(value, int):
@@ -158,6 +162,36 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
         return True
     complain(b, e.span, source, target, conversion.ERROR)
     return False
+
+
+def _adapt_choice(e: ast.Call, target: Type) -> bool:
+    """`SEL(a, 0, 255)`: a choice among literals takes the type of its context when each of them fits."""
+    alternatives = _literal_choice(e)
+    if not alternatives or not isinstance(target, Elementary):
+        return False
+    literals = [x for x in alternatives if x.__class__ is not ast.Call]
+    trials = [copy(x) for x in literals]
+    if not all(retype(x, target) for x in trials):
+        return False
+    for x in literals:
+        retype(x, target)
+    for x in alternatives:
+        if isinstance(x, ast.Call):
+            _adapt_choice(x, target)
+    symbol = e.target
+    assert isinstance(symbol, BuiltinSymbol)
+    types = (symbol.parameter_types[0], *(target for _ in alternatives))
+    e.target, e.type = BuiltinSymbol(symbol.name, parameter_types=types, return_type=target), target
+    return True
+
+
+def _literal_choice(e: ast.Call) -> list[ast.Expr]:
+    """The alternatives of a SEL or MUX that are all literals or such choices themselves; else none."""
+    if not isinstance(e.target, BuiltinSymbol) or e.target.name not in ("SEL", "MUX"):
+        return []
+    found = [arg.value for arg in e.args[1:] if arg.value is not None]
+    fine = all(x.untyped or (isinstance(x, ast.Call) and _literal_choice(x)) for x in found)
+    return found if fine else []
 
 
 def retype(e: ast.Expr, target: Elementary) -> bool:

@@ -66,7 +66,8 @@ def _resolve(b: Body, e: ast.Call) -> None:
             mark_written(b, callee)
             _bind(b, e, target)
             return
-    if type_ is not None or symbol is not None:
+    known = not (isinstance(symbol, VarSymbol) and symbol.type is None)  # else its type has been reported
+    if type_ is not None or (symbol is not None and known):
         b.report("E0501", callee.span, name=text_of(callee), hint=_hint(b, callee, symbol, type_))
     _evaluate_arguments(b, e.args)
 
@@ -107,7 +108,13 @@ def _bind(b: Body, e: ast.Call, target: PouSymbol) -> None:
     b.called.append((target, text_of(e.callee), e.span))
     if e.accumulator is not None:
         _pass_accumulator(e, e.accumulator, target)
-    bind_arguments(b, e.args, target.parameters, target.name, e.span, target.kind)
+    parameters = target.parameters
+    if target.kind == "ACTION" and target.owner is not None and e.args:
+        parameters = target.owner.parameters  # those of the block it belongs to
+        callee = e.callee
+        if callee.__class__ is ast.Member and callee.base.type is not None:  # type: ignore[attr-defined]
+            mark_written(b, callee.base)  # type: ignore[attr-defined]
+    bind_arguments(b, e.args, parameters, target.name, e.span, target.kind)
 
 
 def bind_arguments(
@@ -170,7 +177,7 @@ def bind_arguments(
 def _check_missing(
     b: Body, parameters: Sequence[VarSymbol], given: set[int], callee: str, span: Span, kind: str
 ) -> None:
-    for parameter in parameters:
+    for parameter in parameters if kind != "ACTION" else ():
         if id(parameter) in given:
             continue
         if parameter.section == "VAR_IN_OUT":

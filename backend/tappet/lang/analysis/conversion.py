@@ -9,7 +9,7 @@ type of the result is that of the larger operand (of equal size: the signed one)
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -250,9 +250,15 @@ _SMALLEST_BITS = (t.BYTE, t.WORD, t.DWORD, t.LWORD)
 
 def smallest_integer(value: int) -> Elementary | None:
     """The smallest integer type that holds a literal (LTYP-31), None beyond 64 bit."""
+    return smallest_of((value,))
+
+
+def smallest_of(values: Sequence[int]) -> Elementary | None:
+    """The smallest integer type that holds all of these literals; None when no type does."""
+    least, most = min(values), max(values)
     for candidate in _SMALLEST:
         low, high = RANGES[candidate.name]
-        if low <= value <= high:
+        if low <= least and most <= high:
             return candidate
     return None
 

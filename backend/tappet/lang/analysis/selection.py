@@ -67,6 +67,9 @@ def _pair(left: Type, right: Type | None) -> Type | None:
 
 def _common_of_literals(b: Body, found: Sequence[ast.Expr]) -> Type | None:
     first = found[0]
+    whole = [x.constant for x in found if x.constant.__class__ is int]
+    if len(whole) == len(found) and all(_is_integer(x.type) for x in found):
+        return conversion.smallest_of(whole)
     result = first.type
     for operand in found[1:]:
         wider = _pair(result, operand.type) if result is not None else None
@@ -75,6 +78,10 @@ def _common_of_literals(b: Body, found: Sequence[ast.Expr]) -> Type | None:
             return None
         result = wider
     return result
+
+
+def _is_integer(type_: Type | None) -> bool:
+    return isinstance(type_, Elementary) and type_.is_integer
 
 
 def _choose(e: ast.Call, name: str, lead: Sequence[Type | None], found: list[ast.Expr], type_: Type) -> None:

@@ -15,7 +15,7 @@ from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, val
 from tappet.lang.analysis.places import writable
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.rules import ASSIGN_RULES, LIST_RULES, STATEMENT_RULES
-from tappet.lang.symbols import PropertySymbol, VarSymbol
+from tappet.lang.symbols import PouSymbol, PropertySymbol, VarSymbol
 from tappet.lang.types import Elementary, Kind, Type
 
 STATEMENTS: dict[type, Callable[[Body, Any], None]] = {}
@@ -127,7 +127,16 @@ def _call_stmt(b: Body, s: ast.CallStmt) -> None:
 
 
 def _expr_stmt(b: Body, s: ast.ExprStmt) -> None:
-    evaluate(b, s.expr)
+    e = s.expr
+    type_ = evaluate(b, e)
+    s.call = None
+    if isinstance(e, (ast.Name, ast.Member, ast.Index)):
+        symbol = getattr(e, "symbol", None)
+        named = isinstance(symbol, PouSymbol) and symbol.kind in ("ACTION", "PROGRAM")
+        if named or isinstance(type_, t.FunctionBlock):
+            s.call = ast.Call(span=e.span, callee=e, args=[])
+            EXPRESSIONS[ast.Call](b, s.call)
+            b.report("W1144", e.span, name=text_of(e))
 
 
 def condition(b: Body, e: ast.Expr) -> None:

@@ -31,7 +31,7 @@ NODES = (ast.ExprStmt,)
 def check_statement(b: Body, s: ast.ExprStmt) -> None:
     """Reports an expression that stands alone."""
     e = s.expr
-    if isinstance(e, (ast.Call, ast.AssignExpr, ast.ErrorExpr)):
+    if s.call is not None or isinstance(e, (ast.Call, ast.AssignExpr, ast.ErrorExpr)):
         return
     if isinstance(e, ast.Binary) and e.op == "=":
         b.report("W1108", e.span)

@@ -32,6 +32,11 @@ _HEADS = frozenset([*_POU_ENDS, *_CHILD_ENDS, *_GLOBALS, "TYPE", "INTERFACE", "C
 _MODIFIERS = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "FINAL", "ABSTRACT", "OVERRIDE"])
 
 
+def _ends_name(word: str) -> bool:
+    """Whether a word stands behind a name, and is none itself."""
+    return word in ("EXTENDS", "IMPLEMENTS") or word.startswith(("VAR", "END_"))
+
+
 @dataclass(slots=True)
 class SplitText:
     """A text on its way into drafts."""
@@ -228,7 +233,7 @@ class _Splitter:
         keyword, start = word.text, self.end
         line = self.split.line(word.start)
         self.i += 1
-        while self.i < len(self.scan) and self.scan[self.i].text in _MODIFIERS:
+        while self._is_modifier(self.i):
             self.i += 1
         name = self._name_at(self.i)
         name_end = self.scan[self.i].end if self.i < len(self.scan) else len(self.text)
@@ -370,11 +375,18 @@ class _Splitter:
             self.i += 1
 
     def _name_at(self, i: int) -> str:
-        while i < len(self.scan) and self.scan[i].text in _MODIFIERS:
+        while self._is_modifier(i):
             i += 1
         if i >= len(self.scan):
             return ""
         return self.text[self.scan[i].start : self.scan[i].end]
+
+    def _is_modifier(self, i: int) -> bool:
+        """Whether a modifier stands there: such a word without a name behind it is the name itself."""
+        if i + 1 >= len(self.scan) or self.scan[i].text not in _MODIFIERS:
+            return False
+        behind = self.scan[i + 1].text
+        return NAME.fullmatch(behind) is not None and not _ends_name(behind)
 
     def _refuse(self, word: Word, stop: int) -> None:
         shown = " ".join(self.text[word.start : stop].split())
