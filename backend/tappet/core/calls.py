@@ -143,8 +143,25 @@ def prepare(b: Body, e: ast.Call) -> Prepared:
         return _instance_call(b, e, target, places.program_data(target), [])
     prepared = Prepared()
     own, static = _instance_of(b, e.callee, target)
-    finish(b, prepared, target, e.args, own, static)
+    if target.kind == "ACTION" and e.args:
+        own = _arguments_of_action(b, prepared, e.args, target, own)
+    finish(b, prepared, target, [] if target.kind == "ACTION" else e.args, own, static)
     return prepared
+
+
+def _arguments_of_action(
+    b: Body, prepared: Prepared, args: list[ast.Argument], target: PouSymbol, own: ir.Expr | None
+) -> ir.Expr | None:
+    """`inst.Act(in := a, q => x)`: inputs and outputs are those of the owner of the action (LST-23)."""
+    if own is None:
+        assert target.owner is not None
+        _pass(b, prepared, args, places.program_data(target.owner))
+        return None
+    local = b.temp(ir.PTR)
+    prepared.before.append(ir.Store(ir.Place(local), own))
+    address = ir.Load(ir.PTR, ir.Place(local))
+    _pass(b, prepared, args, ir.Place(ir.Indirect(address)))
+    return address
 
 
 def _instance_of(b: Body, callee: ast.Expr, target: PouSymbol) -> tuple[ir.Expr | None, Static | None]:
@@ -388,7 +405,19 @@ def _instance_call(
                 decl = variable.decl
                 INITIALISERS[0](b, slot, variable.type, decl.init if decl is not None else None)
             before += reset
-    for arg in e.args:
+    _pass(b, prepared, e.args, instance)
+    own = [places.address_of(instance)] if target.kind == "FUNCTION_BLOCK" else []
+    if static is not None:
+        prepared.call = call_virtual(b, BODY, static, ir.VOID, own, target)
+    else:
+        prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
+    return prepared
+
+
+def _pass(b: Body, prepared: Prepared, args: list[ast.Argument], instance: ir.Place) -> None:
+    """Store arguments in the inputs of an instance before the call, fetch its outputs after it."""
+    before = prepared.before
+    for arg in args:
         parameter, value = arg.parameter, arg.value
         if not isinstance(parameter, VarSymbol) or value is None:
             continue
@@ -405,12 +434,6 @@ def _instance_call(
             with b.block_of() as store:
                 assign.store_member(b, slot, parameter, value)
             before += store
-    own = [places.address_of(instance)] if target.kind == "FUNCTION_BLOCK" else []
-    if static is not None:
-        prepared.call = call_virtual(b, BODY, static, ir.VOID, own, target)
-    else:
-        prepared.call = ir.Call(ir.VOID, b.program.function(target), own)
-    return prepared
 
 
 def initialised_on_call(parameter: VarSymbol) -> bool:
