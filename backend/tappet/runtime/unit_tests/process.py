@@ -12,7 +12,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict, astuple, replace
 from typing import Any
 
 import msgpack
@@ -39,7 +39,7 @@ def order(
     """What the process reads."""
     content = {
         "application": options.application,
-        "libraries": [(r.name, r.version, r.namespace) for r in options.libraries],
+        "libraries": [astuple(reference) for reference in options.libraries],
         "defines": options.defines,
         "sources": [asdict(source) for source in sources],
         "tasks": [{"name": t.name, "interval_ns": t.interval_ns, "programs": t.programs} for t in tasks],
