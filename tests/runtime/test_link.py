@@ -46,6 +46,37 @@ def test_data_and_mathematics_are_resolved() -> None:
     code.close()
 
 
+def test_what_llvm_puts_in_place_of_mathematics_is_resolved() -> None:
+    """Sine and cosine of one value become one call, of REAL as of LREAL."""
+    text = (
+        TEXT
+        + """
+    declare double @cos(double)
+    declare float @sinf(float)
+    declare float @cosf(float)
+    define double @turn(double %x) #0 {
+      %s = call double @sin(double %x)
+      %c = call double @cos(double %x)
+      %r = fadd double %s, %c
+      %y = fptrunc double %x to float
+      %sf = call float @sinf(float %y)
+      %cf = call float @cosf(float %y)
+      %f = fadd float %sf, %cf
+      %g = fpext float %f to double
+      %sum = fadd double %r, %g
+      ret double %sum
+    }
+    """
+    )
+    declared = text.replace("(double)\n", "(double) #1\n").replace("(float)\n", "(float) #1\n")
+    content = object_code(declared + "attributes #1 = { nounwind willreturn memory(none) }")
+    undefined = {symbol.name for symbol in read_symbols(content)[0]}
+    assert {"sincos", "sincosf"} <= undefined
+    code = Executive.shared().linker.link([content], ["turn"], {"tappet.data.X": 4096})
+    assert ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(code["turn"])(0.0) == 2.0
+    code.close()
+
+
 def test_other_functions_of_the_process_are_refused_by_name() -> None:
     text = TEXT + "define i64 @use() { %v = call i64 @forbidden() \n ret i64 %v }"
     with pytest.raises(LinkError, match="needs 'forbidden', which this runtime does not offer"):

@@ -21,17 +21,20 @@ _OF_THE_LINKER = {"", "_GLOBAL_OFFSET_TABLE_"}
 _numbers = itertools.count(1)
 
 _MEMORY = [
-    "memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp", "strtod", "gcvt", "calloc",
+    "memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", "strcmp", "strncmp", "strtod", "gcvt", "calloc",
     "free",
 ]  # fmt: skip
 _DOUBLE = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
     "exp10", "expm1", "log", "log2", "log10", "log1p", "pow", "sqrt", "cbrt", "fmod", "fabs", "floor",
-    "ceil", "round", "trunc", "rint", "nearbyint", "lround", "llround", "hypot", "copysign", "fmin",
-    "fmax", "fma", "ldexp", "frexp", "modf",
+    "ceil", "round", "roundeven", "trunc", "rint", "nearbyint", "lround", "llround", "lrint", "llrint",
+    "hypot", "copysign", "fmin", "fmax", "fma", "ldexp", "frexp", "modf", "sincos",
 ]  # fmt: skip
 C_LIBRARY = frozenset(_MEMORY + _DOUBLE + [f"{name}f" for name in _DOUBLE])
-"""Functions of the C and mathematics library that applications may use; all else is refused by name."""
+"""Functions of the C and mathematics library that applications may use; all else is refused by name.
+
+LLVM puts some of them in place of what the code calls: sincos for SIN and COS of one value, bcmp for memcmp.
+"""
 
 
 class LinkError(RuntimeError):
