@@ -57,7 +57,7 @@ def test_into_a_project_and_the_report_for_machines(tmp_path: Path) -> None:
     answer = json.loads(said)
     assert code == 0
     assert answer["project"] == "plain"
-    assert {"source", "line", "object", "outcome", "text"} == set(answer["entries"][0])
+    assert {"source", "line", "object", "outcome", "text", "object_id"} == set(answer["entries"][0])
     assert (folder / "Devices/Tappet Soft PLC/PLC Logic/Application/Blocks/STORE.st").is_file()
     assert (folder / "Devices/Tappet Soft PLC/PLC Logic/Application/FB_Lamp.st").is_file()
 

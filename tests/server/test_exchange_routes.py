@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import zipfile
 
 from fastapi.testclient import TestClient
@@ -48,11 +49,11 @@ def test_files_go_into_a_project_and_overwrite_nothing(admin: TestClient) -> Non
     placed = admin.post(
         f"{project}/import-files",
         files={"files": ("..\\..\\x.st", b"VAR_GLOBAL\n  n : INT;\nEND_VAR")},
-        data={"application_id": application},
+        data={"place": application},
     )
     assert placed.json()["report"]["entries"][0]["source"] == "x.st"
     refused = admin.post(
-        f"{project}/import-files", files={"files": ("x.st", SOURCE)}, data={"application_id": "0" * 32}
+        f"{project}/import-files", files={"files": ("x.st", SOURCE)}, data={"place": "0" * 32}
     )
     assert refused.status_code == 404
 
@@ -65,3 +66,60 @@ def test_what_cannot_be_read_is_said_and_changes_nothing(admin: TestClient) -> N
     empty = admin.post(f"{API}/projects/import-files", files={"files": ("x.zip", archive(a=b"b"))})
     assert (empty.status_code, empty.json()["type"]) == (422, "urn:tappet:problem:folder-format")
     assert admin.get(f"{API}/projects").json() == []
+
+
+def test_a_preview_shows_what_would_come_and_changes_nothing(admin: TestClient) -> None:
+    project = admin.post(f"{API}/projects", json={"name": "Shown"}).json()["id"]
+    both = SOURCE + b"FUNCTION_BLOCK FB_Valve\nEND_FUNCTION_BLOCK\n"
+    upload = {"files": ("Pumps.st", both)}
+    before = admin.get(f"{API}/projects/{project}/objects").json()
+    shown = admin.post(f"{API}/projects/preview-files", files=upload, data={"project_id": project})
+    assert shown.status_code == 200, shown.text
+    nodes = {node["name"]: node for node in shown.json()["nodes"]}
+    assert (nodes["FB_Pump"]["kind"], nodes["FB_Pump"]["subkind"]) == ("pou", "function_block")
+    assert [e["outcome"] for e in shown.json()["report"]["entries"]] == ["imported", "imported"]
+    assert admin.get(f"{API}/projects/{project}/objects").json() == before
+    form = {"place": "pous", "chosen": json.dumps([nodes["FB_Valve"]["key"]])}
+    done = admin.post(f"{API}/projects/{project}/import-files", files=upload, data=form)
+    assert done.status_code == 200, done.text
+    (entry,) = done.json()["report"]["entries"]
+    objects = {item["id"]: item for item in admin.get(f"{API}/projects/{project}/objects").json()}
+    assert (objects[entry["object_id"]]["name"], objects[entry["object_id"]]["parent_id"]) == (
+        "FB_Valve",
+        None,
+    )
+    assert "FB_Pump" not in {item["name"] for item in objects.values()}
+    made = admin.post(
+        f"{API}/projects/import-files", files=upload, data={"chosen": json.dumps([nodes["FB_Pump"]["key"]])}
+    ).json()["project"]["id"]
+    names = {item["name"] for item in admin.get(f"{API}/projects/{made}/objects").json()}
+    assert "FB_Pump" in names
+    assert "FB_Valve" not in names
+    wrong = admin.post(f"{API}/projects/{project}/import-files", files=upload, data={"chosen": "all"})
+    assert wrong.status_code == 422
+
+
+def test_parts_go_out_as_xml_st_and_archive(admin: TestClient) -> None:
+    project = admin.post(f"{API}/projects", json={"name": "Parts"}).json()["id"]
+    upload = {"files": ("Pumps.st", SOURCE + b"TYPE E_State : (Idle, Busy); END_TYPE\n")}
+    assert admin.post(f"{API}/projects/{project}/import-files", files=upload).status_code == 200
+    ids = {item["name"]: item["id"] for item in admin.get(f"{API}/projects/{project}/objects").json()}
+    export = f"{API}/projects/{project}/export"
+    one = admin.get(f"{export}/st", params={"object": ids["FB_Pump"]})
+    assert one.text.startswith("FUNCTION_BLOCK FB_Pump")
+    assert "FB_Pump.st" in one.headers["content-disposition"]
+    with zipfile.ZipFile(io.BytesIO(admin.get(f"{export}/st").content)) as packed:
+        assert sorted(name.rpartition("/")[2] for name in packed.namelist()) == [
+            "E_State.st",
+            "FB_Pump.st",
+            "PLC_PRG.st",
+        ]
+    xml = admin.get(f"{export}/plcopen", params={"object": ids["E_State"]}).content
+    assert b"E_State" in xml
+    assert b"FB_Pump" not in xml
+    part = admin.get(export, params={"object": [ids["E_State"], ids["FB_Pump"]]}).content
+    again = admin.post(f"{API}/projects/import-files", files={"files": ("part.zip", part)}).json()
+    names = {item["name"] for item in admin.get(f"{API}/projects/{again['project']['id']}/objects").json()}
+    assert {"E_State", "FB_Pump"} <= names
+    assert "PLC_PRG" not in names
+    assert admin.get(f"{export}/st", params={"object": "0" * 32}).status_code == 404

@@ -14,7 +14,6 @@ from tappet.project.errors import ProjectError
 from tappet.project.exchange import ImportReport, import_files, is_importable
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.archive import unpack
-from tappet.project.folder.layout import PROJECT_FILE
 from tappet.project.model import Project
 
 
@@ -39,17 +38,10 @@ def import_project(
     existing = is_project(to)
     if to.exists() and (not to.is_dir() or (any(to.iterdir()) and not existing)):
         raise UsageError(f"{to} is not empty; import into a new folder or into a project folder")
-    report = ImportReport()
     try:
-        found = _files(files)
-        if any(path.rpartition("/")[2] == PROJECT_FILE for path in found):
-            if existing:
-                raise UsageError(f"{to} holds a project; import the archive of a project into a new folder")
-            project = folder.read_zip(files[0].read_bytes())
-        else:
-            into = load_project(to) if existing else None
-            imported = import_files(found, into, name="" if existing else _name(files))
-            project, report = imported.project, imported.report
+        into = load_project(to) if existing else None
+        imported = import_files(_files(files), into, name="" if existing else _name(files))
+        project, report = imported.project, imported.report
         folder.save(project, to)
     except ProjectError as error:
         raise UsageError(str(error)) from error

@@ -33,7 +33,7 @@ def library_texts(project: Project) -> dict[str, str]:
         other = seen.setdefault(name_key(item.name), item.name)
         if item.name in texts or other != item.name:
             raise NoLibraryError(f"two objects are called '{other}'; names in a library are unique")
-        texts[item.name] = _text(project, item)
+        texts[item.name] = text_with_parts(project, item)
     if not texts:
         raise NoLibraryError(
             "there is nothing to make a library of: no block, function, type or variable list"
@@ -88,7 +88,8 @@ def _parts(project: Project, item: ProjectObject) -> list[ProjectObject]:
     return [child for child in in_scope_of(project, item) if not child.excluded]
 
 
-def _text(project: Project, item: ProjectObject) -> str:
+def text_with_parts(project: Project, item: ProjectObject) -> str:
+    """The text of an object with its methods, actions and properties in it."""
     own = source_of(project, item.id)
     assert own is not None
     text = own.text.rstrip("\n") + "\n"

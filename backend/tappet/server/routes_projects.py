@@ -8,6 +8,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Form, Query, UploadFile
 from fastapi.responses import Response
 
+from tappet.project.exchange.parts import part_of
 from tappet.project.folder import read_zip, write_zip
 from tappet.project.model import Project
 from tappet.project.placement import RULES, PlacementRule
@@ -116,18 +117,26 @@ def export_project(
     who: Viewer,
     store: StoreDep,
     revision: Annotated[int | None, Query(description="As it was after this change; null: now.")] = None,
+    objects: Annotated[
+        list[str],
+        Query(alias="object", description="Only these objects with all below them; none: everything."),
+    ] = [],  # noqa: B006
 ) -> Response:
     """A project as a zip archive of its folder; the same content always gives the same bytes."""
     project = store.load(project_id, with_files=True)
     if revision is not None:
         then = store.project_at(project_id, revision)
         project = Project(project.name, project.description, then.objects, project.extra_files)
-    filename = quote(f"{project.name}.zip", safe="")
-    return Response(
-        write_zip(project),
-        media_type="application/zip",
-        headers={"Content-Disposition": f"attachment; filename=\"project.zip\"; filename*=UTF-8''{filename}"},
-    )
+    if objects:
+        project = part_of(project, objects)
+    return download(write_zip(project), f"{project.name}.zip", "application/zip")
+
+
+def download(content: bytes, filename: str, media_type: str) -> Response:
+    """A file to be saved by the browser under a name of any characters."""
+    ending = filename.rpartition(".")[2]
+    disposition = f"attachment; filename=\"project.{ending}\"; filename*=UTF-8''{quote(filename, safe='')}"
+    return Response(content, media_type=media_type, headers={"Content-Disposition": disposition})
 
 
 @router.get("/projects/{project_id}/revisions")

@@ -312,6 +312,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/libraries/{name}/{version}/projects": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Library Uses
+         * @description The projects that refer to a version of a library, or to its newest version when it is that.
+         */
+        get: operations["list_library_uses"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/me/settings/{key}": {
         parameters: {
             query?: never;
@@ -431,9 +451,29 @@ export interface paths {
         put?: never;
         /**
          * Import Files As Project
-         * @description Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, or zip archives of them.
+         * @description Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, archives of them, or our own one.
          */
         post: operations["import_files_as_project"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/preview-files": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Files
+         * @description What an import of these files would bring, and what it would say; nothing is changed.
+         */
+        post: operations["preview_files"];
         delete?: never;
         options?: never;
         head?: never;
@@ -552,6 +592,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/applications/{application_id}/static-analysis": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Run Static Analysis
+         * @description Check the application with the rules it has chosen, also with those that do not run with each build.
+         */
+        post: operations["run_static_analysis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/applications/{application_id}/tests": {
         parameters: {
             query?: never;
@@ -616,6 +676,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/export/st": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export St
+         * @description POUs, types and variable lists as ST: the text of a single one, else an archive of texts.
+         */
+        get: operations["export_st"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/import-files": {
         parameters: {
             query?: never;
@@ -627,7 +707,9 @@ export interface paths {
         put?: never;
         /**
          * Import Files Into Project
-         * @description Import files of other systems into a project, as one change; nothing in the project is overwritten.
+         * @description Import files into a project, as one change; nothing in the project is overwritten.
+         *
+         *     Without a place, the first application takes the objects.
          */
         post: operations["import_files_into_project"];
         delete?: never;
@@ -648,6 +730,8 @@ export interface paths {
         /**
          * Save As Library
          * @description Make a library of a project, everything but its programs, and install it.
+         *
+         *     A project with errors is refused: the problem `library-errors` has them in `diagnostics`.
          */
         post: operations["save_as_library"];
         delete?: never;
@@ -668,7 +752,14 @@ export interface paths {
          * @description The tree: all objects without their data, siblings in their order.
          */
         get: operations["list_objects"];
-        put?: never;
+        /**
+         * Save Objects
+         * @description Save the data of several objects as one change of the project: all of them, or none.
+         *
+         *     If somebody else saved one of them since it was read, the answer is the problem `stale-revision` (409) as
+         *     for a single object, and nothing was written.
+         */
+        put: operations["save_objects"];
         /**
          * Create Object
          * @description Add an object; without `data` it begins with the template of its kind.
@@ -713,7 +804,9 @@ export interface paths {
         head?: never;
         /**
          * Move Object
-         * @description Rename or move an object. A new name goes into the header of its declaration and into calling tasks.
+         * @description Rename or move an object, or exclude it from the build.
+         *
+         *     A new name goes into the header of its declaration and into calling tasks.
          */
         patch: operations["move_object"];
         trace?: never;
@@ -1268,6 +1361,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/static-analysis/rules": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Coding Rules
+         * @description All coding rules, by code.
+         */
+        get: operations["list_coding_rules"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/users": {
         parameters: {
             query?: never;
@@ -1331,6 +1444,12 @@ export interface components {
              */
             declaration: string;
             /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+            /**
              * Implementation
              * @default
              */
@@ -1393,6 +1512,12 @@ export interface components {
          */
         ActionData: {
             /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+            /**
              * Implementation
              * @default
              */
@@ -1450,12 +1575,27 @@ export interface components {
         };
         AnyProjectObject: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["MethodObject"] | components["schemas"]["ActionObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["UnknownObjectKind"];
         /**
+         * ApplicationData
+         * @description An application: how it is checked.
+         */
+        ApplicationData: {
+            /**
+             * @default {
+             *       "limits": {},
+             *       "prefixes": {},
+             *       "rules": {},
+             *       "with_build": true
+             *     }
+             */
+            static_analysis: components["schemas"]["StaticAnalysisData"];
+        };
+        /**
          * ApplicationObject
          * @description An application: what is compiled and downloaded as one.
          */
         ApplicationObject: {
             /** @default {} */
-            data: components["schemas"]["NoData"];
+            data: components["schemas"]["ApplicationData"];
             /**
              * Id
              * @description uuid4 as 32 hexadecimal digits.
@@ -1530,6 +1670,11 @@ export interface components {
         };
         /** Body_import_files_as_project */
         Body_import_files_as_project: {
+            /**
+             * Chosen
+             * @description JSON list: keys of the objects that are wanted; null: all of them.
+             */
+            chosen?: string | null;
             /** Files */
             files: string[];
             /**
@@ -1541,12 +1686,17 @@ export interface components {
         /** Body_import_files_into_project */
         Body_import_files_into_project: {
             /**
-             * Application Id
-             * @description The application that takes the objects; null: the first one.
+             * Chosen
+             * @description JSON list: keys of the objects that are wanted; null: all of them.
              */
-            application_id?: string | null;
+            chosen?: string | null;
             /** Files */
             files: string[];
+            /**
+             * Place
+             * @description The application or folder that takes the objects, `pous` for the POUs view.
+             */
+            place?: string | null;
         };
         /** Body_import_project */
         Body_import_project: {
@@ -1562,6 +1712,21 @@ export interface components {
         Body_install_library: {
             /** File */
             file: string;
+        };
+        /** Body_preview_files */
+        Body_preview_files: {
+            /** Files */
+            files: string[];
+            /**
+             * Place
+             * @description The application or folder that takes the objects, `pous` for the POUs view.
+             */
+            place?: string | null;
+            /**
+             * Project Id
+             * @description The project to import into; null: a new one.
+             */
+            project_id?: string | null;
         };
         /**
          * BuildReport
@@ -1628,6 +1793,40 @@ export interface components {
             ];
         };
         /**
+         * CodingRule
+         * @description A rule of the static analysis.
+         */
+        CodingRule: {
+            /** Advice */
+            advice: string;
+            /**
+             * Code
+             * @description Such as S1211; the first three characters are its group.
+             */
+            code: string;
+            /**
+             * Limits
+             * @description Limits that it sets, with those that are usual.
+             */
+            limits: {
+                [key: string]: number;
+            };
+            /**
+             * Message
+             * @description What it says; fields in braces are filled in.
+             */
+            message: string;
+            /** Name */
+            name: string;
+            /**
+             * Prefixes
+             * @description Prefixes that it asks for, with those that are usual.
+             */
+            prefixes: {
+                [key: string]: string;
+            };
+        };
+        /**
          * ColorChoice
          * @description One of two colours by a BOOL variable.
          */
@@ -1677,6 +1876,12 @@ export interface components {
              * @default
              */
             declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
         };
         /**
          * DeviceData
@@ -1946,6 +2151,11 @@ export interface components {
              */
             object: string;
             /**
+             * Object Id
+             * @description The object in the project; null: none.
+             */
+            object_id?: string | null;
+            /**
              * Outcome
              * @description imported: as it was; changed: with a difference that the text tells; kept: stored unchanged but not compiled; refused: not in the project.
              * @enum {string}
@@ -2201,6 +2411,54 @@ export interface components {
             size: number;
         };
         /**
+         * ImportNode
+         * @description An object that an import would bring.
+         */
+        ImportNode: {
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /**
+             * Key
+             * @description To be sent back when the object is chosen.
+             */
+            key: string;
+            /** Kind */
+            kind: string;
+            /** Line */
+            line: number | null;
+            /** Name */
+            name: string;
+            /** Parent */
+            parent: string | null;
+            /**
+             * Source
+             * @description The file it is in.
+             */
+            source: string;
+            /** Subkind */
+            subkind: string | null;
+        };
+        /**
+         * ImportPreview
+         * @description What an import would bring.
+         */
+        ImportPreview: {
+            /**
+             * Name
+             * @description Of the project it would go into.
+             */
+            name: string;
+            /**
+             * Nodes
+             * @description Everything in the files, parents before their children.
+             */
+            nodes: components["schemas"]["ImportNode"][];
+            report: components["schemas"]["ImportReport"];
+        };
+        /**
          * ImportReport
          * @description Everything an import has to say.
          */
@@ -2379,6 +2637,13 @@ export interface components {
              * @description Installed besides those of the product.
              */
             removable: boolean;
+            /** Requires */
+            requires: components["schemas"]["RequiredLibrary"][];
+            /**
+             * Stands For
+             * @description Libraries of other systems that it takes the place of.
+             */
+            stands_for: string[];
             /** Version */
             version: string;
         };
@@ -2470,7 +2735,10 @@ export interface components {
          * @description A library that an application uses (LIB-02, LIB-08).
          */
         LibraryReference: {
-            /** Name */
+            /**
+             * Name
+             * @description The library; of a placeholder, what it is resolved by.
+             */
             name: string;
             /**
              * Namespace
@@ -2478,6 +2746,12 @@ export interface components {
              * @default
              */
             namespace: string;
+            /**
+             * Placeholder
+             * @description Name of the placeholder: libraries that ask for it get this library.
+             * @default null
+             */
+            placeholder: string | null;
             /**
              * Version
              * @description A version, or * for the newest installed one.
@@ -2513,7 +2787,29 @@ export interface components {
              * @description Installed besides those of the product.
              */
             removable: boolean;
+            /** Requires */
+            requires: components["schemas"]["RequiredLibrary"][];
+            /**
+             * Stands For
+             * @description Libraries of other systems that it takes the place of.
+             */
+            stands_for: string[];
             /** Version */
+            version: string;
+        };
+        /**
+         * LibraryUse
+         * @description A project that refers to a library.
+         */
+        LibraryUse: {
+            /** Project Id */
+            project_id: string;
+            /** Project Name */
+            project_name: string;
+            /**
+             * Version
+             * @description What the project asks for: a version, or * for the newest one.
+             */
             version: string;
         };
         /**
@@ -2610,6 +2906,12 @@ export interface components {
              * @default
              */
             declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
             /**
              * Implementation
              * @default
@@ -2839,6 +3141,20 @@ export interface components {
             op: "object";
         };
         /**
+         * ObjectContent
+         * @description New data of one object on top of the revision that was edited.
+         */
+        ObjectContent: {
+            /** Base Revision */
+            base_revision: number;
+            /** Data */
+            data: {
+                [key: string]: unknown;
+            };
+            /** Object Id */
+            object_id: string;
+        };
+        /**
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind` (see /placement and the data schemas).
          */
@@ -2849,6 +3165,11 @@ export interface components {
             data: {
                 [key: string]: unknown;
             };
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
             /** Id */
             id: string;
             /**
@@ -2880,6 +3201,11 @@ export interface components {
              * @description Refuse if the content is newer than this.
              */
             base_revision?: number | null;
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded?: boolean | null;
             /** Index */
             index?: number | null;
             /** Name */
@@ -2920,6 +3246,11 @@ export interface components {
         ObjectSummary: {
             /** Badges */
             badges: string[];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
             /** Id */
             id: string;
             /**
@@ -2940,6 +3271,19 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * ObjectsSave
+         * @description New data of several objects, saved as one change of the project.
+         */
+        ObjectsSave: {
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+            /** Objects */
+            objects: components["schemas"]["ObjectContent"][];
         };
         OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"];
         /**
@@ -3155,6 +3499,12 @@ export interface components {
              * @default
              */
             declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
             /**
              * Implementation
              * @default
@@ -3389,6 +3739,24 @@ export interface components {
             first: number;
             /** Last */
             last: number;
+        };
+        /**
+         * RequiredLibrary
+         * @description A library that another one needs.
+         */
+        RequiredLibrary: {
+            /** Name */
+            name: string;
+            /**
+             * Namespace
+             * @description Prefix of its names there; empty: its own.
+             */
+            namespace: string;
+            /**
+             * Version
+             * @description A version, or * for the one that the application refers to.
+             */
+            version: string;
         };
         /**
          * ResetOrder
@@ -3683,6 +4051,39 @@ export interface components {
             state: ("empty" | "stop" | "run" | "exception") | null;
             /** Url */
             url: string;
+        };
+        /**
+         * StaticAnalysisData
+         * @description The coding rules of an application (`tappet check --static`); what is not named is as it is for all.
+         */
+        StaticAnalysisData: {
+            /**
+             * Limits
+             * @description Limits of sizes, by what they limit.
+             */
+            limits?: {
+                [key: string]: number;
+            };
+            /**
+             * Prefixes
+             * @description What names begin with, by kind of object or type.
+             */
+            prefixes?: {
+                [key: string]: string;
+            };
+            /**
+             * Rules
+             * @description Rules that are switched on, by code, and what their findings are.
+             */
+            rules?: {
+                [key: string]: "warning" | "error";
+            };
+            /**
+             * With Build
+             * @description The rules run with every build.
+             * @default true
+             */
+            with_build: boolean;
         };
         /**
          * Subscribe
@@ -4935,6 +5336,47 @@ export interface operations {
             };
         };
     };
+    list_library_uses: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                version: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryUse"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     read_setting: {
         parameters: {
             query?: never;
@@ -5242,6 +5684,48 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ImportResult"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    preview_files: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_preview_files"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportPreview"];
                 };
             };
             /** @description The request was refused */
@@ -5595,6 +6079,47 @@ export interface operations {
             };
         };
     };
+    run_static_analysis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BuildReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     run_tests: {
         parameters: {
             query?: never;
@@ -5684,6 +6209,8 @@ export interface operations {
             query?: {
                 /** @description As it was after this change; null: now. */
                 revision?: number | null;
+                /** @description Only these objects with all below them; none: everything. */
+                object?: string[];
             };
             header?: never;
             path: {
@@ -5724,7 +6251,10 @@ export interface operations {
     };
     export_plcopen: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Only these objects with all below them; none: everything. */
+                object?: string[];
+            };
             header?: never;
             path: {
                 project_id: string;
@@ -5740,6 +6270,49 @@ export interface operations {
                 };
                 content: {
                     "application/xml": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    export_st: {
+        parameters: {
+            query?: {
+                /** @description Only these objects with all below them; none: everything. */
+                object?: string[];
+            };
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": string;
                 };
             };
             /** @description The request was refused */
@@ -5868,6 +6441,50 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ObjectSummary"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    save_objects: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ObjectsSave"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectDetail"][];
                 };
             };
             /** @description The request was refused */
@@ -7298,6 +7915,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Values"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_coding_rules: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CodingRule"][];
                 };
             };
             /** @description The request was refused */

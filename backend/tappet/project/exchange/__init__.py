@@ -4,7 +4,17 @@ May import `tappet.project` only. Start reading at `importing` (which file goes 
 `drafts` and `placing`; `plcopen_write` is the exporter. `docs/import-export.md` says what is read.
 """
 
+from tappet.project.exchange.choosing import ImportNode
 from tappet.project.exchange.importing import Imported, import_files, is_importable
+from tappet.project.exchange.placing import Place
 from tappet.project.exchange.report import ExchangeError, ImportReport
 
-__all__ = ["ExchangeError", "ImportReport", "Imported", "import_files", "is_importable"]
+__all__ = [
+    "ExchangeError",
+    "ImportNode",
+    "ImportReport",
+    "Imported",
+    "Place",
+    "import_files",
+    "is_importable",
+]

@@ -55,6 +55,11 @@ class Batch:
     complete: bool = False
     """Whether the file is our own export, in which nothing is missing that a new project has."""
 
+    @property
+    def empty(self) -> bool:
+        """Nothing was read."""
+        return not (self.loose.children or self.devices or self.pous.children)
+
 
 TEXT_LANGUAGES = ("ST", "IL")
 GRAPHICAL_LANGUAGES = ("LD", "FBD", "CFC", "SFC")

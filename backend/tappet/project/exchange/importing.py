@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 
 from tappet.project.exchange import twincat
+from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
 from tappet.project.exchange.decoding import decode_text, decode_xml
 from tappet.project.exchange.drafts import Batch, task_configuration
-from tappet.project.exchange.placing import empty_project, place
+from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
+from tappet.project.exchange.placing import Place, empty_project, place
 from tappet.project.exchange.plcopen_read import read_plcopen
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.split_text import split_text
@@ -31,6 +33,8 @@ class Imported:
 
     project: Project
     report: ImportReport
+    nodes: list[ImportNode]
+    """All that the files hold, chosen or not."""
 
 
 def is_importable(path: str) -> bool:
@@ -42,20 +46,49 @@ def import_files(
     files: Mapping[str, bytes],
     into: Project | None = None,
     *,
-    application_id: str | None = None,
+    where: Place | None = None,
+    chosen: Collection[str] | None = None,
     name: str = "",
 ) -> Imported:
     """Import files, given by path (`/` between the parts), into a project or into a new one.
 
-    A file that cannot be read does not hinder the others: the report says why. Raises ExchangeError when
-    no file could be read, with the reason of the first.
+    A file that cannot be read does not hinder the others: the report says why. `where` is the place in the
+    project; `chosen` are the keys of the objects that are wanted (None: all), as the tree of an earlier call
+    has them. Raises ExchangeError when nothing could be read, with the reason of the first file.
     """
     report = ImportReport()
     batch = Batch()
+    failures = _read_all(files, batch, report)
+    if failures and batch.empty:
+        raise failures[0]
+    nodes = nodes_of(batch)
+    if chosen is not None:
+        keep_chosen(batch, chosen)
+    tops = project_tops(files)
+    whole = chosen is None and into is None and len(tops) == 1 and all(p.startswith(tops[0]) for p in files)
+    if into is None:
+        stem = posixpath.basename(next(iter(sorted(files)), "Import")).rsplit(".", 1)[0]
+        into = empty_project(name or batch.name or stem, batch.description)
+    placed = place(batch, into, report, where)
+    if whole:  # our own archive as a new project: with its further files, too
+        placed = replace(placed, extra_files=project_in(tops[0], files).extra_files)
+    return Imported(placed, report, nodes)
+
+
+def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) -> list[ExchangeError]:
+    """Read every file; the faults of those that cannot be read at all."""
     projects = sorted(path for path in files if path.lower().endswith(".plcproj"))
     used: set[str] = set()
     failures: list[ExchangeError] = []
+    for top in project_tops(files):
+        used |= {path for path in files if path.startswith(top)}
+        try:
+            read_folder(top, files, batch)
+        except ExchangeError as error:
+            _failed(error.source, error, report, failures)
     for path in projects:
+        if path in used:
+            continue
         try:
             used |= read_project(path, files, batch, report, own_device=len(projects) > 1)
         except ExchangeError as error:
@@ -71,12 +104,7 @@ def import_files(
             _read(path, files[path], batch, report)
         except ExchangeError as error:
             _failed(path, error, report, failures)
-    if failures and len(failures) == len(files):
-        raise failures[0]
-    if into is None:
-        stem = posixpath.basename(next(iter(sorted(files)), "Import")).rsplit(".", 1)[0]
-        into = empty_project(name or batch.name or stem, batch.description)
-    return Imported(place(batch, into, report, application_id), report)
+    return failures
 
 
 def _failed(path: str, error: ExchangeError, report: ImportReport, failures: list[ExchangeError]) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tappet.project.declaration_text import rename_header
-from tappet.project.errors import InvalidDataError, InvalidNameError
+from tappet.project.errors import InvalidDataError, InvalidNameError, UnknownObjectError
 from tappet.project.exchange.drafts import Batch, Draft, library_manager, plc_logic, task_configuration
 from tappet.project.exchange.report import ImportReport
 from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
@@ -25,16 +25,27 @@ _REPORTED = frozenset(
 )
 
 
-def place(batch: Batch, project: Project, report: ImportReport, application_id: str | None = None) -> Project:
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where in a project the drafts go: an application, the POUs view (None), or a folder in one of them."""
+
+    parent_id: str | None
+
+
+def place(batch: Batch, project: Project, report: ImportReport, where: Place | None = None) -> Project:
     """The project with the drafts in it.
 
-    A project without an application gets a device for what needs one. `application_id` is the application
-    that takes the drafts of no named application and those of the first named one; without it, the first of
-    the project. Raises ProjectError when the outcome is no sound project, which is a fault of the importer.
+    A project without an application gets a device for what needs one. `where` takes the drafts of no named
+    application and those of the first named one; without it, the first application of the project does.
+    Raises UnknownObjectError for a place that cannot take objects, ProjectError when the outcome is no sound
+    project, which is a fault of the importer.
     """
     fresh = not project.objects
-    target = application_id or next((item.id for item in project.applications()), None)
     placer = _Placer(project, report)
+    if where is not None:
+        _place_in(where, batch, placer)
+        return placer.outcome()
+    target = next((item.id for item in project.applications()), None)
     devices = list(batch.devices)
     if batch.loose.children and devices and target is None:
         first = next(_applications(devices[0]), None)
@@ -63,9 +74,20 @@ def place(batch: Batch, project: Project, report: ImportReport, application_id: 
                 _give_defaults(application)
         placer.add(device, None)
     placer.children(batch.pous, None)
-    result = replace(project, objects=placer.objects)
-    check_project(result)
-    return result
+    return placer.outcome()
+
+
+def _place_in(where: Place, batch: Batch, placer: _Placer) -> None:
+    """All drafts at one place; of the devices only their applications come in."""
+    placer.check_place(where.parent_id)
+    placer.spread(batch.loose, where.parent_id)
+    for device in batch.devices:
+        for application in _applications(device):
+            placer.spread(application, where.parent_id)
+            if where.parent_id is not None:
+                placer.note_merged(device, application, where.parent_id)
+    owner = placer.owner(where.parent_id)
+    placer.children(batch.pous, where.parent_id if owner is None else None)
 
 
 def _give_defaults(application: Draft) -> None:
@@ -103,6 +125,39 @@ class _Placer:
             owner = owner_of(project, item.parent_id)
             self._enter(item, owner.id if owner else None)
         self._project = project
+        self._placed: dict[tuple[str, int | None], str] = {}
+        """Object of each file and line."""
+
+    def outcome(self) -> Project:
+        """The project with all that was placed; the report then knows the objects."""
+        self.report.tell_objects(self._placed)
+        result = replace(self._project, objects=self.objects)
+        check_project(result)
+        return result
+
+    def owner(self, parent_id: str | None) -> str | None:
+        """The object that what is below `parent_id` belongs to."""
+        return self._owners[parent_id]
+
+    def check_place(self, parent_id: str | None) -> None:
+        """Raise UnknownObjectError unless objects of an import can be there."""
+        if parent_id is None:
+            return
+        item = self._project.get(parent_id)
+        owner = self._owners[parent_id]
+        if item.kind not in ("application", "folder") or (
+            owner is not None and self.objects[owner].kind != "application"
+        ):
+            raise UnknownObjectError(
+                f"'{item.name}' takes no imported objects; choose an application, the POUs view or a folder"
+            )
+
+    def spread(self, draft: Draft, parent_id: str | None) -> None:
+        """Place what is below a draft at a place; what cannot be in a folder goes beside it."""
+        for child in draft.children:
+            rule = RULES.get(child.kind)
+            beside = rule is not None and not rule.in_folders
+            self.add(child, self._owners[parent_id] if beside else parent_id)
 
     def _enter(self, item: ProjectObject, owner_id: str | None) -> None:
         self.objects[item.id] = item
@@ -146,10 +201,13 @@ class _Placer:
             self.report.add("refused", draft.source, str(error), name=draft.name, line=draft.line)
             return
         self._enter(item, self._owners[parent_id])
+        self._placed.setdefault((draft.source, draft.line), item.id)
         if draft.kind in _REPORTED and (draft.source, draft.line) not in self._noted:
             owner = self.objects.get(self._owners[parent_id] or "")
             prefix = f"{owner.name}." if owner is not None and owner.kind in ("pou", "interface") else ""
-            self.report.add("imported", draft.source, name=f"{prefix}{item.name}", line=draft.line)
+            self.report.add(
+                "imported", draft.source, name=f"{prefix}{item.name}", line=draft.line, object_id=item.id
+            )
         self.children(draft, item.id)
 
     def _misplaced(self, kind: str, name: str, parent_id: str | None) -> str | None:

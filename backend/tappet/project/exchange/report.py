@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -41,6 +41,7 @@ class Entry(BaseModel):
         "unchanged but not compiled; refused: not in the project."
     )
     text: str = Field(default="", description="What was changed or why it could not be read.")
+    object_id: str | None = Field(default=None, description="The object in the project; null: none.")
 
     def __str__(self) -> str:
         place = self.source if self.line is None else f"{self.source}:{self.line}"
@@ -54,14 +55,32 @@ class ImportReport(BaseModel):
     entries: list[Entry] = Field(default_factory=list)
 
     def add(
-        self, outcome: Outcome, source: str, text: str = "", *, name: str = "", line: int | None = None
+        self,
+        outcome: Outcome,
+        source: str,
+        text: str = "",
+        *,
+        name: str = "",
+        line: int | None = None,
+        object_id: str | None = None,
     ) -> None:
         """Append an entry; past the limit only the last entry counts on."""
         if len(self.entries) < MAX_ENTRIES:
-            self.entries.append(Entry(source=source, line=line, object=name, outcome=outcome, text=text))
+            self.entries.append(
+                Entry(source=source, line=line, object=name, outcome=outcome, text=text, object_id=object_id)
+            )
         else:
             note = f"more than {MAX_ENTRIES} entries; the further ones are left out"
             self.entries[-1] = Entry(source=source, outcome=outcome, text=note)
+
+    def tell_objects(self, placed: Mapping[tuple[str, int | None], str]) -> None:
+        """Give the entries whose object is known by its file and line the id it has in the project."""
+        self.entries = [
+            entry
+            if entry.object_id is not None or entry.outcome == "refused" or entry.line is None
+            else entry.model_copy(update={"object_id": placed.get((entry.source, entry.line))})
+            for entry in self.entries
+        ]
 
     def counts(self) -> dict[Outcome, int]:
         """Number of entries of each outcome that occurs."""

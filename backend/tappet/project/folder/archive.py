@@ -8,6 +8,7 @@ import struct
 import unicodedata
 import zipfile
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import BinaryIO
 
@@ -55,11 +56,16 @@ DEFAULT_LIMITS = Limits()
 
 def write_zip(project: Project) -> bytes:
     """A project as an archive of its folder. The same project always gives the same bytes."""
-    buffer = io.BytesIO()
     top = stem_of(project.name)
+    return zip_files({f"{top}/{path}": content for path, content in encode(project).items()})
+
+
+def zip_files(files: Mapping[str, bytes]) -> bytes:
+    """An archive of files by path; equal files give equal bytes."""
+    buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path, content in encode(project).items():
-            info = zipfile.ZipInfo(f"{top}/{path}", _EPOCH)
+        for path, content in files.items():
+            info = zipfile.ZipInfo(path, _EPOCH)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (stat.S_IFREG | 0o644) << 16
             archive.writestr(info, content)

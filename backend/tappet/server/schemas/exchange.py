@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
-from tappet.project.exchange import ImportReport
+from pydantic import Field
+
+from tappet.project.exchange import ImportNode, ImportReport
 from tappet.server.schemas.base import Reply
 from tappet.server.schemas.projects import ProjectSummary
+
+
+class ImportPreview(Reply):
+    """What an import would bring."""
+
+    name: str = Field(description="Of the project it would go into.")
+    nodes: list[ImportNode] = Field(description="Everything in the files, parents before their children.")
+    report: ImportReport
 
 
 class ImportResult(Reply):

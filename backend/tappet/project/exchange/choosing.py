@@ -1,0 +1,78 @@
+"""What an import would bring, as a tree to choose from, and leaving out what is not chosen.
+
+A node is named by its place in what was read: reading the same files again gives the same names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from tappet.project.declaration_text import subkind_of
+from tappet.project.exchange.drafts import Batch, Draft
+
+
+class ImportNode(BaseModel):
+    """An object that an import would bring."""
+
+    model_config = ConfigDict(frozen=True)
+
+    key: str = Field(description="To be sent back when the object is chosen.")
+    parent: str | None
+    kind: str
+    subkind: str | None
+    name: str
+    source: str = Field(description="The file it is in.")
+    line: int | None
+    excluded: bool = Field(description="From the build.")
+
+
+def nodes_of(batch: Batch) -> list[ImportNode]:
+    """Everything that was read, parents before their children."""
+    return [
+        ImportNode(
+            key=key,
+            parent=parent,
+            kind=draft.kind,
+            subkind=subkind_of(str(draft.data.get("declaration", ""))) if draft.kind in _TOLD else None,
+            name=draft.name,
+            source=draft.source,
+            line=draft.line,
+            excluded=bool(draft.data.get("exclude_from_build")),
+        )
+        for key, parent, draft in _walk(batch)
+    ]
+
+
+def keep_chosen(batch: Batch, chosen: Collection[str]) -> None:
+    """Leave out what is not chosen; what holds something that is chosen stays."""
+    wanted = set(chosen)
+    kept: set[Draft] = set()
+    above: dict[str, tuple[str | None, Draft]] = {}
+    for key, parent, draft in _walk(batch):
+        above[key] = parent, draft
+        up: str | None = key if key in wanted else None
+        while up is not None and above[up][1] not in kept:
+            kept.add(above[up][1])
+            up = above[up][0]
+    for holder in (batch.loose, batch.pous, *(draft for _, draft in above.values())):
+        holder.children = [child for child in holder.children if child in kept]
+    batch.devices = [device for device in batch.devices if device in kept]
+
+
+_TOLD = frozenset(["pou", "dut"])
+"""Kinds whose declaration tells what they are."""
+
+
+def _walk(batch: Batch) -> Iterator[tuple[str, str | None, Draft]]:
+    """Key, key of the parent, draft."""
+    tops = (("application", batch.loose.children), ("device", batch.devices), ("pou", batch.pous.children))
+    waiting: list[tuple[str, str | None, Draft]] = [
+        (f"{name}.{index}", None, draft) for name, drafts in tops for index, draft in enumerate(drafts)
+    ]
+    waiting.reverse()
+    while waiting:
+        key, parent, draft = waiting.pop()
+        yield key, parent, draft
+        waiting += reversed([(f"{key}.{i}", key, child) for i, child in enumerate(draft.children)])

@@ -1,0 +1,45 @@
+"""Parts of a project on their way out: what is chosen with what is above and below it, and ST texts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from tappet.project.errors import UnknownObjectError
+from tappet.project.folder.filenames import stem_of
+from tappet.project.library_texts import KINDS, text_with_parts
+from tappet.project.model import Project, ProjectObject
+
+
+def part_of(project: Project, ids: Collection[str]) -> Project:
+    """The objects with these ids, all below them, and what they stand in. Raises UnknownObjectError."""
+    kept: set[str] = set()
+    for object_id in ids:
+        kept.add(project.get(object_id).id)
+        kept.update(item.id for item in project.walk(object_id))
+        kept.update(item.id for item in project.ancestors(object_id))
+    objects: dict[str, ProjectObject] = {}
+    places: dict[tuple[str | None, bool], int] = {}
+    for item in project.walk():
+        if item.id in kept:
+            view = item.parent_id, item.kind == "device"
+            index = places.get(view, 0)
+            places[view] = index + 1
+            objects[item.id] = item.model_copy(update={"index": index})
+    return Project(project.name, project.description, objects)
+
+
+def st_files(project: Project) -> dict[str, str]:
+    """The ST text of every POU, type, interface and variable list by path, in the folders of the tree.
+
+    Raises UnknownObjectError when there is none.
+    """
+    found = {}
+    for item in project.walk():
+        if item.kind in KINDS or item.kind == "persistent":
+            names = [above.name for above in project.ancestors(item.id)][::-1]
+            found["/".join([*map(stem_of, names), f"{stem_of(item.name)}.st"])] = text_with_parts(
+                project, item
+            )
+    if not found:
+        raise UnknownObjectError("Nothing of what was chosen is ST text: no POU, type or variable list")
+    return found
