@@ -1,5 +1,5 @@
 /** The language client of the open project: started with the first text editor, changed with the project. */
-import type { IDisposable } from 'monaco-editor/editor/editor.api';
+import type { IDisposable, IPosition, IRange } from 'monaco-editor/editor/editor.api';
 import { keys, queryClient } from '@/api/queries';
 import type { Diagnostic, ObjectSummary } from '@/api/types';
 import { openDocument, type TextDocument } from '@/editors/documents/documents';
@@ -56,26 +56,8 @@ export function languageClient(monaco: Monaco, projectId: string): LanguageClien
     providers = registerProviders(monaco, made, source);
   });
   opener ??= monaco.editor.registerEditorOpener({
-    openCodeEditor: (_editor, resource, selection) => {
-      const library = parseLibraryUri(resource.toString());
-      if (library !== null) {
-        void showDocumentation(library.library, library.item);
-        return true;
-      }
-      const address = parsePartUri(resource.toString());
-      if (address === null) return false;
-      const start = selection === undefined ? undefined : 'lineNumber' in selection ? selection : null;
-      const place =
-        start === undefined
-          ? { line: 1, column: 1 }
-          : start !== null
-            ? { line: start.lineNumber, column: start.column }
-            : rangeStart(selection);
-      openObject(address.objectId, nameOf(address.projectId, address.objectId), {
-        place: { part: address.part, ...place },
-      });
-      return true;
-    },
+    openCodeEditor: (_editor, resource, selection) =>
+      openLocation(resource.toString(), selection === undefined ? undefined : rangeStart(selection)),
   });
   return made;
 }
@@ -107,9 +89,25 @@ function publish(uri: string, diagnostics: readonly ServerDiagnostic[]): void {
   publishDiagnostics(objectId, [...(own.declaration ?? []), ...(own.implementation ?? [])]);
 }
 
-function rangeStart(selection: unknown): { line: number; column: number } {
-  const range = selection as { startLineNumber: number; startColumn: number };
-  return { line: range.startLineNumber, column: range.startColumn };
+/** Opens the text or the library page at an address; false where there is none. */
+export function openLocation(uri: string, place = { line: 1, column: 1 }): boolean {
+  const library = parseLibraryUri(uri);
+  if (library !== null) {
+    void showDocumentation(library.library, library.item);
+    return true;
+  }
+  const address = parsePartUri(uri);
+  if (address === null) return false;
+  openObject(address.objectId, nameOf(address.projectId, address.objectId), {
+    place: { part: address.part, ...place },
+  });
+  return true;
+}
+
+function rangeStart(selection: IRange | IPosition): { line: number; column: number } {
+  return 'lineNumber' in selection
+    ? { line: selection.lineNumber, column: selection.column }
+    : { line: selection.startLineNumber, column: selection.startColumn };
 }
 
 /** The client of the open project, if a text editor has been shown yet. */

@@ -1,6 +1,13 @@
-import { useEffect, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
+import { useEffect, useImperativeHandle, useRef, useState, type KeyboardEvent, type ReactNode, type Ref } from 'react';
 import { Floating } from '@/workbench/ui/Floating';
 import styles from './Grid.module.css';
+import { SuggestionList } from './SuggestionList';
+import { useProposals, type Proposal, type Propose } from './useProposals';
+
+export interface CellInputHandle {
+  /** Shows what may stand at the caret. */
+  suggest: () => void;
+}
 
 interface CellInputProps {
   label: string;
@@ -16,6 +23,11 @@ interface CellInputProps {
   /** A button in the cell, such as the type browser. */
   button?: (text: string) => ReactNode;
   suggestions?: readonly string[];
+  /** What may stand at the caret, asked while typing. */
+  propose?: Propose;
+  /** First look at keys; true when the key was used. */
+  onKey?: (event: KeyboardEvent, text: string) => boolean;
+  handle?: Ref<CellInputHandle>;
 }
 
 /** Edits a cell in place: Enter and leaving take the text, Escape does not; a refused text keeps the cell open. */
@@ -28,6 +40,9 @@ export function CellInput(props: CellInputProps) {
   const done = useRef(false);
   const [anchor, setAnchor] = useState<HTMLDivElement | null>(null);
   const floating = useRef<HTMLDivElement>(null);
+  const proposals = useProposals(props.propose);
+  const caret = () => field.current?.selectionEnd ?? text.length;
+  useImperativeHandle(props.handle, () => ({ suggest: () => proposals.ask(text, caret(), true) }));
 
   useEffect(() => {
     const input = field.current;
@@ -36,16 +51,29 @@ export function CellInput(props: CellInputProps) {
     else input?.setSelectionRange(initial.length, initial.length);
   }, [initial]);
 
-  const commit = (key: 'Enter' | 'Tab' | 'blur', backwards = false) => {
+  const commit = (key: 'Enter' | 'Tab' | 'blur', backwards = false, taken = text) => {
     if (done.current) return;
-    const problem = check?.(text) ?? null;
+    const problem = check?.(taken) ?? null;
     setRefused(problem);
     if (problem !== null) {
       field.current?.focus();
       return;
     }
     done.current = true;
-    onCommit(text, key, backwards);
+    onCommit(taken, key, backwards);
+  };
+  const change = (next: string) => {
+    setText(next);
+    setRefused(null);
+    proposals.ask(next, caret(), false);
+  };
+  const take = (proposal: Proposal, key?: 'Tab', backwards = false) => {
+    const next = text.slice(0, proposal.start) + proposal.insert + text.slice(caret());
+    const at = proposal.start + proposal.insert.length;
+    proposals.close();
+    setText(next);
+    if (key !== undefined) commit(key, backwards, next);
+    else requestAnimationFrame(() => field.current?.setSelectionRange(at, at));
   };
   const cancel = () => {
     done.current = true;
@@ -54,7 +82,19 @@ export function CellInput(props: CellInputProps) {
   const onKeyDown = (event: KeyboardEvent) => {
     event.stopPropagation();
     if (event.nativeEvent.isComposing) return;
-    if (event.key === 'Escape') {
+    const { items, at } = proposals;
+    if (items.length > 0 && (event.key === 'ArrowDown' || event.key === 'ArrowUp')) {
+      event.preventDefault();
+      proposals.move(event.key === 'ArrowDown' ? 1 : -1);
+    } else if (items.length > 0 && event.key === 'Escape') {
+      event.preventDefault();
+      proposals.close();
+    } else if (items[at] !== undefined && !event.ctrlKey && (event.key === 'Enter' || event.key === 'Tab')) {
+      event.preventDefault();
+      take(items[at], event.key === 'Tab' ? 'Tab' : undefined, event.shiftKey);
+    } else if (props.onKey?.(event, text) === true) {
+      event.preventDefault();
+    } else if (event.key === 'Escape') {
       event.preventDefault();
       cancel();
     } else if (event.key === 'Enter' && event.ctrlKey && props.multiline === true) {
@@ -109,11 +149,11 @@ export function CellInput(props: CellInputProps) {
             {...common}
             className={styles.area}
             rows={Math.min(8, Math.max(2, text.split('\n').length))}
-            onChange={(event) => setText(event.target.value)}
+            onChange={(event) => change(event.target.value)}
           />
         </Floating>
       ) : (
-        <input {...common} className={styles.input} list={listId} onChange={(event) => setText(event.target.value)} />
+        <input {...common} className={styles.input} list={listId} onChange={(event) => change(event.target.value)} />
       )}
       {listId && (
         <datalist id={listId}>
@@ -123,6 +163,14 @@ export function CellInput(props: CellInputProps) {
         </datalist>
       )}
       {props.button?.(text)}
+      {proposals.items.length > 0 && (
+        <SuggestionList
+          anchor={anchor}
+          items={proposals.items.map((item, index) => ({ ...item, key: `${String(index)} ${item.label}` }))}
+          at={proposals.at}
+          onTake={(index) => take(proposals.items[index]!)}
+        />
+      )}
       {refused !== null && (
         <Floating anchor={anchor} className={styles.refused}>
           <span role="alert">{refused}</span>

@@ -51,8 +51,9 @@ interface GridProps {
   /** The cell being edited, and what edits it. */
   editing?: GridEditing | null;
   editor?: (editing: GridEditing) => ReactNode;
-  /** A double click, F2, Enter, or typing on a cell. */
+  /** A double click, F2, Enter, or typing on a cell; with `editOnClick` also a click on the cursor's cell. */
   onEdit?: (editing: GridEditing) => void;
+  editOnClick?: boolean;
   /** First look at keys while no cell is edited; true when the key was used. */
   onKey?: (event: KeyboardEvent) => boolean;
   /** A click into the empty area behind the last row. */
@@ -93,6 +94,8 @@ export function Grid(props: GridProps) {
     if (wasEditing.current && editing === null && document.activeElement === document.body) scroll.current?.focus();
     wasEditing.current = editing !== null;
   }, [editing]);
+  /** The button went down on the cell that had the cursor already. */
+  const again = useRef(false);
   const cursorRow = cursor?.row ?? -1;
   useEffect(() => {
     if (cursorRow >= 0 && cursorRow < count) virtual.scrollToIndex(cursorRow, { align: 'auto' });
@@ -211,10 +214,16 @@ export function Grid(props: GridProps) {
                   title={edited ? undefined : props.hint?.(row, column)}
                   onPointerDown={(event) => {
                     if (edited || (event.button !== 0 && props.selected.has(row))) return;
+                    const plain = event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey;
+                    again.current = plain && cursor?.row === row && cursor.column === at;
                     onCursor(
                       { row, column: at },
                       event.ctrlKey || event.metaKey ? 'toggle' : event.shiftKey ? 'range' : 'one',
                     );
+                  }}
+                  onClick={() => {
+                    if (props.editOnClick === true && again.current && !edited) onEdit?.({ row, column: at });
+                    again.current = false;
                   }}
                   onDoubleClick={() => !edited && onEdit?.({ row, column: at })}
                 >

@@ -6,19 +6,32 @@ import { channelOf } from '@/online/connections';
 import { useMemberNames, useSymbols } from '@/online/useLive';
 import { useObjectSession } from '@/online/useObjectSession';
 import type { EditorProps } from '@/workbench/editors';
+import type { OnlineSession } from '@/workbench/onlineSession';
 import type { OpenText } from '../documents/useTextDocument';
 import { useEditorSettings } from '../settings';
 import type { CodeEditor } from '../st/CodePane';
-import { InlineMonitor } from './inlineMonitor';
+import { InlineMonitor, type MonitorSettings } from './inlineMonitor';
 import { monitorTarget } from './monitorScope';
 import { openPreparePopup } from './preparePopup';
 import { noteRunningText, runningText } from './runningText';
 import { unchangedLines } from './staleLines';
 
-type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; editor: CodeEditor | null };
+type MonitoredProps = Pick<EditorProps, 'projectId' | 'instance'> &
+  Pick<OpenText, 'document'> & { object: ObjectSummary };
 
-/** Values behind the variables of an implementation while logged in; a click on one prepares a value. */
-export function useOnlineView({ projectId, object, instance, monaco, document, editor }: OnlineViewProps): void {
+interface Monitored {
+  readonly session: OnlineSession | null;
+  readonly runtimeId: string | null;
+  /** Null while logged out. */
+  readonly settings: MonitorSettings | null;
+  /** Whether values can be shown. */
+  readonly ready: boolean;
+  /** Function block whose instance has to be chosen first. */
+  readonly needsInstanceOf: string | null;
+}
+
+/** What an implementation needs to show its values: where its variables live, and which lines are the running ones. */
+export function useMonitored({ projectId, object, instance, document }: MonitoredProps): Monitored {
   const { data: objects } = useObjects(projectId);
   const session = useObjectSession(projectId, object);
   const runtimeId = session?.runtimeId ?? null;
@@ -55,6 +68,15 @@ export function useOnlineView({ projectId, object, instance, monaco, document, e
   );
   // Without a chosen instance, names of the block would be taken for globals: better no values than wrong ones.
   const ready = settings !== null && target.needsInstanceOf === null && (target.path === null || members !== null);
+  return { session, runtimeId, settings, ready, needsInstanceOf: target.needsInstanceOf };
+}
+
+type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; editor: CodeEditor | null };
+
+/** Values behind the variables of an implementation while logged in; a click on one prepares a value. */
+export function useOnlineView(props: OnlineViewProps): void {
+  const { monaco, editor } = props;
+  const { runtimeId, settings, ready } = useMonitored(props);
   const monitor = useRef<InlineMonitor | null>(null);
 
   useEffect(() => {

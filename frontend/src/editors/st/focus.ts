@@ -58,7 +58,7 @@ export function removePanelEditor(panelId: string, part: Part): void {
   const panel = panels.get(panelId);
   if (panel === undefined) return;
   delete panel.editors[part];
-  if (Object.keys(panel.editors).length === 0) {
+  if (Object.keys(panel.editors).length === 0 && panel.table?.place === undefined) {
     panels.delete(panelId);
     setCursor(panelId, null);
   }

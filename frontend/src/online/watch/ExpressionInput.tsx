@@ -1,11 +1,10 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
-import { Floating } from '@/workbench/ui/Floating';
 import grid from '@/editors/grid/Grid.module.css';
+import { SuggestionList } from '@/editors/grid/SuggestionList';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { useSymbols } from '../useLive';
 import { completionsFor, isComplete, preselected, type ExpressionCompletion } from './completion';
-import styles from './ExpressionInput.module.css';
 
 interface ExpressionInputProps {
   session: OnlineSession | null;
@@ -16,7 +15,6 @@ interface ExpressionInputProps {
 }
 
 const MOST_SHOWN = 200;
-const intoView = (option: HTMLElement | null) => option?.scrollIntoView({ block: 'nearest' });
 
 /** Types an expression with the variables of the loaded application as suggestions. */
 export function ExpressionInput({ session, value, initial, onCommit, onCancel }: ExpressionInputProps) {
@@ -101,26 +99,12 @@ export function ExpressionInput({ session, value, initial, onCommit, onCancel }:
         onBlur={() => finish(true)}
       />
       {items.length > 0 && (
-        <Floating anchor={anchor} className={styles.list}>
-          <div role="listbox">
-            {items.map((item, index) => (
-              <div
-                key={item.expression}
-                role="option"
-                aria-selected={index === at}
-                ref={index === at ? intoView : undefined}
-                className={styles.option}
-                onPointerDown={(event) => {
-                  event.preventDefault();
-                  take(item, '.');
-                }}
-              >
-                <span>{item.name}</span>
-                <i>{item.type}</i>
-              </div>
-            ))}
-          </div>
-        </Floating>
+        <SuggestionList
+          anchor={anchor}
+          items={items.map((item) => ({ key: item.expression, label: item.name, detail: item.type }))}
+          at={at}
+          onTake={(index) => take(items[index]!, '.')}
+        />
       )}
     </div>
   );
