@@ -182,7 +182,7 @@ def test_constants_that_need_each_other() -> None:
         ("VAR a : REFERENCE TO REFERENCE TO INT; END_VAR", "E0407"),
         ("VAR a : POINTER TO REFERENCE TO INT; END_VAR", "E0407"),
         ("VAR a : ARRAY[*] OF INT; END_VAR", "E0414"),
-        ("VAR CONSTANT a : INT; END_VAR", "E0406"),
+        ("VAR CONSTANT a : INT; END_VAR", "W1223"),
         ("VAR a : P; END_VAR", "E0422"),
         ("VAR A__B : INT; END_VAR", "E0206"),
         ("VAR RETAIN x AT %MX0.0 : BOOL; END_VAR", "E0402"),
@@ -222,7 +222,7 @@ def test_enumeration_values_by_constants_and_each_other() -> None:
 @pytest.mark.parametrize(
     ("text", "code"),
     [
-        ("TYPE E : (a := 5, b := 3); END_TYPE", "E0332"),
+        ("TYPE E : (a := 5, b := 3); END_TYPE", "W1222"),
         ("TYPE E : (a := 300) BYTE; END_TYPE", "E0331"),
         ("TYPE E : (a, A); END_TYPE", "E0205"),
         ("TYPE E : (a, b) REAL; END_TYPE", "E0415"),
@@ -365,3 +365,24 @@ def test_children_with_their_own_texts() -> None:
 def test_child_without_owner_is_reported() -> None:
     a = analysed(Source("X.M", "METHOD M\nEND_METHOD", owner="X"))
     assert codes(a) == ["E0429"]
+
+
+def test_an_unknown_name_below_an_address_is_one_message() -> None:
+    for operand in ("Unknown.x", "Unknown", "odd", "odd.x", "n.k"):
+        text = program("VAR odd : FB_Odd; n : INT; z : LWORD; END_VAR", f"z := ADR({operand});")
+        found = [code for code in codes(text) if code[0] == "E"]
+        assert found[0] == "E0202"  # of the declaration
+        assert found[1:] in ([], ["E0201"], ["E0204"]), (operand, found)
+
+
+def test_values_of_enumerations_are_constant_expressions() -> None:
+    a = analysed(
+        "TYPE E : (a := SHL(1, 2), b := SIZEOF(S) + 4, c := MAX(3, c1), d := 2, e) DINT; END_TYPE\n"
+        "TYPE S : STRUCT x : INT; y : DINT; END_STRUCT END_TYPE\n"
+        "VAR_GLOBAL CONSTANT c1 : INT := SHL(INT#1, 9); END_VAR"
+    )
+    assert codes(a) == ["W1222"]
+    assert a.types["E"].values == {"a": 4, "b": 12, "c": 512, "d": 2, "e": 3}
+    assert "E0317" in codes(
+        analysed("TYPE E : (a := F(3)); END_TYPE FUNCTION F : INT\nF := 1;\nEND_FUNCTION")
+    )

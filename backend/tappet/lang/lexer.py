@@ -60,6 +60,10 @@ _TOKEN = re.compile(
     re.VERBOSE,
 )
 _COMMENT_MARK = re.compile(r"\(\*|\*\)")
+_MANY_LINES = {
+    quote: re.compile(rf"({quote}(?:\$[^\r\n]|[^{quote}$]){{0,32767}}{quote})[ \t]*(?=[;,)\]+=<>:]|\r?\n|$)")
+    for quote in "'\""
+}
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 _NEWLINE: Final = "newline"
@@ -225,6 +229,12 @@ def _special(
         return end, end_line, end_start
     span = Span(line, column, line, column + len(piece))
     if piece[0] in "'\"":
+        whole = _string_over_lines(text, start)
+        if whole:
+            _append(out, STRING, whole, line, column)
+            last_break = max(whole.rfind("\n"), whole.rfind("\r"))
+            breaks = len(_LINE_END.findall(whole))
+            return start + len(whole), line + breaks, start + last_break + 1
         out.diagnostics.append(report("E0004", uri, span, quote=piece[0]))
         _append(out, STRING, piece.rstrip("$") + piece[0], line, column)
         out.damaged.add(index + 1)
@@ -235,6 +245,18 @@ def _special(
     else:
         _unexpected(out, uri, span, piece)
     return end, line, line_start
+
+
+def _string_over_lines(text: str, start: int) -> str:
+    """The string that begins at `start` and ends on a later line, '' where a quote is missing rather.
+
+    A quote is taken as the end when what follows can follow a string, and the first line does not end like a
+    statement: without its end, a string would go on to the begin of the next one.
+    """
+    match = _MANY_LINES[text[start]].match(text, start)
+    if match is None or match[0].partition("\n")[0].rstrip().endswith(";"):
+        return ""
+    return match[1]
 
 
 def _unexpected(out: Lexed, uri: str, span: Span, char: str) -> None:

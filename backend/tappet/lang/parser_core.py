@@ -109,15 +109,18 @@ class Core:
         last = self.i - 1
         if last < start:
             return self.span_at(start)
-        line = self.lines[last]
-        return make_span(
-            (self.lines[start], self.columns[start], line, self.columns[last] + len(self.texts[last]))
-        )
+        line, text = self.lines[last], self.texts[last]
+        if "\n" in text:
+            end = self.span_at(last)
+            return make_span((self.lines[start], self.columns[start], end[2], end[3]))
+        return make_span((self.lines[start], self.columns[start], line, self.columns[last] + len(text)))
 
     def span_at(self, index: int) -> Span:
         """Of one token."""
-        line, column = self.lines[index], self.columns[index]
-        return make_span((line, column, line, column + len(self.texts[index])))
+        line, column, text = self.lines[index], self.columns[index], self.texts[index]
+        if "\n" in text:  # a string over several lines
+            return make_span((line, column, line + text.count("\n"), len(text) - text.rfind("\n") - 1))
+        return make_span((line, column, line, column + len(text)))
 
     # -- errors
 

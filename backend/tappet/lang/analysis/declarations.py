@@ -16,7 +16,7 @@ from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.type_references import DEPTH_LIMIT, TypeReferences
 from tappet.lang.source import Span
-from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, Symbol, VarSymbol
+from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, Symbol, TypeSymbol, VarSymbol
 from tappet.lang.types import Elementary, Type
 
 _STORED = frozenset({"VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"})
@@ -44,11 +44,15 @@ class Declarations(TypeReferences):
     # -- variables
 
     def resolve(self, symbol: Symbol) -> None:
-        """Gives a variable its type, and its value when it is a constant; an enumeration value its number."""
+        """Gives a variable its type, and its value when it is a constant; an enumeration value its number; a
+        type name its type."""
         if isinstance(symbol, EnumValueSymbol):
             enum = self.found.enum_of_value.get(id(symbol))
             if enum is not None:
                 self.enum_type(enum)
+            return
+        if isinstance(symbol, TypeSymbol):
+            self.symbol_type(symbol)
             return
         entry = self.variables.pop(id(symbol), None)
         if entry is None:
@@ -94,7 +98,7 @@ class Declarations(TypeReferences):
             return
         if decl.initial is None:
             if decl.init is None and variable.section in ("VAR", "VAR_GLOBAL", "VAR_STAT"):
-                body.report("E0406", decl.span, name=variable.name)
+                body.report("W1223", decl.span, name=variable.name)
             if decl.init is None:
                 return
         initial = decl.init

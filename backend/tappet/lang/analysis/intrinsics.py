@@ -35,6 +35,8 @@ def named_type(b: Body, e: ast.Expr) -> Type | None:
     if isinstance(symbol, TypeSymbol):
         if isinstance(e, ast.Name):
             e.symbol = symbol
+        if symbol.type is None:
+            b.session.resolve(symbol)  # a value of an enumeration may ask before the types are resolved
         return symbol.type
     if isinstance(symbol, PouSymbol) and symbol.kind == "FUNCTION_BLOCK":
         if isinstance(e, ast.Name):
@@ -88,7 +90,7 @@ def _adr(b: Body, e: ast.Call, name: str) -> None:
                 finish(e, name, [None], t.Pointer(symbol.instance))
             else:
                 finish(e, name, [None], t.Pointer(None))
-        elif symbol is not None:
+        elif symbol is not None and not isinstance(symbol, VarSymbol):  # else its type has been reported
             b.report("E0323", operand.span, op=name)
         return
     if isinstance(operand, ast.Literal) and isinstance(type_, t.String):

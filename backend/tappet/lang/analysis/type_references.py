@@ -187,7 +187,10 @@ class TypeReferences:
         return t.String(length, ref.wide)
 
     def _constant_integer(self, body: Body, e: ast.Expr) -> int | None:
+        messages = len(body.session.diagnostics)
         if value(body, e) is None:
+            if len(body.session.diagnostics) == messages:  # the function has no type yet
+                body.report("E0317", e.span)
             return None
         if not e.is_constant:
             body.report("E0317", e.span)
@@ -300,7 +303,7 @@ class TypeReferences:
                 body.report("E0331", entry_.span, value=number, name=entry_.name, type=base)
                 number = low
             elif previous is not None and number <= previous:
-                body.report("E0332", entry_.span, value=number, name=entry_.name)
+                body.report("W1222", entry_.span, value=number, name=entry_.name)
             previous = number
             entry_.number = number
             enum.values.setdefault(entry_.name, number)

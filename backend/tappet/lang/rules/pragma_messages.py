@@ -9,6 +9,12 @@ Passes:
     {region 'start'}
     a := 1;
     {endregion}
+Passes:
+    {library public}
+    VAR a : INT; END_VAR
+    {flow}                         (* of CoDeSys 2.3, without effect *)
+    a := 1;
+    {noflow}
 Fails:
     VAR a : INT; END_VAR
     {warning 'not tested'}         (* W1208: the text *)
@@ -36,7 +42,8 @@ _MESSAGE = re.compile(r"(text|info|warning|error)\s+(?:\d\s+)?(['\"]?)(.*?)\2\s*
 _CODES = {"text": "W1211", "info": "W1211", "warning": "W1208", "error": "E0433"}
 _KNOWN = re.compile(
     r"(attribute|define|undefine|if|elsif|else|end_if|include|region|endregion|flag|bitaccess|implicit|"
-    r"warning\s+(disable|restore)|analysis|messageguid|s)\b",
+    r"warning\s+(disable|restore)|analysis|messageguid|s|"
+    r"flow|noflow|library|nonpersistent|parameter|template|instance)\b",
     re.IGNORECASE,
 )
 

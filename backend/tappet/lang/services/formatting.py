@@ -141,7 +141,8 @@ class _Formatter:
         out: list[str] = []
         for number, line in enumerate(self.lines):
             found = by_line.get(number)
-            if found and number in covered:  # behind the end of a comment of several lines
+            over_lines = found is not None and any(p.index >= 0 and p.end_line > p.line for p in found)
+            if found and (number in covered or over_lines):  # beside a comment or string of several lines
                 for piece in found:
                     self.advance(piece)
                 out.append(line.rstrip())
@@ -158,7 +159,8 @@ class _Formatter:
             found.extend(_trivia(item) for item in lexed.trivia.get(index, ()))
             if kind is not END:
                 line, column, text = lexed.lines[index], lexed.columns[index], lexed.texts[index]
-                found.append(_Piece(kind, text, line, column, line, column + len(text), index))
+                last = line + text.count("\n")
+                found.append(_Piece(kind, text, line, column, last, column + len(text), index))
         return found
 
     # -- one line
