@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from tappet.core import ir
 from tappet.core.walk import visit
+from tappet.core.written_memory import written_memory
 
 
 @dataclass(slots=True)
@@ -18,6 +19,8 @@ class Effects:
     """Anything whose address is known (pointers, VAR_IN_OUT, methods called through them)."""
     unknown: bool = False
     """Anything at all: code that is not part of the module."""
+    stores: bool = False
+    """Whether memory that callers reach is written, their own locals and space for results apart."""
     calls: set[str] = field(default_factory=set)
 
 
@@ -96,6 +99,7 @@ class EffectsTable:
             if function is None:
                 virtual = self.module.virtual.get(current)
                 total.unknown |= virtual is None
+                total.stores |= virtual is None
                 todo += virtual.targets.values() if virtual is not None else ()
                 continue
             effects = self.own.get(current)
@@ -104,6 +108,7 @@ class EffectsTable:
             total.data |= effects.data
             total.pointers |= effects.pointers
             total.unknown |= effects.unknown
+            total.stores |= effects.stores
             todo += effects.calls
         return total
 
@@ -146,6 +151,7 @@ def _own(module: ir.Module, function: ir.Function) -> Effects:
 
     visit(function.body, note)
     effects.pointers |= instances.unknown
+    effects.stores = written_memory(module, function).foreign
     return effects
 
 

@@ -530,11 +530,13 @@ class Function:
     callees: set[str] | None = None
     """Functions it calls, and keys of virtual methods, once somebody has looked."""
     assumed: dict[str, object] = field(default_factory=dict)
-    """Effects of called functions and virtual methods that register variables of this one rest on."""
+    """Effects of callees, virtual ones too, that register variables and inputs of this one rest on."""
     promoted_bases: set[str] = field(default_factory=set)
     """Data objects and block types whose exposure touches variables that this function keeps in registers."""
     subscripted: dict[Base, set[int]] = field(default_factory=dict)
     """Roots of places with subscripts, by base: what needs alias scopes."""
+    input_copies: list[tuple[Copy, Local, int]] = field(default_factory=list)
+    """Copies of aggregates passed by value, not yet looked at: the copy, into what, parameter number."""
     aliases: dict[Local, int] = field(default_factory=dict)
     """Locals that are what a pointer parameter points to: aggregates passed by value, not changed."""
     self_type: str = ""

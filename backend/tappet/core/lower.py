@@ -327,7 +327,9 @@ def _input_copies(b: Body) -> list[ir.Stmt]:
     for local, number, size in b.aggregate_inputs:
         source = ir.Argument(ir.PTR, number)
         if local in b.changed or b.foreign_writes:
-            copies.append(ir.Copy(ir.Place(local), ir.Place(ir.Indirect(source)), size, local.align))
+            copy = ir.Copy(ir.Place(local), ir.Place(ir.Indirect(source)), size, local.align)
+            copies.append(copy)
+            b.function.input_copies.append((copy, local, number))
         else:
             b.function.aliases[local] = number
     return copies

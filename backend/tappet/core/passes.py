@@ -6,12 +6,13 @@ from collections.abc import Iterable
 
 from tappet.core import ir
 from tappet.core.effects import EffectsTable
+from tappet.core.input_copies import drop_input_copies
 from tappet.core.loops import Promotion, mark_fixed_counters, mark_pointer_walks
 from tappet.core.ranges import Ranges
 
 
 def run(module: ir.Module) -> EffectsTable:
-    """Keep loop variables in locals, then drop the checks that can never fire."""
+    """Drop copies of inputs, keep loop variables in locals, then drop the checks that can never fire."""
     effects = EffectsTable(module)
     run_on(module, effects, module.functions)
     return effects
@@ -22,6 +23,8 @@ def run_on(module: ir.Module, effects: EffectsTable, names: Iterable[str]) -> No
     promotion = Promotion(module, effects)
     for name in names:
         function = module.functions[name]
+        if function.input_copies:
+            drop_input_copies(module, effects, function)
         if function.loops:
             promotion.run(function)
             mark_fixed_counters(function)

@@ -50,11 +50,11 @@ def _numbers(program: Program) -> tuple[object, ...]:
 
 
 def _stale(program: Program, effects: EffectsTable, exposed: set[tuple[str, int]]) -> set[str]:
-    """Functions whose register variables rest on what no longer holds."""
+    """Functions whose register variables, or inputs not copied, rest on what no longer holds."""
     bases = {name for name, _ in exposed}
     found: set[str] = set()
     for name, function in program.module.functions.items():
-        if not function.promoted_bases:
+        if not function.promoted_bases and not function.assumed:
             continue
         touched = not bases.isdisjoint(function.promoted_bases)
         if touched or any(effects.of(callee) != known for callee, known in function.assumed.items()):
