@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from tappet.project.declaration_text import words
+from tappet.project.exchange.codesys23_words import pointers_of, say_in_words_of_today
 from tappet.project.exchange.drafts import Batch, Draft, task_configuration
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.split_text import split_text
@@ -31,6 +32,16 @@ _OBJECT_HEAD = re.compile(
     r"^[ \t]*(?:\(\*[ \t]*@NESTEDCOMMENTS|(?:PROGRAM|FUNCTION|FUNCTION_?BLOCK|TYPE|VAR_GLOBAL)\b)",
     re.MULTILINE,
 )
+_CLOSING = {
+    "PROGRAM": frozenset(["END_PROGRAM"]),
+    "FUNCTION": frozenset(["END_FUNCTION"]),
+    "FUNCTION_BLOCK": frozenset(["END_FUNCTION_BLOCK", "END_FUNCTIONBLOCK"]),
+    "FUNCTIONBLOCK": frozenset(["END_FUNCTION_BLOCK", "END_FUNCTIONBLOCK"]),
+    "ACTION": frozenset(["END_ACTION"]),
+    "TYPE": frozenset(["END_TYPE"]),
+    "VAR_GLOBAL": frozenset(["END_VAR"]),
+}
+"""What closes an object, by what opens it."""
 _TASK = re.compile(
     r"\bTASK\s+(?P<name>\w+)\s*\((?P<settings>[^()]*)\)\s*:?\s*(?P<calls>[^;]*);?", re.IGNORECASE
 )
@@ -63,9 +74,10 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
         while index < len(paths) and paths[index][0] <= offset:
             path = tuple(part for part in re.split(r"\\?/", paths[index][1]) if part.strip())
             index += 1
+        pointers = pointers_of(draft.data.get("declaration", ""))
         for item in (draft, *draft.children):
             _tell_language(item, report)
-            _say_in_words_of_today(item, report)
+            say_in_words_of_today(item, pointers, report)
         batch.loose.below(path, source).children.append(draft)
     read_configurations(split, batch.loose, report)
 
@@ -121,7 +133,7 @@ def _without_parts(source: str, text: str, batch: Batch, report: ImportReport) -
     """The text with the parts that are no IEC objects blanked out and reported; tasks are read."""
     position = 0
     pieces: list[str] = []
-    while (match := _PART.search(text, position)) is not None:
+    while (match := _next_part(text, position)) is not None:
         head = match["head"].upper()
         ending = _PART_ENDS.get(head)
         found = re.compile(ending, re.MULTILINE | re.IGNORECASE).search(text, match.end()) if ending else None
@@ -136,6 +148,22 @@ def _without_parts(source: str, text: str, batch: Batch, report: ImportReport) -
         pieces += [text[position : match.start()], re.sub(r"[^\n]", " ", part)]
         position = stop
     return "".join([*pieces, text[position:]])
+
+
+def _next_part(text: str, position: int) -> re.Match[str] | None:
+    """The next part that is no IEC object. In objects its words are names; they stand in comments."""
+    closing: frozenset[str] = frozenset()
+    for word in words(text, position):
+        if closing:
+            if word.text in closing:
+                closing = frozenset()
+        elif word.text in _CLOSING:
+            closing = _CLOSING[word.text]
+        elif word.text[0].isalpha() or word.text[0] == "_":
+            match = _PART.match(text, text.rfind("\n", 0, word.start) + 1)
+            if match is not None and match.start("head") == word.start:
+                return match
+    return None
 
 
 _WHY = {
@@ -170,46 +198,6 @@ def _tell_language(draft: Draft, report: ImportReport) -> None:
     if language not in (None, "IL"):
         note = f"the body in {language} is kept as it is; it cannot be compiled yet"
         report.add("kept", draft.source, note, name=draft.name, line=draft.line)
-
-
-def _say_in_words_of_today(draft: Draft, report: ImportReport) -> None:
-    """Rewrite what CODESYS 3 reads differently: TRUNC gave an INT, a character of a STRING was one byte."""
-    notes: list[str] = []
-    for part in ("declaration", "implementation"):
-        text = draft.data.get(part)
-        if not text or (part == "implementation" and draft.data.get("language") not in (None, "ST", "IL")):
-            continue
-        pieces: list[str] = []
-        position = 0
-        for word in words(text):
-            written = text[word.start : word.end]
-            now = "TRUNC_INT" if word.text == "TRUNC" else written
-            if written.startswith("'") and not written.isascii():
-                now = "".join(_as_byte(character) for character in written)
-            if now == written:
-                continue
-            note = _TRUNC_NOTE if word.text == "TRUNC" else _BYTES_NOTE
-            notes += [note] if note not in notes else []
-            pieces += [text[position : word.start], now]
-            position = word.end
-        if pieces:
-            draft.data[part] = "".join([*pieces, text[position:]])
-    for note in notes:
-        report.add("changed", draft.source, note, name=draft.name, line=draft.line)
-
-
-_TRUNC_NOTE = "TRUNC gives INT in CoDeSys 2.3; it became TRUNC_INT"
-_BYTES_NOTE = "characters of Windows-1252 in texts became their bytes, such as $80 for the euro sign"
-
-
-def _as_byte(character: str) -> str:
-    """A character of a text as it is in Latin-1; one that only Windows-1252 has by its byte."""
-    if ord(character) < 256:
-        return character
-    try:
-        return f"${character.encode('cp1252').hex().upper()}"
-    except UnicodeEncodeError:
-        return character
 
 
 def _is_il(text: str) -> bool:

@@ -1,0 +1,111 @@
+"""What CoDeSys 2.3 meant by words and texts that mean something else today.
+
+TRUNC gave an INT (LOPR-77), a character of a STRING was one byte of the Windows code page, a pointer had four
+bytes, and keywords of object orientation were names like any other.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from tappet.project.declaration_text import Word, words
+from tappet.project.exchange.drafts import Draft
+from tappet.project.exchange.report import ImportReport
+from tappet.project.exchange.text_parts import NAME
+
+_TRUNC = "TRUNC gives INT in CoDeSys 2.3; it became TRUNC_INT"
+_BYTES = "characters of Windows-1252 in texts became their bytes, such as $80 for the euro sign"
+_KEYWORD = "names that are keywords today end in an underscore now: "
+_POINTER = "a pointer has 4 bytes in CoDeSys 2.3; SIZEOF of a pointer became SIZEOF(DWORD)"
+
+
+def pointers_of(declaration: str) -> frozenset[str]:
+    """The variables of a declaration that are pointers, in upper case."""
+    tokens = [word.text for word in words(declaration)]
+    found: set[str] = set()
+    for at, (colon, type_) in enumerate(pairwise(tokens)):
+        if colon != ":" or type_ != "POINTER":
+            continue
+        found.update(tokens[at - 1 : at])
+        while at > 2 and tokens[at - 2] == ",":
+            at -= 2
+            found.update(tokens[at - 1 : at])
+    return frozenset(found)
+
+
+def say_in_words_of_today(draft: Draft, pointers: frozenset[str], report: ImportReport) -> None:
+    """Rewrite what is read differently today. `pointers` are the pointers of the POU, in upper case."""
+    notes: dict[str, None] = {}
+    for part in ("declaration", "implementation"):
+        text = draft.data.get(part)
+        if not text or (part == "implementation" and draft.data.get("language") not in (None, "ST", "IL")):
+            continue
+        pieces: list[str] = []
+        position = 0
+        before = ("", "")
+        for word in words(text):
+            now, note = None, ""
+            if word.text == "TRUNC":
+                now, note = "TRUNC_INT", _TRUNC
+            elif word.text.startswith("'"):
+                now, note = _in_bytes(word.text), _BYTES
+            elif word.text in _KEYWORDS and not _is_keyword(text, word, before[1]):
+                now = text[word.start : word.end] + "_"
+                note = f"{_KEYWORD}{now}"
+            elif before == ("SIZEOF", "(") and word.text in pointers and _closes(text, word.end):
+                now, note = "DWORD", _POINTER
+            before = (before[1], word.text)
+            if now is not None and now != word.text:
+                notes[note] = None
+                pieces += [text[position : word.start], now]
+                position = word.end
+        if pieces:
+            draft.data[part] = "".join([*pieces, text[position:]])
+    for note in notes:
+        report.add("changed", draft.source, note, name=draft.name, line=draft.line)
+
+
+_KEYWORDS = {
+    "CONTINUE": ";",
+    "INTERFACE": "name",
+    "METHOD": "name",
+    "PARAMS": "[",
+    "PROPERTY": "name",
+    "REFERENCE": "TO",
+    "SUPER": "^",
+    "THIS": "^",
+    "UNION": "name",
+}
+"""Keywords of today that were none, and what stands behind them where they are meant as such."""
+
+
+def _is_keyword(text: str, word: Word, before: str) -> bool:
+    """Whether a keyword of today is meant by a word; texts of relatives of CoDeSys 2.3 may have it."""
+    behind = next(words(text, word.end), None)
+    if behind is None or before == ".":
+        return False
+    if _KEYWORDS[word.text] == "name":
+        return NAME.fullmatch(behind.text) is not None
+    if word.text == "CONTINUE":
+        return behind.text == ";" and (before == ";" or NAME.fullmatch(before) is not None)
+    return behind.text == _KEYWORDS[word.text]
+
+
+def _closes(text: str, position: int) -> bool:
+    """Whether a bracket closes at an offset, so that the name before it stands alone."""
+    behind = next(words(text, position), None)
+    return behind is not None and behind.text == ")"
+
+
+def _in_bytes(text: str) -> str:
+    """A text with the bytes of what only Windows-1252 has; Latin-1 stays as it is."""
+    return text if text.isascii() else "".join(map(_as_byte, text))
+
+
+def _as_byte(character: str) -> str:
+    if ord(character) < 256:
+        return character
+    try:
+        return f"${character.encode('cp1252').hex().upper()}"
+    except UnicodeEncodeError:
+        return character
