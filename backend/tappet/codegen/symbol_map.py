@@ -389,11 +389,12 @@ class _Walk:
             raise SymbolError(f"'{self.text}': expected a member name after '{self.path}.'")
 
     def enter(self, name: str) -> None:
-        key = name.upper()
-        for member in self.info.members:
-            if member.name.upper() == key:
-                break
-        else:
+        member = self.find(name.upper())
+        if member is None and self.tokens[self.at : self.at + 1] == ["."] and self.at + 1 < len(self.tokens):
+            # VAR_INST of a method, or the chart of an action
+            member = self.find(f"{name}.{self.tokens[self.at + 1]}".upper())
+            self.at += 2
+        if member is None:
             if self.info.kind in ("pointer", "reference", "interface"):
                 raise SymbolError(f"'{self.path}' is a {self.info.kind}; its target has no fixed place")
             raise SymbolError(f"'{self.path}' ({self.info.name}) has no member '{name}'")
@@ -404,6 +405,9 @@ class _Walk:
         self.member = member
         if self.symbols.mapped:
             self.at_input()
+
+    def find(self, key: str) -> MemberInfo | None:
+        return next((m for m in self.info.members if m.name.upper() == key), None)
 
     def at_input(self) -> None:
         """Go to the input area for a variable that each cycle overwrites with what lies there."""

@@ -21,6 +21,7 @@ _ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
 _GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
 _HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
+_CHARTED: Final = _HOLDERS | {"ACTION", "METHOD"}
 _TYPED: Final = frozenset(["FUNCTION", "METHOD"])
 
 
@@ -226,8 +227,8 @@ class Parser(TypeBlockParser):
         while True:
             kind = kinds[self.i]
             if kind is ID and not pou.body and begins_step(self):
-                if pou.kind not in _HOLDERS and not chart.steps:
-                    hint = "Write the chart in the body of the program or function block."
+                if pou.kind not in _CHARTED and not chart.steps:
+                    hint = "Write the chart in a program, a function block, an action or a method."
                     self.error("E0113", what=f"A chart in a {pou.kind}", hint=hint)
                 read_step(self, chart)
                 continue
@@ -261,7 +262,7 @@ class Parser(TypeBlockParser):
                 begun = begun or any(not isinstance(item, ast.PragmaStmt) for item in body)
                 if self.i == at and not self._foreign_end(kind):
                     break
-        if chart.steps and pou.kind in _HOLDERS:
+        if chart.steps and pou.kind in _CHARTED:
             self._chart(pou, chart)
 
     def _chart(self, pou: ast.Pou, chart: Chart) -> None:

@@ -9,10 +9,11 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.scope import Level, describe
+from tappet.lang.analysis.type_conversions import is_conversion
 from tappet.lang.any_type import ANY_TYPES, TYPE_CLASS_SYMBOL
 from tappet.lang.attributes import attribute
 from tappet.lang.diagnostics import Related
-from tappet.lang.source import Source, Span
+from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -92,10 +93,13 @@ def _add_system_interface(session: Session) -> None:
     session.levels.system["__SYSTEM"] = NamespaceSymbol("__System", members=members)
 
 
-def check_name(session: Session, name: str, source: Source, span: Span) -> None:
-    """Names of the user's own must not hold two underscores in a row (LDEC-07)."""
+def check_name(session: Session, name: str, source: Source, span: Span, what: str = "") -> None:
+    """Names of the user's own hold no two underscores in a row; what is named without an owner is not called
+    like a conversion, which could not be used any more (LDEC-07, LDEC-10)."""
     if "__" in name and not session.options.system:
         session.report("E0206", source.uri, span, name=name)
+    if what and source.scope is not Scope.LIBRARY and is_conversion(name.upper()):
+        session.report("E0105", source.uri, span, name=name, what=what)
 
 
 def _declare(session: Session, level: Level, symbol: Symbol, declaration: ast.Declaration) -> None:
@@ -104,7 +108,7 @@ def _declare(session: Session, level: Level, symbol: Symbol, declaration: ast.De
         return
     source = symbol.source
     assert source is not None
-    check_name(session, symbol.name, source, declaration.name_span)
+    check_name(session, symbol.name, source, declaration.name_span, describe(symbol))
     old = level.objects.get(key)
     if old is None:
         level.objects[key] = symbol
@@ -393,7 +397,7 @@ def _add(session: Session, table: dict[str, VarSymbol], variable: VarSymbol, sou
         return False
     span = variable.span
     assert span is not None
-    check_name(session, variable.name, source, span)
+    check_name(session, variable.name, source, span, "variable")
     old = table.get(key)
     if old is None:
         table[key] = variable
@@ -412,7 +416,7 @@ _SECTIONS: dict[str, frozenset[str]] = {
 _SECTIONS["FUNCTION_BLOCK"] = _SECTIONS["PROGRAM"]
 _SECTIONS["METHOD"] = _SECTIONS["FUNCTION"] | {"VAR_INST"}
 _SECTIONS["TRANSITION"] = _SECTIONS["METHOD"]
-_SECTIONS["ACTION"] = frozenset({"VAR", "VAR_STAT"})
+_SECTIONS["ACTION"] = frozenset({"VAR", "VAR_STAT", "VAR_INST"})
 _STORAGE = {"PROGRAM": Storage.PROGRAM, "FUNCTION_BLOCK": Storage.INSTANCE}
 
 

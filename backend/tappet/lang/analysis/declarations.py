@@ -272,7 +272,7 @@ class Declarations(TypeReferences):
         for variable in self.found.own[id(pou)].variables.values():
             if variable.section in _STORED:
                 self._block_member(body, type_, variable, placement, variable.name)
-        for method in pou.methods.values():
+        for method in (*pou.methods.values(), *pou.actions.values()):
             for variable in self.found.own[id(method)].variables.values():
                 if variable.section == "VAR_INST":
                     inner = self.bodies[id(method)]

@@ -16,7 +16,8 @@ NAME: Final = "IecSfc"
 
 def has_chart(unit: ast.Unit) -> bool:
     """Whether a text declares a POU written in SFC."""
-    return any(isinstance(d, ast.Pou) and d.language == "SFC" for d in unit.declarations)
+    pous = [d for d in unit.declarations if isinstance(d, ast.Pou)]
+    return any(p.language == "SFC" for pou in pous for p in (pou, *pou.actions, *pou.methods))
 
 
 def with_types(units: Sequence[ast.Unit], earlier: Sequence[ast.Unit]) -> Sequence[ast.Unit]:

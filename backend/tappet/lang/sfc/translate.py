@@ -51,7 +51,9 @@ def translate(
                 c.mentions.append((item.action, item.action_span))
             elif item.action:
                 c.actions[item.action.upper()] = (item.action, item.action_span)
-    block = ast.VarBlock(section="VAR", flags=set(), variables=_variables(c), span=head)
+    # a chart of an action or method has variables of its own in each instance
+    section = "VAR_INST" if pou.kind in ("ACTION", "METHOD") else "VAR"
+    block = ast.VarBlock(section=section, flags=set(), variables=_variables(c), span=head)
     if initial is None:
         return [block], []
     return [block], [
