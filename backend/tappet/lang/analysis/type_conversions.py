@@ -53,6 +53,11 @@ def find_operator(name: str) -> Resolve | None:
     return resolve
 
 
+def is_conversion(name: str) -> bool:
+    """Whether `name` (upper case) is that of a conversion, which nothing else may have (LDEC-10)."""
+    return "TO_" in name and find_operator(name) is not None
+
+
 def _convert(source: Type | None, target: Type) -> Resolve:
     def resolve(b: Body, e: ast.Call, name: str) -> None:
         found = operands(b, e, name, 1, 1)
