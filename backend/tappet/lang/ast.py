@@ -165,6 +165,8 @@ class ArrayInit(Expr):
     """`[1, 3(7), [..]]`; an element is an expression, or a Repeat."""
 
     elements: list[Expr]
+    bare: bool = False
+    """Whether it stands without brackets in the initial value of a structure, as in CoDeSys 2.3."""
 
 
 @dataclass(slots=True, kw_only=True)

@@ -309,8 +309,8 @@ class ExpressionParser(Core):
 
     # -- calls
 
-    def arguments(self) -> list[ast.Argument]:
-        """`(a, name := b, name => c)`; stands at the `(`."""
+    def arguments(self, of_structure: bool = False) -> list[ast.Argument]:
+        """`(a, name := b, name => c)`; stands at the `(`. The values of a structure may be those of arrays."""
         self.i += 1
         kinds = self.kinds
         args: list[ast.Argument] = []
@@ -322,7 +322,7 @@ class ExpressionParser(Core):
             return args
         self.depth += 1
         while True:
-            args.append(self.argument())
+            args.append(self.argument(of_structure))
             kind = kinds[self.i]
             if kind == ",":
                 self.i += 1
@@ -358,18 +358,21 @@ class ExpressionParser(Core):
                 return False
         return False
 
-    def argument(self) -> ast.Argument:
-        """One actual parameter."""
+    def argument(self, of_structure: bool = False) -> ast.Argument:
+        """One actual parameter, or the initial value of a member of a structure."""
         start = self.i
         kinds = self.kinds
         second = kinds[start + 1] if kinds[start] is not END else END
         if (second == ":=" or second == "=>") and self.texts[start][0:1].isidentifier():
             self.i = start + 2
-            value = None if kinds[self.i] in _NO_PARAMETER else self.initial_value()
+            if kinds[self.i] in _NO_PARAMETER:
+                value = None
+            else:
+                value = self.bare_element() if of_structure else self.initial_value()
             return ast.Argument(
                 span=self.span_from(start), name=self.texts[start], value=value, output=second == "=>"
             )
-        value = self.expression()
+        value = self.array_element() if of_structure else self.expression()
         return ast.Argument(span=value.span, name=None, value=value)
 
     # -- initial values
@@ -393,10 +396,26 @@ class ExpressionParser(Core):
         return self.expression()
 
     def structure_initial(self) -> ast.Expr:
-        """`(name := value, ...)`; stands at the `(`."""
+        """`(name := value, ...)`; stands at the `(`. CoDeSys 2.3 writes arrays without brackets here, too."""
         start = self.i
-        entries = self.arguments()
+        entries: list[ast.Argument] = []
+        for entry in self.arguments(of_structure=True):
+            owner = entries[-1] if entries and entry.name is None else None
+            if owner is None or owner.value is None or entry.value is None:
+                entries.append(entry)
+            elif isinstance(owner.value, ast.ArrayInit) and owner.value.bare:
+                owner.value.elements.append(entry.value)
+            else:
+                span = make_span((*owner.value.span[:2], *entry.span[2:]))
+                owner.value = ast.ArrayInit(span=span, elements=[owner.value, entry.value], bare=True)
         return ast.StructInit(span=self.span_from(start), fields=entries)
+
+    def bare_element(self) -> ast.Expr:
+        """The value of a member; `3(0)` is an array of it alone."""
+        value = self.array_element()
+        if isinstance(value, ast.Repeat):
+            return ast.ArrayInit(span=value.span, elements=[value], bare=True)
+        return value
 
     def array_initial(self) -> ast.Expr:
         """`[value, n(value, ...), ...]`; stands at the `[`."""

@@ -50,6 +50,11 @@ def _check_constant(b: Body, e: ast.Expr) -> None:
 
 def _array(b: Body, e: ast.ArrayInit, target: Type) -> None:
     clear(e)
+    if not isinstance(target, t.Array) and e.bare and len(e.elements) > 1:
+        for x in e.elements[1:]:
+            what = "A value without name"
+            b.report("E0326", x.span, what=what, type=target, hint="Write (member := value).")
+        return
     if not isinstance(target, t.Array):
         b.report(
             "E0326", e.span, what="A list in brackets", type=target, hint="Only arrays have a list of values."
