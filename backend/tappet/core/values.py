@@ -186,8 +186,8 @@ def _time_arithmetic(b: Body, e: ast.Binary) -> ir.Expr:
         if right.type.floating:
             product = ir.Binary(ir.F64, _ARITHMETIC[e.op], convert(left, ir.F64), convert(right, ir.F64))
             return convert(convert(product, ir.I64), result)
-        if e.op == "/" and left.type.bits == 64:
-            return _divided_long_time(b, left, right)
+        if e.op == "/" and 64 in (left.type.bits, 0 if right.type.signed else right.type.bits):
+            return convert(_divided_long_time(b, convert(left, ir.U64), right), result)
         wide = convert(right, ir.I64)
         checked = e.op == "/" and not (isinstance(wide, ir.Const) and wide.value)
         return convert(ir.Binary(ir.I64, _ARITHMETIC[e.op], convert(left, ir.I64), wide, checked), result)
@@ -201,7 +201,7 @@ def _time_arithmetic(b: Body, e: ast.Binary) -> ir.Expr:
 
 
 def _divided_long_time(b: Body, left: ir.Expr, right: ir.Expr) -> ir.Expr:
-    """A 64 bit time has no sign; the quotient by a negative number wraps."""
+    """A 64 bit time or divisor without sign; the quotient by a negative number wraps."""
     if isinstance(right, ir.Const) or not right.type.signed:
         divisor = convert(right, ir.U64)
         if not isinstance(right, ir.Const):
