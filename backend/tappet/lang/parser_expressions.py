@@ -310,7 +310,7 @@ class ExpressionParser(Core):
     # -- calls
 
     def arguments(self, of_structure: bool = False) -> list[ast.Argument]:
-        """`(a, name := b, name => c)`; stands at the `(`. The values of a structure may be those of arrays."""
+        """`(a, name := b, name => c)`; stands at the `(`. The values of a structure may be arrays."""
         self.i += 1
         kinds = self.kinds
         args: list[ast.Argument] = []
