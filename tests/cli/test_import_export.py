@@ -31,6 +31,21 @@ def test_a_twincat_project_comes_in_with_a_report_and_compiles(tmp_path: Path) -
     assert errors[0]["message"].startswith("The body of MAIN is in FBD, which cannot be compiled yet")
 
 
+def test_files_named_beside_their_project_are_read_once(tmp_path: Path) -> None:
+    top = SAMPLES / "twincat"
+    files = sorted(path for path in top.rglob("*") if path.is_file())
+    assert tappet("import", top / "Line.plcproj", "--to", tmp_path / "project")[0] == 0
+    code, said = tappet("import", *files, "--to", tmp_path / "files")
+    assert code == 0
+    assert "it is not part of the project" not in said
+    objects = [
+        {path.relative_to(folder) for path in folder.rglob("*.st")}
+        for folder in (tmp_path / "project", tmp_path / "files")
+    ]
+    assert objects[0]
+    assert objects[1] == objects[0]
+
+
 def test_codesys_23_and_plain_texts_compile_as_they_are(tmp_path: Path) -> None:
     files = (SAMPLES / "plain.st", SAMPLES / "beremiz.xml", SAMPLES / "library.exp")
     for file, broken in zip(files, (set(), {"steps"}, {"NETWORKS"}), strict=True):

@@ -56,16 +56,26 @@ def _name(files: list[Path]) -> str:
 
 
 def _files(paths: list[Path]) -> dict[str, bytes]:
-    """The files to import by path; those beside a `.plcproj` belong to it, archives are unpacked."""
+    """The files to import by path; those beside a `.plcproj` belong to it, archives are unpacked.
+
+    A file that is named by itself and lies in a folder or project of `paths` is read once.
+    """
     found: dict[str, bytes] = {}
+    folders: list[Path] = []
+    single: list[Path] = []
     for path in paths:
         if path.suffix.lower() == ".zip":
             found |= unpack(path.read_bytes())
         elif path.is_dir():
             found |= _below(path, path)
+            folders.append(path.resolve())
         elif path.suffix.lower() == ".plcproj":
             found |= _below(path.parent, path.parent, only_project=path.name)
+            folders.append(path.resolve().parent)
         else:
+            single.append(path)
+    for path in single:
+        if not any(path.resolve().is_relative_to(folder) for folder in folders):
             found[path.name if path.name not in found else str(path)] = path.read_bytes()
     return found
 

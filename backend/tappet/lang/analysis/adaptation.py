@@ -37,7 +37,7 @@ def require(b: Body, e: ast.Expr, target: Type) -> bool:
         if source is target:
             return True
     code = conversion.verdict(source, target)
-    if code and e.__class__ is ast.Call and _adapt_choice(e, t.value_type(target)):
+    if code and e.__class__ is ast.Call and adapt_choice(e, t.value_type(target)):
         return True
     if e.is_constant:
         value = e.constant
@@ -164,7 +164,7 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
     return False
 
 
-def _adapt_choice(e: ast.Call, target: Type) -> bool:
+def adapt_choice(e: ast.Call, target: Type) -> bool:
     """`SEL(a, 0, 255)`: a choice among literals takes the type of its context when each of them fits."""
     alternatives = _literal_choice(e)
     if not alternatives or not isinstance(target, Elementary):
@@ -177,7 +177,7 @@ def _adapt_choice(e: ast.Call, target: Type) -> bool:
         retype(x, target)
     for x in alternatives:
         if isinstance(x, ast.Call):
-            _adapt_choice(x, target)
+            adapt_choice(x, target)
     symbol = e.target
     assert isinstance(symbol, BuiltinSymbol)
     types = (symbol.parameter_types[0], *(target for _ in alternatives))

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import constant_overflow, conversion, folding
-from tappet.lang.analysis.adaptation import complain, retype
+from tappet.lang.analysis.adaptation import adapt_choice, complain, retype
 from tappet.lang.analysis.context import Body
 from tappet.lang.types import Elementary, Kind, Type
 
@@ -122,6 +122,11 @@ def _meet(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> conversion
             if retype(left, rt):
                 lt = rt
         elif retype(right, lt):
+            rt = lt
+    elif lt is not rt:
+        if left.__class__ is ast.Call and adapt_choice(left, rt):
+            lt = rt
+        elif right.__class__ is ast.Call and adapt_choice(right, lt):
             rt = lt
     return conversion.OPERANDS.get((lt.name, rt.name))
 

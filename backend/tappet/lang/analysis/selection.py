@@ -13,8 +13,36 @@ from tappet.lang.analysis.context import Body
 from tappet.lang.types import Elementary, Kind, Type
 
 
-def common_type(b: Body, found: Sequence[ast.Expr]) -> Type | None:
-    """The type all operands meet in; literals adapt to it. None (reported) when there is none."""
+def common_type(b: Body, found: Sequence[ast.Expr]) -> tuple[Type, Type] | None:
+    """The type all operands meet in, and the static type; literals adapt. None (reported) without one.
+
+    The two differ for integers of both signs, as in arithmetic (LOPR-03): MIN of INT and UINT is an INT for
+    the checks, and chosen in DINT, which holds both.
+    """
+    static = _static(found)
+    carried = _carried(b, found)
+    if carried is None:
+        return None
+    if static is None or static == t.value_type(carried):
+        return carried, carried
+    fit = all(isinstance(x.constant, int) and folding.fits(x.constant, static) for x in found if x.untyped)
+    return carried, static if fit else carried
+
+
+def _static(found: Sequence[ast.Expr]) -> Elementary | None:
+    """The static type of integers: the larger one, of equal size the signed one."""
+    result: Elementary | None = None
+    for operand in found:
+        if operand.untyped:
+            continue
+        base = t.value_type(operand.type) if operand.type is not None else None
+        if not isinstance(base, Elementary) or not base.is_integer:
+            return None
+        result = base if result is None else conversion.OPERANDS[(result.name, base.name)].type
+    return result
+
+
+def _carried(b: Body, found: Sequence[ast.Expr]) -> Type | None:
     result: Type | None = None
     for operand in found:
         if not operand.untyped:
@@ -84,9 +112,13 @@ def _is_integer(type_: Type | None) -> bool:
     return isinstance(type_, Elementary) and type_.is_integer
 
 
-def _choose(e: ast.Call, name: str, lead: Sequence[Type | None], found: list[ast.Expr], type_: Type) -> None:
+def _choose(
+    e: ast.Call, name: str, lead: Sequence[Type | None], found: list[ast.Expr], types: tuple[Type, Type]
+) -> None:
     """Finishes SEL, MUX, MAX, MIN, LIMIT; folds when every operand is constant."""
+    type_, static = types
     finish(e, name, [*lead, *([type_] * (len(found) - len(lead)))], type_)
+    e.type = static
     if not all(x.is_constant and x.constant is not None for x in found):
         return
     values = [x.constant for x in found]
@@ -124,9 +156,9 @@ def _sel(b: Body, e: ast.Call, name: str) -> None:
     found = operands(b, e, name, 3, 3)
     if found is None or not require(b, found[0], t.BOOL):
         return
-    type_ = common_type(b, found[1:])
-    if type_ is not None:
-        _choose(e, name, [t.BOOL], found, type_)
+    types = common_type(b, found[1:])
+    if types is not None:
+        _choose(e, name, [t.BOOL], found, types)
 
 
 def _mux(b: Body, e: ast.Call, name: str) -> None:
@@ -137,9 +169,9 @@ def _mux(b: Body, e: ast.Call, name: str) -> None:
     if not isinstance(number, Elementary) or not number.is_integer:
         b.report("E0303", found[0].span, op=name, type=found[0].type, hint="The number must be an integer.")
         return
-    type_ = common_type(b, found[1:])
-    if type_ is not None:
-        _choose(e, name, [number], found, type_)
+    types = common_type(b, found[1:])
+    if types is not None:
+        _choose(e, name, [number], found, types)
 
 
 def _extreme(b: Body, e: ast.Call, name: str) -> None:
@@ -147,13 +179,13 @@ def _extreme(b: Body, e: ast.Call, name: str) -> None:
     found = operands(b, e, name, low, high)
     if found is None:
         return
-    type_ = common_type(b, found)
-    if type_ is None:
+    types = common_type(b, found)
+    if types is None:
         return
-    if not isinstance(t.value_type(type_), (Elementary, t.String)):
-        b.report("E0303", e.span, op=name, type=type_, hint="Values of this type have no order.")
+    if not isinstance(t.value_type(types[0]), (Elementary, t.String)):
+        b.report("E0303", e.span, op=name, type=types[0], hint="Values of this type have no order.")
         return
-    _choose(e, name, [], found, type_)
+    _choose(e, name, [], found, types)
 
 
 OPERATORS |= {"SEL": _sel, "MUX": _mux, "MAX": _extreme, "MIN": _extreme, "LIMIT": _extreme}
