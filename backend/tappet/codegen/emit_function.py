@@ -135,7 +135,7 @@ class FunctionEmitter(ExpressionEmitter):
         self.start_block(join)
 
     def switch(self, s: ir.Switch) -> None:
-        """Small ranges become switch cases, large ones comparisons in front of it."""
+        """Small ranges become switch cases, large ones a search in front of it."""
         scalar = s.selector.type
         t = llvm_type(scalar)
         selector = self.expr(s.selector)
@@ -143,6 +143,7 @@ class FunctionEmitter(ExpressionEmitter):
         default = self.new_label() if s.default else join
         labels = [self.new_label() for _ in s.cases]
         table: list[str] = []
+        large: list[tuple[int, int, str]] = []
         seen: set[int] = set()
         for case, label in zip(s.cases, labels, strict=True):
             for low, high in case.ranges:
@@ -151,7 +152,11 @@ class FunctionEmitter(ExpressionEmitter):
                     seen.update(fresh)
                     table += [f"{t} {constant(scalar, v)}, label %{label}" for v in fresh]
                 else:
-                    self._range_case(scalar, selector, low, high, label)
+                    large.append((low, high, label))
+        if large:
+            small = self.new_label()
+            self._search(scalar, selector, sorted(large), small)
+            self.start_block(small)
         self.out.append(f"switch {t} {selector}, label %{default} [{' '.join(table)}]{self.location}")
         self.terminated = True
         for case, label in zip(s.cases, labels, strict=True):
@@ -164,13 +169,26 @@ class FunctionEmitter(ExpressionEmitter):
             self.jump(join)
         self.start_block(join)
 
-    def _range_case(self, scalar: ir.Scalar, selector: str, low: int, high: int, label: str) -> None:
+    def _search(
+        self, scalar: ir.Scalar, selector: str, ranges: list[tuple[int, int, str]], otherwise: str
+    ) -> None:
+        """Go to the label of the range that holds the selector: halving, as a chain costs LLVM its square."""
         t = llvm_type(scalar)
+        if len(ranges) > 1:
+            middle = len(ranges) // 2
+            order = "slt" if scalar.signed else "ult"
+            below, above = self.new_label(), self.new_label()
+            bound = constant(scalar, ranges[middle][0])
+            self.branch(self.value(f"icmp {order} {t} {selector}, {bound}"), below, above)
+            self.start_block(below)
+            self._search(scalar, selector, ranges[:middle], otherwise)
+            self.start_block(above)
+            self._search(scalar, selector, ranges[middle:], otherwise)
+            return
+        low, high, label = ranges[0]
         shifted = self.value(f"sub {t} {selector}, {constant(scalar, low)}") if low else selector
         inside = self.value(f"icmp ule {t} {shifted}, {constant(scalar, high - low)}")
-        go_on = self.new_label()
-        self.branch(inside, label, go_on)
-        self.start_block(go_on)
+        self.branch(inside, label, otherwise)
 
     # -- loops ---------------------------------------------------------------------------------------
 
