@@ -26,7 +26,7 @@ export const keys = {
   object: (projectId: string, objectId: string) => ['project', projectId, 'object', objectId] as const,
   placement: ['placement'] as const,
   libraries: ['libraries'] as const,
-  library: (name: string) => ['libraries', name] as const,
+  library: (name: string, version = '*') => ['libraries', name, version] as const,
   runtimes: ['runtimes'] as const,
   runtime: (runtimeId: string) => ['runtimes', runtimeId] as const,
   tasks: (runtimeId: string) => ['runtimes', runtimeId, 'tasks'] as const,
@@ -138,6 +138,6 @@ export function patchSummary(projectId: string, changed: ObjectSummary): void {
 }
 
 export function summaryOf(object: ObjectSummary): ObjectSummary {
-  const { id, parent_id, kind, subkind, name, index, revision, badges } = object;
-  return { id, parent_id, kind, subkind, name, index, revision, badges };
+  const { id, parent_id, kind, subkind, name, index, revision, badges, excluded } = object;
+  return { id, parent_id, kind, subkind, name, index, revision, badges, excluded };
 }

@@ -23,7 +23,11 @@ type KindOf<Some extends { kind: string }> = Some extends unknown
 /** Every kind that is installed. Objects of other kinds (their plug-in is missing) are shown and kept, not edited. */
 export type ObjectKind = KindOf<Schemas['AnyProjectObject']>;
 /** An object in the tree. */
-export type ObjectSummary = Omit<Schemas['ObjectSummary'], 'kind'> & { kind: ObjectKind };
+export type ObjectSummary = Omit<Schemas['ObjectSummary'], 'kind' | 'excluded'> & {
+  kind: ObjectKind;
+  /** From the build. */
+  excluded?: boolean;
+};
 export type ProjectObject<Data = Record<string, unknown>> = ObjectSummary & { data: Data };
 export type PlacementRule = Omit<Schemas['PlacementRule'], 'kind'> & { kind: ObjectKind };
 
@@ -37,9 +41,22 @@ export type TaskData = Schemas['TaskData'];
 export type TaskType = TaskData['type'];
 export type TaskPou = Schemas['ProgramCall'];
 export type Watchdog = Schemas['WatchdogData'];
-export type LibraryReference = Schemas['LibraryReference'];
-export type LibraryManagerData = Schemas['LibraryManagerData'];
+export type LibraryReference = Omit<Schemas['LibraryReference'], 'placeholder'> & { placeholder?: string | null };
+export interface LibraryManagerData {
+  references: LibraryReference[];
+}
+export interface ApplicationData {
+  static_analysis?: StaticAnalysisData;
+}
+export type StaticAnalysisData = Required<Schemas['StaticAnalysisData']>;
+export type CodingRule = Schemas['CodingRule'];
 export type DeviceData = Schemas['DeviceData'];
+
+export type ImportNode = Schemas['ImportNode'];
+export type ImportPreview = Schemas['ImportPreview'];
+export type ImportResult = Schemas['ImportResult'];
+export type ImportReport = Schemas['ImportReport'];
+export type ImportEntry = Schemas['Entry'];
 
 export type Severity = Schemas['Severity'];
 export type Diagnostic = Schemas['Diagnostic'];
@@ -61,6 +78,7 @@ export type TestResult = Schemas['TestResult'];
 export type TestFailure = Schemas['TestFailure'];
 
 export type LibrarySummary = Schemas['LibrarySummary'];
+export type LibraryUse = Schemas['LibraryUse'];
 export type LibraryItem = Schemas['LibraryItem'];
 export type Library = Schemas['LibraryDetail'];
 export type Pin = Schemas['Pin'];

@@ -7,13 +7,21 @@
  */
 import i18next from 'i18next';
 import { useSyncExternalStore } from 'react';
+import enAnalysis from './en/analysis.json';
 import enEditors from './en/editors.json';
+import enIl from './en/il.json';
+import enExchange from './en/exchange.json';
+import enLibraries from './en/libraries.json';
 import enObjects from './en/objects.json';
 import enOnline from './en/online.json';
 import enScene from './en/scene.json';
 import enTests from './en/tests.json';
 import enWorkbench from './en/workbench.json';
+import zhAnalysis from './zh/analysis.json';
 import zhEditors from './zh/editors.json';
+import zhIl from './zh/il.json';
+import zhExchange from './zh/exchange.json';
+import zhLibraries from './zh/libraries.json';
 import zhObjects from './zh/objects.json';
 import zhOnline from './zh/online.json';
 import zhScene from './zh/scene.json';
@@ -23,8 +31,30 @@ import zhWorkbench from './zh/workbench.json';
 export const LANGUAGES = ['en', 'zh'] as const;
 export type Language = (typeof LANGUAGES)[number];
 
-const en = { ...enWorkbench, ...enObjects, ...enOnline, ...enEditors, ...enScene, ...enTests };
-const zh = { ...zhWorkbench, ...zhObjects, ...zhOnline, ...zhEditors, ...zhScene, ...zhTests };
+const en = {
+  ...enWorkbench,
+  ...enObjects,
+  ...enOnline,
+  ...enEditors,
+  ...enIl,
+  ...enScene,
+  ...enTests,
+  ...enAnalysis,
+  ...enExchange,
+  ...enLibraries,
+};
+const zh = {
+  ...zhWorkbench,
+  ...zhObjects,
+  ...zhOnline,
+  ...zhEditors,
+  ...zhIl,
+  ...zhScene,
+  ...zhTests,
+  ...zhAnalysis,
+  ...zhExchange,
+  ...zhLibraries,
+};
 
 type WithoutPlural<Key> = Key extends `${infer Base}_one` | `${infer Base}_other` ? Base : Key;
 

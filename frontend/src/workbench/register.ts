@@ -6,6 +6,7 @@ import { registerFileCommands } from './commands/file';
 import { registerHelpCommands } from './commands/help';
 import { registerOnlineCommands } from './commands/online';
 import { registerProjectCommands } from './commands/project';
+import { registerStaticAnalysisCommands } from './commands/staticAnalysis';
 import { registerToolsCommands } from './commands/tools';
 import { registerViewCommands } from './commands/view';
 import { registerWindowCommands } from './commands/window';
@@ -93,6 +94,7 @@ export function registerWorkbench(): void {
   registerEditCommands();
   registerProjectCommands();
   registerOnlineCommands();
+  registerStaticAnalysisCommands();
   registerToolsCommands();
   registerWindowCommands();
   registerHelpCommands();

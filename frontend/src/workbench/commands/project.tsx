@@ -1,14 +1,16 @@
-import { CircleCheckBig, FilePlus2, FolderOpen, History, Info, ListTree } from 'lucide-react';
-import { keys, queryClient } from '@/api/queries';
+import { Ban, CircleCheckBig, FilePlus2, FolderOpen, History, Info, ListTree } from 'lucide-react';
+import { api } from '@/api/client';
+import { keys, patchSummary, queryClient } from '@/api/queries';
 import type { ObjectKind, ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
 import { AddObjectDialog } from '../addObject/AddObjectDialog';
-import { registerCommands, type Command } from '../commands';
+import { registerCommands, type Command, type Enablement } from '../commands';
+import type { CommandContext } from '../context';
 import { openDialog } from '../dialogs';
 import { openObject, showPanel } from '../docking/dock';
 import { HistoryDialog } from '../history/HistoryDialog';
 import { setActiveApplication } from '../project';
 import { ProjectInfoDialog } from '../projectInfo/ProjectInfoDialog';
-import { mayEdit } from '../rights';
+import { allOf, mayEdit } from '../rights';
 import { forestOf, lineage, type TreeView } from '../tree/model';
 import { placeableKinds } from '../tree/placement';
 import { revealInTree } from '../tree/state';
@@ -33,6 +35,34 @@ export function viewOf(objects: readonly ObjectSummary[], id: string): TreeView 
 export function showInTree(projectId: string, id: string): void {
   showPanel(viewOf(objectsOf(projectId), id), false);
   revealInTree(id);
+}
+
+/** Kinds that the compiler gets. */
+const COMPILED: ReadonlySet<ObjectKind> = new Set<ObjectKind>([
+  'pou',
+  'method',
+  'action',
+  'property',
+  'accessor',
+  'interface',
+  'dut',
+  'gvl',
+  'persistent',
+]);
+
+function excludable(context: CommandContext): Enablement {
+  if (context.selection.length === 0) return 'reason.nothingSelected';
+  return context.selection.every((object) => COMPILED.has(object.kind)) ? true : 'reason.notCompiled';
+}
+
+/** Leaves objects out of the build; when all of them are out already, takes them in again. */
+async function excludeObjects(projectId: string, objects: readonly ObjectSummary[]): Promise<void> {
+  const excluded = !objects.every((object) => object.excluded);
+  for (const { id } of objects) {
+    const changed = await api.patch<ProjectObject>(`/projects/${projectId}/objects/${id}`, { excluded });
+    queryClient.setQueryData(keys.object(projectId, id), changed);
+    patchSummary(projectId, changed);
+  }
 }
 
 const commands: Command[] = [
@@ -98,6 +128,15 @@ const commands: Command[] = [
     visible: (context) => context.selection[0]?.kind === 'application',
     enabled: (context) => (context.selection[0]?.id === context.applicationId ? 'reason.activeAlready' : true),
     run: (context) => setActiveApplication(context.selection[0]!.id),
+  },
+  {
+    id: 'project.exclude',
+    title: 'command.exclude',
+    icon: Ban,
+    menu: { menu: 'project', group: '1_objects', order: 4 },
+    checked: (context) => context.selection.length > 0 && context.selection.every((object) => object.excluded),
+    enabled: (context) => allOf(mayEdit(context), excludable(context)),
+    run: (context) => excludeObjects(context.projectId!, context.selection),
   },
   {
     id: 'project.history',

@@ -58,6 +58,26 @@ export async function build(context: CommandContext): Promise<BuildReport | null
   }
 }
 
+/** Checks the active application with all coding rules it has chosen. Null when it was cancelled. */
+export async function analyse(context: CommandContext): Promise<BuildReport | null> {
+  const { projectId, applicationId } = context;
+  if (!(await saveEditors(context.dirtyPanels))) return null;
+  const applicationName = nameOf(context);
+  try {
+    const report = await busy(t('busy.analysis', { name: applicationName }), (signal) =>
+      api.post<BuildReport>(`/projects/${projectId}/applications/${applicationId}/static-analysis`, undefined, {
+        signal,
+      }),
+    );
+    buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
+    showPanel('messages', false);
+    return report;
+  } catch (error) {
+    if (isCancelled(error)) return null;
+    throw error;
+  }
+}
+
 /** While logged in: how the runtime's application relates to the one just built. */
 async function refreshRelation(context: CommandContext): Promise<void> {
   const answer = await compare(context, context.online!.runtimeId);

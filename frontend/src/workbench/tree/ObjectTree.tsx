@@ -14,6 +14,7 @@ import { renameObject } from './acts';
 import { pasteInto, treeHandlers } from './handlers';
 import {
   findTyped,
+  lineage,
   moveFocus,
   opensFor,
   rangeOf,
@@ -269,6 +270,7 @@ export function ObjectTree({
                   tone={tone}
                   relation={sessions[object.id]?.relation}
                   mark={marks.get(object.id)}
+                  excluded={lineage(forest, object.id).some((one) => one.excluded)}
                   renaming={renaming === object.id}
                   faultOf={faultOf(object)}
                   onTwist={() => setExpanded([object.id], !row.expanded)}

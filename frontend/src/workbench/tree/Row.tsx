@@ -28,6 +28,8 @@ interface TreeRowProps {
   /** Online: the program in the controller is not the present one. */
   relation: LoginRelation | undefined;
   mark: Mark | undefined;
+  /** From the build, itself or with what it is below. */
+  excluded: boolean;
   renaming: boolean;
   faultOf: (name: string) => string | null;
   onTwist: () => void;
@@ -42,6 +44,7 @@ export function TreeRow({
   tone,
   relation,
   mark,
+  excluded,
   renaming,
   faultOf,
   onTwist,
@@ -73,7 +76,13 @@ export function TreeRow({
         <NameField name={object.name} faultOf={faultOf} onDone={onRenamed} />
       ) : (
         <>
-          <span className={styles.name} data-strong={strong ? '' : undefined} data-severity={mark?.severity}>
+          <span
+            className={styles.name}
+            data-strong={strong ? '' : undefined}
+            data-excluded={excluded ? '' : undefined}
+            data-severity={mark?.severity}
+            title={excluded ? t('tree.excluded') : undefined}
+          >
             <Marked text={displayName(object, t)} filter={filter} />
           </span>
           <Suffix object={object} tone={tone} />

@@ -45,7 +45,7 @@ export function treeEntries({ view, forest, rules, paste }: TreeMenuOptions): Me
     { kind: 'line', key: 'line-edit' },
     ...entriesOf(edit, commands, context),
     pasteEntry,
-    ...entriesOf(['edit.delete', 'edit.rename', null, 'project.history'], commands, context),
+    ...entriesOf(['edit.delete', 'edit.rename', null, 'project.exclude', 'project.history'], commands, context),
   ];
 }
 

@@ -1,0 +1,215 @@
+import { useQuery } from '@tanstack/react-query';
+import { ChevronRight, Search } from 'lucide-react';
+import { useState } from 'react';
+import { api } from '@/api/client';
+import { saveObject, useObject } from '@/api/queries';
+import type { ApplicationData, CodingRule, ObjectSummary, ProjectObject, StaticAnalysisData } from '@/api/types';
+import { useText } from '@/i18n';
+import { guard } from '../notices';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Empty, Failed, Loading } from '../ui/Empty';
+import { Checkbox, Field, Select } from '../ui/Field';
+import { groupKey, groupsOf, isPrefix, NO_RULES, onIn, titleKey, withLevel, type Level } from './model';
+import { RuleRow } from './RuleRow';
+import styles from './StaticAnalysis.module.css';
+
+interface StaticAnalysisDialogProps {
+  projectId: string;
+  applications: readonly ObjectSummary[];
+  /** The application that is shown first. */
+  applicationId: string;
+  /** Why nothing can be changed, or null. */
+  readOnly: string | null;
+  close: (saved?: boolean) => void;
+}
+
+/** Which coding rules are checked in an application, how strictly, with which prefixes and limits. */
+export function StaticAnalysisDialog(props: StaticAnalysisDialogProps) {
+  const { projectId, applications, close } = props;
+  const t = useText();
+  const [applicationId, setApplicationId] = useState(props.applicationId);
+  const application = useObject<ApplicationData>(projectId, applicationId);
+  const rules = useQuery({
+    queryKey: ['static-analysis', 'rules'],
+    queryFn: () => api.get<CodingRule[]>('/static-analysis/rules'),
+    staleTime: Infinity,
+  });
+  const error = application.error ?? rules.error;
+  if (error || !application.data || !rules.data) {
+    return (
+      <Dialog title={t('command.staticAnalysisSettings')} width={860} onClose={() => close()}>
+        {error ? <Failed error={error} /> : <Loading />}
+      </Dialog>
+    );
+  }
+  return (
+    <SettingsForm
+      key={applicationId}
+      projectId={projectId}
+      application={application.data}
+      applications={applications}
+      rules={rules.data}
+      readOnly={props.readOnly}
+      choose={setApplicationId}
+      close={close}
+    />
+  );
+}
+
+interface SettingsFormProps {
+  projectId: string;
+  application: ProjectObject<ApplicationData>;
+  applications: readonly ObjectSummary[];
+  rules: readonly CodingRule[];
+  readOnly: string | null;
+  choose: (applicationId: string) => void;
+  close: (saved?: boolean) => void;
+}
+
+function SettingsForm({ projectId, application, applications, rules, readOnly, choose, close }: SettingsFormProps) {
+  const t = useText();
+  const [chosen, setChosen] = useState<StaticAnalysisData>(application.data.static_analysis ?? NO_RULES);
+  const [search, setSearch] = useState('');
+  const [closed, setClosed] = useState<ReadonlySet<string>>(new Set());
+  const [everywhere, setEverywhere] = useState(false);
+  const groups = groupsOf(rules, search, (code) => t(titleKey(code)));
+  const shown = groups.flatMap((group) => group.rules);
+  const faulty = Object.values(chosen.prefixes).some((prefix) => !isPrefix(prefix));
+  const setAll = (level: Level) => {
+    const codes = shown.map((rule) => rule.code);
+    setChosen(withLevel(chosen, level === 'off' ? codes : codes.filter((code) => !chosen.rules[code]), level));
+  };
+  const toggle = (id: string) => {
+    const next = new Set(closed);
+    if (!next.delete(id)) next.add(id);
+    setClosed(next);
+  };
+  const save = async () => {
+    if (faulty || readOnly) return;
+    const targets = everywhere ? applications.map((one) => one.id) : [application.id];
+    const done = await guard(async () => {
+      for (const id of targets) await saveSettings(projectId, id, chosen);
+      return true;
+    });
+    if (done) close(true);
+  };
+
+  return (
+    <Dialog
+      title={t('command.staticAnalysisSettings')}
+      width={860}
+      onClose={() => close()}
+      onSubmit={() => void save()}
+      footer={
+        <>
+          <span className={styles.count}>{t('analysis.on', { on: onIn(chosen, rules), all: rules.length })}</span>
+          {applications.length > 1 && (
+            <Checkbox checked={everywhere} onChecked={setEverywhere}>
+              {t('analysis.everywhere')}
+            </Checkbox>
+          )}
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button
+            type="submit"
+            variant="primary"
+            disabledReason={readOnly ?? (faulty ? t('analysis.prefixFault') : null)}
+          >
+            {t('action.apply')}
+          </Button>
+        </>
+      }
+    >
+      <div className={styles.bar}>
+        {applications.length > 1 && (
+          <Field label={t('kind.application')} row>
+            {(attributes) => (
+              <Select
+                {...attributes}
+                value={application.id}
+                choices={applications.map((one) => ({ value: one.id, text: one.name }))}
+                onValue={choose}
+              />
+            )}
+          </Field>
+        )}
+        <Checkbox
+          checked={chosen.with_build}
+          disabled={readOnly !== null}
+          onChecked={(with_build) => setChosen({ ...chosen, with_build })}
+        >
+          {t('analysis.withBuild')}
+        </Checkbox>
+      </div>
+      <div className={styles.bar}>
+        <div className={styles.search}>
+          <Search size={13} aria-hidden />
+          <input
+            data-autofocus
+            value={search}
+            placeholder={t('analysis.search')}
+            aria-label={t('analysis.search')}
+            spellCheck={false}
+            onChange={(event) => setSearch(event.target.value)}
+            onKeyDown={(event) => event.key === 'Enter' && event.preventDefault()}
+          />
+        </div>
+        <Button disabledReason={readOnly} onClick={() => setAll('warning')}>
+          {t('analysis.allOn')}
+        </Button>
+        <Button disabledReason={readOnly} onClick={() => setAll('off')}>
+          {t('analysis.allOff')}
+        </Button>
+        <Button disabledReason={readOnly} onClick={() => setChosen(NO_RULES)}>
+          {t('analysis.defaults')}
+        </Button>
+      </div>
+      <div className={styles.list}>
+        {groups.length === 0 && <Empty title={t('tree.nothingFound', { text: search.trim() })} />}
+        {groups.map((group) => {
+          const open = !closed.has(group.id);
+          return (
+            <section key={group.id} aria-label={t(groupKey(group.id))}>
+              <button
+                type="button"
+                className={styles.group}
+                aria-expanded={open}
+                data-open={open ? '' : undefined}
+                onClick={() => toggle(group.id)}
+              >
+                <ChevronRight size={14} strokeWidth={1.75} aria-hidden />
+                {t(groupKey(group.id))}
+                <span className={styles.muted}>
+                  {t('analysis.on', { on: onIn(chosen, group.rules), all: group.rules.length })}
+                </span>
+              </button>
+              {open &&
+                group.rules.map((rule) => (
+                  <RuleRow
+                    key={rule.code}
+                    rule={rule}
+                    chosen={chosen}
+                    readOnly={readOnly !== null}
+                    change={setChosen}
+                  />
+                ))}
+            </section>
+          );
+        })}
+      </div>
+    </Dialog>
+  );
+}
+
+/** Stores the choice on top of what the application is now. */
+async function saveSettings(projectId: string, applicationId: string, chosen: StaticAnalysisData): Promise<void> {
+  const path = `/projects/${projectId}/objects/${applicationId}`;
+  const now = await api.get<ProjectObject<ApplicationData>>(path);
+  await saveObject(projectId, applicationId, now.revision, { ...now.data, static_analysis: chosen });
+}
+
+/** The stored choice of an application. */
+export async function storedRules(projectId: string, applicationId: string): Promise<StaticAnalysisData> {
+  const path = `/projects/${projectId}/objects/${applicationId}`;
+  return (await api.get<ProjectObject<ApplicationData>>(path)).data.static_analysis ?? NO_RULES;
+}
