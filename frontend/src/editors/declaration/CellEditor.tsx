@@ -5,10 +5,10 @@ import { openDialog } from '@/workbench/dialogs';
 import { useProject } from '@/workbench/project';
 import { InputAssistant } from '../assistant/InputAssistant';
 import { CellInput } from '../grid/CellInput';
+import grid from '../grid/Grid.module.css';
 import { ELEMENTARY_TYPES, identifierProblem } from '../st/keywords';
 import type { Monaco } from '../st/monacoLoader';
 import { ArrayWizard } from './ArrayWizard';
-import styles from './DeclarationTable.module.css';
 import { InitialValueDialog } from './InitialValueDialog';
 import type { DeclarationModel } from './model';
 import { ScopeCell } from './ScopeCell';
@@ -116,7 +116,7 @@ export function CellEditor(props: CellEditorProps) {
           button={(text) => (
             <button
               type="button"
-              className={styles.cellButton}
+              className={grid.button}
               title={t('decl.initialDialog')}
               onClick={() => void editInitial(text)}
             >

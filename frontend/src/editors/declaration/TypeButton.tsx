@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
 import { DropdownMenu } from '@/workbench/ui/Menu';
-import styles from './DeclarationTable.module.css';
+import grid from '../grid/Grid.module.css';
 
 /** The ">" of a data type cell: type browser or array wizard (DECL-27). */
 export function TypeButton({ onAssistant, onArray }: { onAssistant: () => void; onArray: () => void }) {
@@ -9,12 +9,7 @@ export function TypeButton({ onAssistant, onArray }: { onAssistant: () => void; 
     <DropdownMenu
       align="end"
       trigger={
-        <button
-          type="button"
-          className={styles.cellButton}
-          aria-label={t('decl.chooseType')}
-          title={t('decl.chooseType')}
-        >
+        <button type="button" className={grid.button} aria-label={t('decl.chooseType')} title={t('decl.chooseType')}>
           ›
         </button>
       }

@@ -11,6 +11,7 @@ import { DeclarationPane } from '../declaration/DeclarationPane';
 import { DocumentBars } from '../documents/DocumentBars';
 import { phaseOf } from '../documents/documentState';
 import { useTextDocument, type OpenText } from '../documents/useTextDocument';
+import { IlPane } from '../il/IlPane';
 import { setEditorSettings, useEditorSettings } from '../settings';
 import { textHandlers } from './handlers';
 import { ImplementationPane } from './ImplementationPane';
@@ -53,7 +54,8 @@ function StPanes(props: EditorProps & OpenText & { object: ObjectSummary }) {
 
   const parts = partsShown(object.kind);
   const declaration = parts.includes('declaration') && <DeclarationPane {...props} />;
-  const implementation = parts.includes('implementation') && <ImplementationPane {...props} />;
+  const Implementation = document.isIl ? IlPane : ImplementationPane;
+  const implementation = parts.includes('implementation') && <Implementation {...props} />;
   return (
     <div className={styles.editor} aria-label={t('st.editorOf', { name: object.name })}>
       <DocumentBars monaco={monaco} document={document} />

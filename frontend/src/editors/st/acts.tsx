@@ -178,7 +178,7 @@ export async function revisions({ monaco, document }: TextPanel, parts: readonly
 }
 
 /** The variable at the cursor, or those of the selection, go to the watch list shown last. */
-export function addToWatch({ projectId, object, instance, document }: TextPanel, editor: CodeEditor): void {
+export function addToWatch({ projectId, object, instance, document }: TextPanel, editor: TextPlace): void {
   const model = editor.getModel();
   const selection = editor.getSelection();
   if (model === null || selection === null) return;

@@ -4,7 +4,7 @@ import type { CodeEditor } from './CodePane';
 import type { Part } from '../documents/documents';
 
 /** What acts on a name need of the view that shows it. */
-export type TextPlace = Pick<CodeEditor, 'getModel' | 'getPosition' | 'focus'>;
+export type TextPlace = Pick<CodeEditor, 'getModel' | 'getPosition' | 'getSelection' | 'focus'>;
 
 /** A view that is no text editor but shows and changes a text. */
 export interface PanelTable {

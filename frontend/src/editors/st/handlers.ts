@@ -82,9 +82,9 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
     'watch.add': {
       run: () => {
         const chosen = panelChosen(panelId);
-        const editor = panelEditor(panelId);
+        const place = panelPlace(panelId);
         if (chosen !== null) addExpressionsToWatch(chosen);
-        else if (editor !== null) addToWatch(panel, editor);
+        else if (place !== null) addToWatch(panel, place);
       },
     },
     'st.revisions': { run: () => revisions(panel, partsShown(object.kind)) },

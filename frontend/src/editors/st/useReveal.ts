@@ -1,11 +1,13 @@
 import { useEffect } from 'react';
 import type { Reveal } from '@/workbench/editors';
-import { panelEditor, panelEditorOf } from './focus';
+import { panelEditor, panelEditorOf, panelTable } from './focus';
 
 /** Carries out a jump into an editor; the editor may appear a moment later (the table gives way to the text). */
 export function useReveal(panelId: string, reveal: Reveal | null): void {
   useEffect(() => {
-    if (reveal === null) return;
+    // A table of the body carries out its jumps itself.
+    const inTable = reveal?.part !== 'declaration' && panelTable(panelId)?.acts !== undefined;
+    if (reveal === null || inTable) return;
     let attempts = 0;
     let frame = 0;
     const jump = () => {
@@ -34,7 +36,7 @@ export function useReveal(panelId: string, reveal: Reveal | null): void {
 }
 
 /** Whoever has gone on to another panel while the editor was loading keeps the focus there. */
-function focusIsFree(panelId: string): boolean {
+export function focusIsFree(panelId: string): boolean {
   const active = document.activeElement;
   if (active === null || active === document.body) return true;
   return active.closest<HTMLElement>('[data-panel-id]')?.dataset.panelId === panelId;

@@ -1,4 +1,5 @@
 import { chooseLanguage, chooseTheme, usePreferences, type ThemeChoice } from '@/app/preferences';
+import { IlOptions } from '@/editors/il/IlOptions';
 import { FormatOptions } from '@/editors/st/FormatOptions';
 import { useLanguage, useText, type Language } from '@/i18n';
 import { guard } from '../notices';
@@ -9,7 +10,7 @@ import styles from './OptionsDialog.module.css';
 
 const THEMES: readonly ThemeChoice[] = ['light', 'dark', 'system'];
 
-/** Language, theme, and how ST is formatted; every choice acts at once. */
+/** Language, theme, how ST is formatted, what the table of IL shows; every choice acts at once. */
 export function OptionsDialog({ close }: { close: () => void }) {
   const t = useText();
   const language = useLanguage();
@@ -41,6 +42,8 @@ export function OptionsDialog({ close }: { close: () => void }) {
       </Field>
       <h3 className={styles.group}>{t('format.title')}</h3>
       <FormatOptions />
+      <h3 className={styles.group}>{t('il.options')}</h3>
+      <IlOptions />
     </Dialog>
   );
 }

@@ -1,0 +1,126 @@
+import { useEffect, useMemo, useState } from 'react';
+import { useText } from '@/i18n';
+import { channelOf } from '@/online/connections';
+import { expressionKey, isLeaf, valueKind } from '@/online/item';
+import { PreparedCell } from '@/online/PreparedCell';
+import { useLiveValue, useWatched } from '@/online/useLive';
+import { ValueCell } from '@/online/ValueCell';
+import type { OnlineRow } from '@/online/treeRows';
+import type { MonitorSettings } from '../online/inlineMonitor';
+import { expressionOf, findVariables, indexExpressions, type VariableUse } from '../st/variables';
+import styles from './IlTable.module.css';
+import type { IlRow } from './rows';
+
+export interface RowValue {
+  /** As it is written in the row. */
+  readonly name: string;
+  readonly expression: string;
+}
+
+const AROUND_ROWS = 20;
+const SHOWN_MS = 100;
+
+/** Variables of the rows on screen and what is asked of the runtime for them (ONL-02). */
+export function useRowValues(
+  settings: MonitorSettings | null,
+  text: string,
+  rows: readonly IlRow[],
+  range: { readonly first: number; readonly last: number },
+): ReadonlyMap<number, readonly RowValue[]> {
+  const uses = useMemo(() => usesByRow(text, rows), [text, rows]);
+  const board = channelOf(settings?.runtimeId ?? null)?.board ?? null;
+  // A moved index means another element: what is asked for changes with it.
+  const [moved, setMoved] = useState(0);
+  const { values, indices } = useMemo(() => {
+    const found = new Map<number, RowValue[]>();
+    const steps: string[] = [];
+    if (settings === null) return { values: found, indices: steps };
+    const indexValue = (expression: string) => {
+      const value = board?.get(expression)?.value;
+      return typeof value === 'number' ? value : typeof value === 'bigint' ? Number(value) : null;
+    };
+    for (let row = Math.max(0, range.first - AROUND_ROWS); row <= range.last + AROUND_ROWS; row += 1) {
+      for (const use of uses.get(row) ?? []) {
+        steps.push(...indexExpressions(use.path, settings.scope, indexValue));
+        const expression = expressionOf(use.path, settings.scope, indexValue);
+        if (expression === null) continue;
+        found.set(row, [...(found.get(row) ?? []), { name: text.slice(use.start, use.end), expression }]);
+      }
+    }
+    return { values: found, indices: [...new Set(steps)] };
+    // `moved` stands for the values of the indices.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [settings, uses, range, text, board, moved]);
+
+  const followed = indices.map(expressionKey).join('\n');
+  useEffect(() => {
+    if (board === null || followed === '') return;
+    const stops = followed.split('\n').map((key) => board.subscribe(key, () => setMoved((count) => count + 1)));
+    return () => stops.forEach((stop) => stop());
+  }, [board, followed]);
+  const wanted = useMemo(
+    () => [...new Set([...indices, ...[...values.values()].flat().map(({ expression }) => expression)])],
+    [indices, values],
+  );
+  useWatched(settings?.runtimeId ?? null, wanted, SHOWN_MS);
+  return values;
+}
+
+/** Readable variables by the row they stand in. */
+export function usesByRow(text: string, rows: readonly IlRow[]): ReadonlyMap<number, readonly VariableUse[]> {
+  const found = new Map<number, VariableUse[]>();
+  let row = 0;
+  for (const use of findVariables(text)) {
+    while (row < rows.length - 1 && (rows[row]?.end ?? 0) < use.end) row += 1;
+    found.set(row, [...(found.get(row) ?? []), use]);
+  }
+  return found;
+}
+
+interface RowValuesProps {
+  values: readonly RowValue[];
+  runtimeId: string;
+  lost: boolean;
+  /** The row is not the one that runs. */
+  stale: boolean;
+  onPrepare: (value: RowValue) => void;
+}
+
+/** Value, force mark and prepared value of each variable of a row. */
+export function RowValues({ values, ...rest }: RowValuesProps) {
+  return values.map((value) => <OneValue key={value.expression} value={value} named={values.length > 1} {...rest} />);
+}
+
+type OneValueProps = Omit<RowValuesProps, 'values'> & { value: RowValue; named: boolean };
+
+function OneValue({ value, named, runtimeId, lost, stale, onPrepare }: OneValueProps) {
+  const t = useText();
+  const live = useLiveValue(runtimeId, value.expression);
+  if (live === null || live.item.error || !isLeaf(valueKind(live.item))) return null;
+  const row: OnlineRow = {
+    key: value.expression,
+    expression: value.expression,
+    label: value.name,
+    depth: 0,
+    root: 0,
+    open: undefined,
+  };
+  return (
+    <button
+      type="button"
+      tabIndex={-1}
+      className={styles.value}
+      data-stale={stale || undefined}
+      aria-label={t('il.prepare', { name: value.expression })}
+      onClick={(event) => {
+        // The second click of a double click would prepare the next value already.
+        if (event.detail < 2) onPrepare(value);
+      }}
+      onDoubleClick={(event) => event.stopPropagation()}
+    >
+      {named && <i>{value.name}</i>}
+      <ValueCell runtimeId={runtimeId} row={row} lost={lost} />
+      <PreparedCell runtimeId={runtimeId} row={row} />
+    </button>
+  );
+}
