@@ -17,9 +17,11 @@ from pathlib import Path
 
 import pytest
 from tests.conformance.test_conformance import Expectation, read, run
+from tests.spec.language_cases import Outcome, guarded
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import ApplicationFault, LoadedApplication
+from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 
 FOLDER = Path(__file__).parent / "rules"
@@ -81,12 +83,30 @@ def test_case(case: Case) -> None:
         assert any(text in found for found in texts), texts
     if errors or not (expected.values or expected.fault):
         return
-    assert result.package is not None
-    application = LoadedApplication(result.package)
+    package = result.package
+    assert package is not None
+    if expected.fault:
+        fault = guarded(lambda: _fault(package)).fault
+        # What nothing is at is found by the processor: the runtime tells of the signal, here it ends the child.
+        assert fault is not None
+        assert expected.fault in fault.lower() or (expected.fault == "null" and "signal 11" in fault), fault
+        return
+    application = LoadedApplication(package)
     try:
         run(application, expected)
     finally:
         application.close()
+
+
+def _fault(package: CodePackage) -> Outcome:
+    """How the application ends."""
+    application = LoadedApplication(package)
+    try:
+        application.start()
+        application.cycle()
+    except ApplicationFault as fault:
+        return Outcome([], [], str(fault), {})
+    return Outcome([], [], None, {})
 
 
 def test_names_of_cases_are_unique() -> None:

@@ -30,7 +30,7 @@ def assign(b: Body, op: str, target: ast.Expr, value: ast.Expr) -> None:
     type_ = target.type
     assert type_ is not None
     if scalar_of(type_) is None:
-        place = places.freeze(b, b.place(target), b.out)
+        place = places.freeze(b, b.target(target), b.out)
         b.touch(place)
         copy_value(b, place, type_, value)
         return
@@ -49,7 +49,7 @@ def store_scalar(b: Body, target: ast.Expr, value: ir.Expr) -> None:
         store_bit(b, target.base, target.bit, value)
         return
     symbol = getattr(target, "symbol", None)
-    place = b.place(target)
+    place = b.target(target)
     b.touch(place)
     bit = symbol.bit if isinstance(symbol, VarSymbol) else None
     if bit is not None:
@@ -65,7 +65,7 @@ def store_bit(b: Body, base: ast.Expr, bit: int, value: ir.Expr) -> None:
     symbol = getattr(base, "symbol", None)
     if isinstance(symbol, PropertySymbol):
         raise b.error("a bit of a property cannot be assigned", base)
-    frozen = places.freeze(b, b.place(base), b.out)
+    frozen = places.freeze(b, b.target(base), b.out)
     b.touch(frozen)
     b.emit(ir.Store(frozen, merge_bit(ir.Load(scalar, frozen), bit, value)))
 
@@ -194,7 +194,7 @@ def assign_from_place(
     if isinstance(symbol, PropertySymbol):
         raise b.error("an output cannot be assigned to a property; use a variable", target)
     if scalar is None:
-        place = b.place(target)
+        place = b.target(target)
         b.touch(place)
         assert target.type is not None
         copy_place(b, place, target.type, source, type_)

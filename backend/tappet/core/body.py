@@ -55,6 +55,8 @@ class Body:
         scope = source.scope if source is not None else Scope.APPLICATION
         self.checks = scope is not Scope.LIBRARY
         """Whether implicit check functions apply: to sources of the application, not to libraries."""
+        self.writing = False
+        """Whether the place that is being worked out is written to; CheckPointer is told."""
         self.temporaries = 0
         self.held: dict[int, ir.Place] = {}
         """Where the accumulator of IL is kept, by the number of its `Hold`."""
@@ -90,7 +92,10 @@ class Body:
                 return ir.Const(
                     scalar, int(e.constant) if e.constant is True or e.constant is False else e.constant
                 )
-        return VALUES[e.__class__](self, e)
+        writing, self.writing = self.writing, False  # an index or pointer on the way to a target is read
+        found = VALUES[e.__class__](self, e)
+        self.writing = writing
+        return found
 
     def value_as(self, e: ast.Expr, type_: t.Type | None) -> ir.Expr:
         """Value converted to the scalar of `type_`."""
@@ -105,6 +110,13 @@ class Body:
     def place(self, e: ast.Expr) -> ir.Place:
         """Where the object that `e` stands for lies; references stand for the object referred to."""
         return PLACES[e.__class__](self, e)
+
+    def target(self, e: ast.Expr) -> ir.Place:
+        """As `place`, of what is written to."""
+        self.writing = True
+        found = self.place(e)
+        self.writing = False
+        return found
 
     # -- variables -----------------------------------------------------------------------------------
 

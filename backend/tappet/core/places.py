@@ -116,8 +116,7 @@ def _index(b: Body, e: ast.Index) -> ir.Place:
         return _element(b, e, type_)
     if isinstance(type_, t.Pointer):
         assert type_.base is not None
-        base = dereference(b, e.base, type_.base)
-        return _shifted(b, base, e.indices[0], type_.base.size)
+        return dereference(b, e.base, type_.base, e.indices[0])
     if isinstance(type_, t.String):
         unit = 2 if type_.wide else 1
         return subscript(b, b.place(e.base), e.indices[0], 0, type_.length, unit)
@@ -196,16 +195,24 @@ def _open_element(b: Body, e: ast.Index, type_: t.Array) -> ir.Place:
 # -- pointers ---------------------------------------------------------------------------------------
 
 
-def dereference(b: Body, pointer: ast.Expr, target: t.Type) -> ir.Place:
-    """What a pointer expression points to; CheckPointer sees the address first (LTYP-80)."""
+def dereference(b: Body, pointer: ast.Expr, target: t.Type, index: ast.Expr | None = None) -> ir.Place:
+    """What a pointer expression points to, or the element `index` from there (LTYP-72).
+
+    CheckPointer sees the address of the access first, and whether it is written to (LTYP-80, LTYP-81).
+    """
     address = b.value(pointer)
-    if isinstance(address, ir.Address):
-        return address.place
     check = b.check_function("CheckPointer")
-    if check is not None:
-        size, granularity = ir.Const(ir.I32, target.size), ir.Const(ir.I32, _granularity(target))
-        args: list[ir.Expr] = [address, size, granularity, ir.Const(ir.BOOL, 0)]
-        address = check_call(b, check, args)
+    if check is None or isinstance(address, ir.Address):
+        place = address.place if isinstance(address, ir.Address) else _behind(address)
+        return place if index is None else _shifted(b, place, index, target.size)
+    if index is not None:
+        shift = ir.Binary(ir.I64, "mul", convert(b.value(index), ir.I64), ir.Const(ir.I64, target.size))
+        address = ir.Binary(ir.PTR, "offset", convert(address, ir.PTR), shift)
+    size, granularity = ir.Const(ir.I32, target.size), ir.Const(ir.I32, _granularity(target))
+    return _behind(check_call(b, check, [address, size, granularity, ir.Const(ir.BOOL, int(b.writing))]))
+
+
+def _behind(address: ir.Expr) -> ir.Place:
     return ir.Place(ir.Indirect(convert(address, ir.PTR)))
 
 

@@ -210,6 +210,12 @@ class Parser(TypeBlockParser):
             self.i += 1
             names = [self.qualified_name("base" if word == "EXTENDS" else "interface")]
             while self.kinds[self.i] == ",":
+                if word == "EXTENDS":
+                    self.error(
+                        "E0113",
+                        what="More than one base",
+                        hint="Extend one block; IMPLEMENTS takes any number of interfaces.",
+                    )
                 self.i += 1
                 names.append(self.qualified_name("interface"))
             if word == "IMPLEMENTS":
