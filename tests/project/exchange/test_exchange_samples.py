@@ -98,6 +98,28 @@ def test_a_graphical_body_gives_a_clear_error_when_compiled() -> None:
     assert "<body>" not in texts["Ladder"]
 
 
+def test_libraries_of_an_export_keep_their_names_and_what_is_not_read_is_said() -> None:
+    libraries = (
+        '<Library Name="#Standard64" Namespace="Standard64" DefaultResolution="Standard64, * (System)" />'
+        '<Library Name="Tools, 1.2.0.0 (Plant)" Namespace="TL">'
+        '<Parameters><Parameter Name="DEPTH" Value="8" /><Parameter Name="WIDTH" Value="3" /></Parameters>'
+        "</Library>"
+    )
+    source = (
+        '<project xmlns="http://www.plcopen.org/xml/tc6_0200"><types><dataTypes /><pous /></types>'
+        '<instances><configurations><configuration name="PLC"><resource name="Application"><addData>'
+        '<data name="http://www.3s-software.com/plcopenxml/libraries" handleUnknown="implementation">'
+        f"<Libraries>{libraries}</Libraries></data></addData></resource></configuration>"
+        "</configurations></instances></project>"
+    )
+    done = import_files({"x.xml": source.encode()})
+    manager = at(done.project, "PLC/PLC Logic/Application/Library Manager").data.model_dump()
+    found = [(item["name"], item["namespace"], item["version"]) for item in manager["references"]]
+    assert found == [("Standard", "", "*"), ("Standard64", "", "*"), ("Tools", "TL", "*")]
+    notes = [entry.text for entry in done.report.entries if entry.object == "Tools"]
+    assert "parameters of libraries are not read: DEPTH, WIDTH keep their own values" in notes
+
+
 def test_beremiz_external_variables_il_sfc_and_instances() -> None:
     project, report = imported("beremiz.xml")
     app = "config/PLC Logic/resource1"

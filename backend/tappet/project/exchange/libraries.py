@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tappet.project.exchange.report import ImportReport
 
-_SAME = {"tc2_standard": "Standard", "standard64": "Standard", "iec_standard": "Standard"}
+_SAME = {"tc2_standard": "Standard", "iec_standard": "Standard"}
 """Libraries whose contents are in one of ours; the file's namespace is kept for qualified names."""
 
 

@@ -376,6 +376,10 @@ class _Reader:
                 self.source, name.strip(), version, library.get("Namespace"), self.report, library.line
             )
             references.append(made)
+            given = [item.get("Name") for part in library.children("Parameters") for item in part]
+            if given:
+                text = f"parameters of libraries are not read: {', '.join(given)} keep their own values"
+                self.report.add("changed", self.source, text, name=name.strip(), line=library.line)
 
     def _generic(self, item: Element) -> None:
         draft = self._draft(item.get("kind"), item, _json(self.source, item))
