@@ -7,6 +7,7 @@ import io
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgpack
 import pytest
 from compiled_programs import build, result, running
 from elftools.elf.elffile import ELFFile
@@ -21,7 +22,7 @@ from tappet.codegen.build import (
     layout_of,
 )
 from tappet.codegen.check import check_application, format_diagnostic
-from tappet.codegen.package import CodePackage, PackageError, WatchdogSpec
+from tappet.codegen.package import MAGIC, CodePackage, PackageError, WatchdogSpec
 from tappet.lang.source import Scope, Source
 
 PROGRAM = """
@@ -70,6 +71,16 @@ def test_damaged_packages_are_refused_or_harmless():
             data[at] ^= mask
             with contextlib.suppress(PackageError):
                 CodePackage.from_bytes(bytes(data))
+
+
+@pytest.mark.parametrize(("place", "value"), [(5, b"x"), (2, float("inf")), (6, "bit"), (3, 99)])
+def test_a_task_with_values_of_other_types_is_refused(place: int, value: object):
+    whole = build(PROGRAM).to_bytes()
+    head = len(MAGIC) + 1
+    body = msgpack.unpackb(whole[head:], raw=False)
+    body["tasks"][0][place] = value
+    with pytest.raises(PackageError):
+        CodePackage.from_bytes(whole[:head] + msgpack.packb(body))
 
 
 def test_truncated_package_is_refused():

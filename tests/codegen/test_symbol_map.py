@@ -186,6 +186,12 @@ def test_times_read_back(kind: str, number: int):
     assert literals.parse_time(kind, literals.format_time(kind, number)) == number
 
 
+@pytest.mark.parametrize("text", ["D#99999999999999999999-1-1", "D#2026-1-99999999999999999999"])
+def test_a_date_far_out_is_refused(text: str):
+    with pytest.raises(ValueError, match="out of range; write for example D#2026-01-31"):
+        literals.parse_time("date", text)
+
+
 @given(st.text(st.characters(max_codepoint=255), max_size=20))
 def test_strings_read_back(text: str):
     assert literals.parse_string(literals.format_string(text, False), False) == text

@@ -28,19 +28,18 @@ def _alarm(*_: object) -> None:
 
 
 def by_words(name: str, seconds: float, folder: Path, start: int) -> int:
-    from mutations import mutated
     from targets import TARGETS
 
-    target, seeds = TARGETS[name]
-    corpus = seeds()
+    target = TARGETS[name]
+    corpus = target.seeds()
     signal.signal(signal.SIGALRM, _alarm)
     end, number, found, seen = time.monotonic() + seconds, start, 0, set()
     while time.monotonic() < end:
-        data = mutated(Random(number), corpus)
+        data = target.mutate(Random(number), corpus)
         number += 1
         signal.alarm(LIMIT_SECONDS)
         try:
-            target(data)
+            target.run(data)
         except Exception as error:
             place = traceback.extract_tb(error.__traceback__)[-1]
             key = (type(error).__name__, place.filename, place.lineno)
@@ -58,11 +57,11 @@ def by_words(name: str, seconds: float, folder: Path, start: int) -> int:
 def by_coverage(name: str, seconds: int, folder: Path) -> None:
     import atheris
 
-    with atheris.instrument_imports(include=["tappet.lang", "tappet.project.exchange"]):
+    with atheris.instrument_imports(include=["tappet.lang", "tappet.project", "tappet.runtime.protocol"]):
         from targets import TARGETS
-    target, seeds = TARGETS[name]
+    target = TARGETS[name]
     with tempfile.TemporaryDirectory() as corpus:
-        for number, data in enumerate(seeds()):
+        for number, data in enumerate(target.seeds()):
             (Path(corpus) / str(number)).write_bytes(data)
         flags = [
             f"-max_total_time={seconds}",
@@ -70,7 +69,7 @@ def by_coverage(name: str, seconds: int, folder: Path) -> None:
             f"-artifact_prefix={folder}/",
             "-rss_limit_mb=4096",
         ]
-        atheris.Setup([sys.argv[0], *flags, corpus], target)
+        atheris.Setup([sys.argv[0], *flags, corpus], target.run)
         atheris.Fuzz()
 
 

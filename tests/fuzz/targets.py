@@ -7,7 +7,13 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
+from random import Random
+
+import byte_targets
+import editor_targets
+from mutations import mutated, mutated_bytes, mutated_values
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.lang.lexer import tokenize
@@ -91,15 +97,31 @@ def _rows() -> list[bytes]:
     return [t.rpartition("END_VAR")[2].partition("END_PROGRAM")[0].encode() for t in texts]
 
 
-TARGETS: dict[str, tuple[Callable[[bytes], None], Callable[[], list[bytes]]]] = {
-    "lexer": (lexer, _programs),
-    "parser": (parser, _programs),
-    "checker": (checker, _programs),
-    "compiler": (compiler, _programs),
-    "il": (il, _rows),
-    "plcopen": (plcopen, lambda: _files(SAMPLES, ".xml")),
-    "twincat": (twincat, lambda: _files(SAMPLES, ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".plcproj")),
-    "export": (export_file, lambda: _files(SAMPLES, ".exp") or _programs()),
-    "text": (plain_text, _programs),
+@dataclass(frozen=True)
+class Target:
+    """What is fuzzed, what inputs are made of, and how they are changed."""
+
+    run: Callable[[bytes], None]
+    seeds: Callable[[], list[bytes]]
+    mutate: Callable[[Random, list[bytes]], bytes] = mutated
+
+
+TARGETS = {
+    "lexer": Target(lexer, _programs),
+    "parser": Target(parser, _programs),
+    "checker": Target(checker, _programs),
+    "compiler": Target(compiler, _programs),
+    "il": Target(il, _rows),
+    "plcopen": Target(plcopen, lambda: _files(SAMPLES, ".xml")),
+    "twincat": Target(twincat, lambda: _files(SAMPLES, ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".plcproj")),
+    "export": Target(export_file, lambda: _files(SAMPLES, ".exp") or _programs()),
+    "text": Target(plain_text, _programs),
+    "folder": Target(byte_targets.folder, byte_targets.folders),
+    "archive": Target(byte_targets.archive, byte_targets.archives, mutated_bytes),
+    "library": Target(byte_targets.library_file, byte_targets.library_files, mutated_bytes),
+    "package": Target(byte_targets.package, byte_targets.packages, mutated_values),
+    "frame": Target(byte_targets.frame, byte_targets.frames, mutated_values),
+    "literal": Target(byte_targets.literal, byte_targets.literals),
+    "editor": Target(editor_targets.editor, _programs),
+    "messages": Target(editor_targets.messages, editor_targets.conversations),
 }
-"""Target and its seeds by name."""

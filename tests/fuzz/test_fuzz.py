@@ -5,20 +5,19 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from mutations import mutated
 from targets import TARGETS
 
-RUNS = {"compiler": 60, "checker": 120, "il": 120}
+RUNS = {"compiler": 60, "checker": 120, "il": 120, "editor": 30, "messages": 30, "archive": 100}
 
 
 def fuzz(name: str, start: int, count: int) -> None:
-    target, seeds = TARGETS[name]
-    corpus = seeds()
+    target = TARGETS[name]
+    corpus = target.seeds()
     assert corpus
     for number in range(start, start + count):
-        data = mutated(Random(number), corpus)
+        data = target.mutate(Random(number), corpus)
         try:
-            target(data)
+            target.run(data)
         except Exception as error:
             raise AssertionError(f"{name} {number}: {error!r}\n{data.decode('utf-8', 'replace')}") from error
 

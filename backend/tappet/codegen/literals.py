@@ -87,6 +87,8 @@ def _calendar(kind: str, text: str) -> int:
         raise ValueError("expected hour:minute:second")
     seconds, _, fraction = fields[2].partition(".")
     hour, minute, second = int(fields[0]), int(fields[1]), int(seconds)
+    if max(year, month, day) > datetime.max.year:
+        raise ValueError("year, month or day out of range")
     if not (0 <= hour < 24 and 0 <= minute < 60 and 0 <= second < 60):
         raise ValueError("hour, minute or second out of range")
     days = (datetime(year, month, day, tzinfo=UTC) - _EPOCH).days

@@ -192,7 +192,7 @@ class CodePackage:
             )
         except PackageError:
             raise
-        except (TypeError, ValueError, IndexError, KeyError, AttributeError) as error:
+        except (TypeError, ValueError, OverflowError, IndexError, KeyError, AttributeError) as error:
             raise PackageError(f"malformed package: {error}") from error
         _check_ranges(package)
         return package
@@ -290,10 +290,15 @@ def _task_from_list(row: list[Any]) -> TaskSpec:
     if kind not in ("cyclic", "freewheeling", "event", "status"):
         raise PackageError(f"task {name}: unknown kind {kind!r}")
     return TaskSpec(
-        str(name), kind, int(interval), int(priority), event, offset, bit,
+        str(name), kind, int(interval), int(priority),
+        None if event is None else str(event), _optional_int(offset), _optional_int(bit),
         WatchdogSpec(int(watchdog[0]), int(watchdog[1])) if watchdog else None,
         tuple(str(p) for p in programs), str(symbol),
     )  # fmt: skip
+
+
+def _optional_int(value: Any) -> int | None:
+    return None if value is None else int(value)
 
 
 def _range_from_list(row: list[Any]) -> RemanentRange:

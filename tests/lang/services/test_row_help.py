@@ -75,6 +75,11 @@ def test_networks_fold() -> None:
     assert (10, 12) in found
 
 
+def test_a_body_without_labels_has_no_networks() -> None:
+    p = project("|LD 1\nST iCount")
+    assert [(fold.start, fold.end) for fold in folds(p.snapshot, p.document)] == [(0, 7), (1, 4)]
+
+
 def test_hover_and_references_find_operands() -> None:
     p = project("LD iCo|unt\nADD iCount\nST iTotal\nST iCount")
     shown = hover(p.snapshot, p.document, p.position)

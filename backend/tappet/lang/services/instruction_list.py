@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Final
 
 from tappet.lang import ast
@@ -74,7 +75,7 @@ def networks(unit: ast.Unit) -> Iterator[tuple[int, int]]:
     """First and last line of each network that has a label (NET-06)."""
     for _, behind, body in bodies(unit):
         starts = [statement.span.line for statement in body if statement.label is not None]
-        for start, following in zip(starts, [*starts[1:], behind - 1], strict=True):
+        for start, following in pairwise([*starts, behind - 1]):
             yield start, following - 1
 
 

@@ -1,0 +1,135 @@
+"""Readers of files and frames: what a person uploads, and what comes over the wire."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import zipfile
+from functools import cache
+from pathlib import Path
+
+from tappet.codegen.build import build_application
+from tappet.codegen.literals import format_string, format_time, parse_string, parse_time
+from tappet.codegen.package import CodePackage, PackageError
+from tappet.lang.source import Source
+from tappet.libraries import archive as library_archive
+from tappet.project.errors import FolderFormatError
+from tappet.project.folder import archive as project_archive
+from tappet.project.folder import codec
+from tappet.runtime import protocol
+
+ROOT = Path(__file__).resolve().parents[2]
+SEPARATOR = b"\n=== "
+"""Begins the path of the next file of a folder that is one text."""
+TIMES = ("time", "ltime", "date", "ldate", "tod", "ltod", "dt", "ldt")
+
+
+def folder(data: bytes) -> None:
+    """The files of a project folder, one behind the other."""
+    files = {}
+    for part in (b"\n" + data).split(SEPARATOR)[1:]:
+        path, _, content = part.partition(b"\n")
+        files[path.decode("utf-8", "replace")] = content
+    with contextlib.suppress(FolderFormatError):
+        codec.encode(codec.decode(files).project)
+
+
+@cache
+def _example() -> dict[str, bytes]:
+    root = ROOT / "projects" / "bottling"
+    return {str(p.relative_to(root)): p.read_bytes() for p in sorted(root.rglob("*")) if p.is_file()}
+
+
+def folders() -> list[bytes]:
+    files = _example()
+    few = {path: content for path, content in files.items() if len(content) < 3000}
+    return [b"".join(SEPARATOR + p.encode() + b"\n" + c for p, c in some.items()) for some in (files, few)]
+
+
+def archive(data: bytes) -> None:
+    """A packed project."""
+    with contextlib.suppress(FolderFormatError):
+        project_archive.read_zip(data)
+
+
+def archives() -> list[bytes]:
+    stored = io.BytesIO()
+    with zipfile.ZipFile(stored, "w") as packed:
+        packed.writestr("tappet-project.json", _example()["tappet-project.json"])
+    return [project_archive.zip_files(_example()), stored.getvalue()]
+
+
+def library_file(data: bytes) -> None:
+    """A library to install."""
+    with contextlib.suppress(library_archive.LibraryFileError):
+        library_archive.unpack(data)
+
+
+def library_files() -> list[bytes]:
+    texts = {"F": "FUNCTION F : INT\nEND_FUNCTION\n"}
+    facts = library_archive.manifest("Mine", "1.0.0.0", company="Me", requires=[])
+    return [library_archive.pack(facts, texts)]
+
+
+def package(data: bytes) -> None:
+    """Code that is sent to a runtime."""
+    with contextlib.suppress(PackageError):
+        CodePackage.from_bytes(data).to_bytes()
+
+
+@cache
+def packages() -> list[bytes]:
+    text = (
+        "PROGRAM PLC_PRG\nVAR RETAIN n : INT; END_VAR VAR t : TON; END_VAR\nt(); n := n + 1;\nEND_PROGRAM\n"
+    )
+    built = build_application([Source("a.st", text)]).package
+    assert built is not None
+    return [built.to_bytes()]
+
+
+def frame(data: bytes) -> None:
+    """A message to a runtime with every kind of argument, or recorder data."""
+    try:
+        if protocol.is_frames(data):
+            batch = protocol.unpack_frames(data)
+            batch.frames(batch.frame_size - 16)
+            return
+        request = protocol.parse_request(data)
+    except protocol.ProtocolError:
+        return
+    fields = request.fields
+    for take in (fields.text, fields.optional_text, fields.integer, fields.flag, fields.data):
+        with contextlib.suppress(protocol.ProtocolError):
+            take("a")
+    for rows in (fields.places, fields.values, fields.keys):
+        with contextlib.suppress(protocol.ProtocolError):
+            rows("b")
+    with contextlib.suppress(protocol.ProtocolError):
+        fields.optional_rows("b", 2)
+
+
+def frames() -> list[bytes]:
+    arguments = [
+        {"a": "text", "b": [[0, 4], [8, 1]]},
+        {"a": 5, "b": [[0, b"abcd", None], [8, b"x", 3]]},
+        {"a": True, "b": [[0, None], [8, 7]]},
+        {"a": b"bytes", "b": None},
+    ]
+    requests = [protocol.pack({"id": n, "op": "read", **some}) for n, some in enumerate(arguments)]
+    return [*requests, protocol.pack_frames(1, 2, 20, 0, bytes(40))]
+
+
+def literal(data: bytes) -> None:
+    """A value that a person types."""
+    text = data.decode("utf-8", "replace")
+    for kind in TIMES:
+        with contextlib.suppress(ValueError):
+            format_time(kind, parse_time(kind, text))
+    for wide in (False, True):
+        with contextlib.suppress(ValueError):
+            format_string(parse_string(text, wide), wide)
+
+
+def literals() -> list[bytes]:
+    texts = ["T#1d2h3m4s5ms", "LTIME#1us2ns", "D#2020-02-29", "DT#1999-12-31-23:59:59.5", "TOD#12:00:00.001"]
+    return [text.encode() for text in [*texts, "'a$'b$0A'", '"\u00e4$00e4"', "t#-5ms", "T#1.5h"]]
