@@ -33,7 +33,7 @@ def test_entry_is_well_formed(entry: object) -> None:
     assert re.fullmatch(r"[EWS]\d{4}", entry.code)
     assert re.fullmatch(r"[a-z0-9_]+", entry.name)
     assert (entry.severity == "error") == (entry.code[0] == "E")
-    assert entry.alias == "" or re.fullmatch(r"C\d{4}", entry.alias)
+    assert entry.alias == "" or re.fullmatch(r"C\d{4}|SA\d{4}", entry.alias)
     assert entry.message
     assert not entry.message.endswith(".")
     assert entry.advice.endswith((".", "}"))

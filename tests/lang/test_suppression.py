@@ -27,3 +27,26 @@ def test_range_of_a_pragma(text: str, lines: list[int]) -> None:
 
 def test_errors_stay() -> None:
     assert [d.code for d in diagnose("{warning disable E0201}\nnope := 1;\n")] == ["E0201"]
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("{analysis -54}\nx := a = b;\n", []),
+        ("{analysis -54}\nx := a = b;\n{analysis +54}\nx := a = b;\n", [6]),
+        ("{analysis -33, -SA0054}\nx := a = b;\n", []),
+        ("{analysis -W1122}\nx := a = b;\n{ANALYSIS +w1122}\nx := a = b;\n", [6]),
+        ("{analysis -33}\nx := a = b;\n", [4]),
+        ("x := a = b;\n{analysis -54}\n", [3]),
+    ],
+)
+def test_static_analysis_is_switched_off_in_the_text(text: str, lines: list[int]) -> None:
+    found = [d for d in diagnose(BODY + text) if d.code == "W1122"]
+    assert [d.span.line + 1 for d in found] == lines
+
+
+def test_attribute_switches_rules_off_in_an_object() -> None:
+    text = "{attribute 'analysis' := '-54, -NC0007'}\n" + BODY + "x := a = b;\n"
+    found = {d.code for d in diagnose("@static\n" + text)}
+    assert "S1101" in found
+    assert not found & {"W1122", "S1001", "S1004"}

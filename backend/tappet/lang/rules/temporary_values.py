@@ -87,26 +87,14 @@ OWN_CODE_ONLY = True
 
 
 def check_pou(b: Body) -> None:
-    """Reports the first read before any assignment, and variables that are only assigned."""
-    pou = b.pou
-    if pou is None or pou.pou is None or not pou.pou.body:
+    """Reports reads that no assignment reaches, and assignments that nothing reads."""
+    watched = temporaries(b)
+    if not watched:
         return
-    short = pou.kind in ("FUNCTION", "METHOD")
-    watched: dict[int, ast.VarDecl] = {}
-    for block in pou.pou.blocks:
-        if block.section == "VAR_TEMP" or (short and block.section == "VAR"):
-            for decl in block.variables:
-                symbol = decl.symbol
-                if (
-                    isinstance(symbol, VarSymbol)
-                    and isinstance(symbol.type, _SIMPLE)
-                    and not symbol.is_constant
-                    and decl.address is None
-                    and not decl.attributes
-                ):
-                    watched[id(symbol)] = decl
-    body = pou.pou.body
-    if not watched or any(s.label for s in statements(body)):
+    assert b.pou is not None
+    assert b.pou.pou is not None
+    body = b.pou.pou.body
+    if any(s.label for s in statements(body)):
         return
     reaching = Reaching(key for key, decl in watched.items() if decl.init is None)
     reaching.run(body)
@@ -121,6 +109,28 @@ def check_pou(b: Body) -> None:
         if (unused and key not in told) or (not unused and not _begins(body, target)):
             b.report("W1135", target.span, name=target.name)
         told.add(key)
+
+
+def temporaries(b: Body) -> dict[int, ast.VarDecl]:
+    """The simple variables of a body that begin each call anew, by id() of their symbol."""
+    pou = b.pou
+    watched: dict[int, ast.VarDecl] = {}
+    if pou is None or pou.pou is None or not pou.pou.body:
+        return watched
+    short = pou.kind in ("FUNCTION", "METHOD")
+    for block in pou.pou.blocks:
+        if block.section == "VAR_TEMP" or (short and block.section == "VAR"):
+            for decl in block.variables:
+                symbol = decl.symbol
+                if (
+                    isinstance(symbol, VarSymbol)
+                    and isinstance(symbol.type, _SIMPLE)
+                    and not symbol.is_constant
+                    and decl.address is None
+                    and not decl.attributes
+                ):
+                    watched[id(symbol)] = decl
+    return watched
 
 
 def _begins(body: list[ast.Stmt], target: ast.Name) -> bool:

@@ -1,0 +1,54 @@
+"""Statements that are not wanted are removed, not put into a comment.
+
+Source: coding guidelines of PLCopen, C4 (no code in comments); CODESYS Static Analysis SA0140, SA0163.
+
+Passes:
+    @static
+    // Counts; see the manual (chapter 3).
+    VAR n1 : INT; END_VAR
+    n1 := n1 + 1; // up
+Fails:
+    @static
+    VAR n1 : INT; END_VAR
+    n1 := n1 + 1;
+    // n1 := n1 + 2;
+    (* S1114: a statement that is switched off stands above *)
+Fails:
+    @static
+    VAR n1 : INT; END_VAR
+    n1 := n1 + 1; (* up (* S1115: a comment in a comment *) *)
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from tappet.lang import ast
+from tappet.lang.lexer import COMMENT, tokenize
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.context import Session
+
+CODES = ("S1114", "S1115")
+_STATEMENT = re.compile(
+    r"^\s*(?:[A-Za-z_][\w.\[\]^]*\s*(?::=[^;]+|\([^;]*\))\s*;|(?:IF|WHILE|FOR|CASE)\b.+\b(?:THEN|DO|OF)\s*$"
+    r"|END_(?:IF|WHILE|FOR|CASE|REPEAT)\s*;?\s*$)",
+    re.MULTILINE | re.IGNORECASE,
+)
+
+
+def check_unit(session: Session, unit: ast.Unit) -> None:
+    """Reports the comments of a text."""
+    chosen = session.options.static.codes
+    for token in tokenize(unit.source):
+        if token.kind != COMMENT:
+            continue
+        if token.text.startswith("//"):
+            inner = token.text[2:]
+        else:
+            inner = token.text[2:-2]
+            if "S1115" in chosen and token.text.startswith("(*") and "(*" in inner:
+                session.report("S1115", unit.source.uri, token.span)
+        if "S1114" in chosen and _STATEMENT.search(inner):
+            session.report("S1114", unit.source.uri, token.span)
