@@ -23,7 +23,7 @@ _Ranges = list[tuple[str, int, int]]
 def kept(found: Sequence[Diagnostic], units: Iterable[ast.Unit]) -> list[Diagnostic]:
     """The messages without the warnings and notes that a pragma switches off at their place.
 
-    A pragma names codes of this compiler, of CODESYS V3 (C0195) or of its static analysis (33 for SA0033), and
+    A pragma names codes of this compiler, of CODESYS V3 (C0195) or its static analysis (33 for SA0033), and
     counts from its line to that of the restore, or to the end of the text. Errors cannot be switched off.
     """
     concerned = {d.uri for d in found if d.severity != "error"}
