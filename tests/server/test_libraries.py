@@ -52,6 +52,15 @@ def test_a_library_file_is_installed_shown_and_removed(admin: TestClient) -> Non
     assert admin.get(f"{URL}/Plant").json()["version"] == "1.0.0.0"
 
 
+def test_a_library_goes_out_as_the_file_that_can_be_installed(admin: TestClient) -> None:
+    facts = archive.manifest("Plant", "1.0.0.0", company="Works")
+    data = archive.pack(facts, {"Twice": "FUNCTION Twice : INT\nEND_FUNCTION\n"})
+    assert admin.post(URL, files={"file": ("plant.tappetlib", data)}).status_code == 201
+    answer = admin.get(f"{URL}/Plant/1.0.0.0/file")
+    assert answer.content == data
+    assert "Plant%201.0.0.0.tappetlib" in answer.headers["content-disposition"]
+
+
 def test_bad_library_files_and_those_of_the_product(admin: TestClient) -> None:
     answer = admin.post(URL, files={"file": ("x.tappetlib", b"no zip")})
     assert (answer.status_code, answer.json()["type"]) == (422, "urn:tappet:problem:library-file")

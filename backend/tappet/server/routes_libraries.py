@@ -6,11 +6,12 @@ from functools import lru_cache
 from typing import Annotated
 
 from fastapi import APIRouter, Query, UploadFile
+from fastapi.responses import Response
 from pydantic import TypeAdapter
 from starlette.concurrency import run_in_threadpool
 
 from tappet import libraries
-from tappet.libraries import Library, UnknownLibraryError, archive, catalog
+from tappet.libraries import Library, UnknownLibraryError, archive, catalog, repository
 from tappet.libraries.archive import LibraryFileError
 from tappet.project.errors import ProjectError
 from tappet.project.library_texts import library_requirements, library_texts, requirement
@@ -21,6 +22,7 @@ from tappet.server.builder import Application
 from tappet.server.database import Database
 from tappet.server.dependencies import CommissioningDep, DatabaseDep, Engineer, StoreDep, Viewer
 from tappet.server.problems import Problem, not_found
+from tappet.server.routes_projects import download
 from tappet.server.schemas.build import BuildReport, Severity
 from tappet.server.schemas.libraries import (
     LibraryDetail,
@@ -97,6 +99,19 @@ def list_library_uses(name: str, version: str, who: Viewer, store: StoreDep) -> 
         if reference.name.upper() == wanted.name.upper()
         and (reference.version == wanted.version or (newest and reference.version == "*"))
     ]
+
+
+@router.get(
+    "/libraries/{name}/{version}/file",
+    response_class=Response,
+    responses={200: {"content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}}}},
+)
+def get_library_file(name: str, version: str, who: Viewer) -> Response:
+    """A library as a file, to be installed elsewhere."""
+    found = _load(name, version)
+    facts, texts = archive.read(repository.find(found.name, found.version).folder)
+    filename = f"{found.name} {found.version}{archive.SUFFIX}"
+    return download(archive.pack(facts, texts), filename, "application/zip")
 
 
 @router.post("/libraries", status_code=201, max_body_size=archive.MAX_BYTES)

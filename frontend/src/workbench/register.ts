@@ -4,6 +4,7 @@ import { lazy } from 'react';
 import { registerEditCommands } from './commands/edit';
 import { registerFileCommands } from './commands/file';
 import { registerHelpCommands } from './commands/help';
+import { registerLibraryCommands } from './commands/libraries';
 import { registerOnlineCommands } from './commands/online';
 import { registerProjectCommands } from './commands/project';
 import { registerStaticAnalysisCommands } from './commands/staticAnalysis';
@@ -94,6 +95,7 @@ export function registerWorkbench(): void {
   registerEditCommands();
   registerProjectCommands();
   registerOnlineCommands();
+  registerLibraryCommands();
   registerStaticAnalysisCommands();
   registerToolsCommands();
   registerWindowCommands();

@@ -1,5 +1,5 @@
 import { useState } from 'react';
-import type { LibrarySummary } from '@/api/types';
+import type { LibraryReference, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { search } from '@/workbench/palette/match';
 import { Button } from '@/workbench/ui/Button';
@@ -8,48 +8,77 @@ import { Empty } from '@/workbench/ui/Empty';
 import { TextInput } from '@/workbench/ui/Field';
 import { Table } from '@/workbench/ui/Table';
 import type { Column } from '@/workbench/ui/table';
+import styles from './LibraryManager.module.css';
+import { freshReference, namespaceFault, newestOf, versionsOf } from './model';
+import { placeholderFault, ReferenceFields } from './ReferenceFields';
 
-/** Chooses an installed library to add. */
-export function AddLibraryDialog({
-  libraries,
-  close,
-}: {
-  libraries: readonly LibrarySummary[];
-  close: (names?: string[]) => void;
-}) {
+interface AddLibraryProps {
+  references: readonly LibraryReference[];
+  installed: readonly LibrarySummary[];
+  close: (reference?: LibraryReference) => void;
+}
+
+/** Chooses an installed library to add, in which version and under which name (LIB-08, LIB-09). */
+export function AddLibraryDialog({ references, installed, close }: AddLibraryProps) {
   const t = useText();
   const [query, setQuery] = useState('');
-  const [selected, setSelected] = useState<string | null>(libraries[0]?.name ?? null);
-  const hits = search(query, libraries, (library) => `${library.name} ${library.description}`).map((hit) => hit.entry);
-  const chosen = hits.find((library) => library.name === selected) ?? hits[0];
+  const taken = new Set(references.map((reference) => reference.name.toUpperCase()));
+  const offered = newestOf(installed);
+  const hits = search(query, offered, (library) => `${library.name} ${library.description}`).map((hit) => hit.entry);
+  const first = hits.find((library) => !taken.has(library.name.toUpperCase())) ?? hits[0];
+  const [draft, setDraft] = useState<LibraryReference | null>(null);
+  const shown = draft && hits.some((library) => library.name === draft.name || draft.placeholder) ? draft : null;
+  const reference = shown ?? (first ? freshReference(first, references, installed) : null);
+  const fault = reference && namespaceFault(reference, -1, references, installed);
+  const refused = !reference
+    ? t('library.chooseOne')
+    : fault
+      ? t(fault)
+      : placeholderFault(reference)
+        ? t('library.namespaceFault')
+        : null;
+  const choose = (library: LibrarySummary) => setDraft(freshReference(library, references, installed));
+
   const columns: Column<LibrarySummary>[] = [
     {
       id: 'name',
       title: t('library.name'),
       width: 150,
-      sort: (library) => library.name,
-      cell: (library) => <span>{library.name}</span>,
+      sort: (one) => one.name,
+      cell: (one) => <span>{one.name}</span>,
     },
-    { id: 'version', title: t('library.version'), width: 80, cell: (library) => <span>{library.version}</span> },
+    {
+      id: 'versions',
+      title: t('libraries.versions'),
+      width: 150,
+      cell: (one) => <span className="digits">{versionsText(one, installed)}</span>,
+      hint: (one) => versionsText(one, installed),
+    },
+    {
+      id: 'used',
+      title: t('libraries.used'),
+      width: 60,
+      cell: (one) => <span>{taken.has(one.name.toUpperCase()) ? t('libraries.yes') : ''}</span>,
+    },
     {
       id: 'description',
-      title: t('libraryDoc.comment'),
-      width: 200,
+      title: t('libraries.description'),
+      width: 160,
       grow: true,
-      hint: (library) => library.description,
-      cell: (library) => <span>{library.description}</span>,
+      hint: (one) => one.description,
+      cell: (one) => <span>{one.description}</span>,
     },
   ];
   return (
     <Dialog
       title={t('library.add')}
-      width={600}
+      width={720}
       onClose={() => close()}
-      onSubmit={() => chosen && close([chosen.name])}
+      onSubmit={() => !refused && reference && close(reference)}
       footer={
         <>
           <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={chosen ? null : t('library.chooseOne')}>
+          <Button type="submit" variant="primary" disabledReason={refused}>
             {t('action.add')}
           </Button>
         </>
@@ -62,18 +91,33 @@ export function AddLibraryDialog({
         placeholder={t('libraries.search')}
         aria-label={t('libraries.search')}
       />
-      <div style={{ height: 280, border: '1px solid var(--line)', borderRadius: 'var(--radius)', overflow: 'hidden' }}>
+      <div className={styles.offered}>
         <Table
           label={t('library.add')}
           items={hits}
           columns={columns}
           keyOf={(library) => library.name}
-          selected={chosen?.name ?? null}
-          onSelect={(library) => setSelected(library?.name ?? null)}
-          onOpen={(library) => close([library.name])}
+          selected={reference?.name ?? null}
+          onSelect={(library) => library && choose(library)}
+          onOpen={(library) => close(freshReference(library, references, installed))}
           empty={<Empty title={t('palette.none')} />}
         />
       </div>
+      {reference && (
+        <ReferenceFields
+          reference={reference}
+          at={-1}
+          references={references}
+          installed={installed}
+          change={setDraft}
+        />
+      )}
     </Dialog>
   );
+}
+
+function versionsText(library: LibrarySummary, installed: readonly LibrarySummary[]): string {
+  return versionsOf(library.name, installed)
+    .map((one) => one.version)
+    .join(', ');
 }

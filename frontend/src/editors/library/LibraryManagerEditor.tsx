@@ -1,24 +1,23 @@
-import { Library as LibraryIcon, Pencil, Plus, Trash2, TriangleAlert } from 'lucide-react';
+import { Library as LibraryIcon, LibraryBig, Pencil, Plus, Trash2 } from 'lucide-react';
 import { useMemo, useState } from 'react';
 import type { LibraryItem, LibraryManagerData, LibraryReference } from '@/api/types';
 import { useText } from '@/i18n';
-import { objectIcon } from '@/icons/objects';
 import { openDialog } from '@/workbench/dialogs';
 import type { EditorProps } from '@/workbench/editors';
 import { ItemDoc } from '@/workbench/libraries/ItemDoc';
 import { LibraryTree } from '@/workbench/libraries/LibraryTree';
+import { idOf } from '@/workbench/libraries/model';
 import { useLibraries } from '@/workbench/libraries/useLibraries';
+import { runCommand } from '@/workbench/run';
 import { Button, IconButton } from '@/workbench/ui/Button';
 import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
 import { Table } from '@/workbench/ui/Table';
-import type { Column } from '@/workbench/ui/table';
 import { useDraft } from '../form/useDraft';
 import { AddLibraryDialog } from './AddLibraryDialog';
+import { referenceColumns } from './columns';
 import { LibraryPropertiesDialog } from './LibraryPropertiesDialog';
 import styles from './LibraryManager.module.css';
-import { addable, effectiveVersion, namespaceOf } from './model';
-
-const Icon = objectIcon('library_manager');
+import { keyOf, rowsOf } from './model';
 
 /** Above the libraries in use, below the contents of the chosen one with documentation (LIB-01 to LIB-09). */
 export default function LibraryManagerEditor({ panelId, projectId, objectId }: EditorProps) {
@@ -26,107 +25,67 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
   const draft = useDraft<LibraryManagerData>(panelId, projectId, objectId, () => true);
   const installed = useLibraries();
   const [selected, setSelected] = useState<string | null>(null);
+  const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const [shown, setShown] = useState<{ library: string; item: LibraryItem | null } | null>(null);
   const libraries = useMemo(() => installed.data ?? [], [installed.data]);
   const references = useMemo(() => draft.data?.references ?? [], [draft.data]);
-  const at = references.findIndex((reference) => reference.name === selected);
-  const chosen = references[at] ?? references[0];
-  const summary = libraries.find((library) => library.name === chosen?.name);
-
-  const columns = useMemo(
-    (): Column<LibraryReference>[] => [
-      {
-        id: 'name',
-        title: t('library.name'),
-        width: 220,
-        grow: true,
-        sort: (reference) => reference.name,
-        cell: (reference) => {
-          const library = libraries.find((one) => one.name === reference.name);
-          const missing = effectiveVersion(reference, libraries) === null;
-          return (
-            <>
-              {missing ? (
-                <TriangleAlert size={15} className={styles.missing} aria-label={t('library.missing')} />
-              ) : (
-                <Icon size={15} />
-              )}
-              <span className={missing ? styles.missing : undefined}>
-                {reference.name}
-                {library?.company ? ` (${library.company})` : ''}
-              </span>
-            </>
-          );
-        },
-        hint: (reference) =>
-          effectiveVersion(reference, libraries) === null
-            ? t('library.missing')
-            : (libraries.find((one) => one.name === reference.name)?.description ?? ''),
-      },
-      {
-        id: 'namespace',
-        title: t('library.namespace'),
-        width: 180,
-        sort: (reference) => namespaceOf(reference, libraries),
-        cell: (reference) => <span className="code">{namespaceOf(reference, libraries)}</span>,
-      },
-      {
-        id: 'version',
-        title: t('library.version'),
-        width: 120,
-        cell: (reference) => <span>{reference.version === '*' ? t('library.newest') : reference.version}</span>,
-      },
-      {
-        id: 'effective',
-        title: t('library.effective'),
-        width: 130,
-        cell: (reference) => <span className="digits">{effectiveVersion(reference, libraries) ?? '–'}</span>,
-      },
-    ],
-    [t, libraries],
-  );
+  const rows = useMemo(() => rowsOf(references, libraries, open), [references, libraries, open]);
+  const chosen = rows.find((row) => row.key === selected) ?? rows[0];
+  const readOnly = draft.readOnly !== null;
 
   if (draft.error && !draft.object) return <Failed error={draft.error} />;
   if (installed.isError) return <Failed error={installed.error} retry={() => void installed.refetch()} />;
   if (!draft.data || !installed.data) return <Loading />;
 
   const change = (next: LibraryReference[]) => draft.change({ references: next });
+  const changeAt = (at: number, edited: LibraryReference) => {
+    change(references.map((reference, place) => (place === at ? edited : reference)));
+    setSelected(keyOf(edited, libraries));
+  };
   const add = async () => {
-    const names = await openDialog<string[]>((close) => (
-      <AddLibraryDialog libraries={addable(references, libraries)} close={close} />
+    const added = await openDialog<LibraryReference>((close) => (
+      <AddLibraryDialog references={references} installed={libraries} close={close} />
     ));
-    if (names?.length) {
-      change([...references, ...names.map((name) => ({ name, version: '*', namespace: '' }))]);
-      setSelected(names[0]!);
-    }
+    if (!added) return;
+    change([...references, added]);
+    setSelected(keyOf(added, libraries));
   };
   const edit = async () => {
-    if (!chosen) return;
-    const index = references.indexOf(chosen);
+    const at = chosen?.at ?? null;
+    if (at === null) return;
     const edited = await openDialog<LibraryReference>((close) => (
       <LibraryPropertiesDialog
-        reference={chosen}
-        at={index}
+        reference={references[at]!}
+        at={at}
         references={references}
         installed={libraries}
         close={close}
       />
     ));
-    if (edited) change(references.map((reference, place) => (place === index ? edited : reference)));
+    if (edited) changeAt(at, edited);
   };
-  const remove = () => change(references.filter((reference) => reference !== chosen));
-  const none = chosen ? null : t('library.chooseOne');
+  const remove = () => change(references.filter((_, at) => at !== chosen?.at));
+  const toggle = (key: string) => {
+    const next = new Set(open);
+    if (!next.delete(key)) next.add(key);
+    setOpen(next);
+  };
+  const none = !chosen ? t('library.chooseOne') : chosen.at === null ? t('libraries.comesAlong') : null;
+  const library = chosen?.library ?? null;
+  const columns = referenceColumns({
+    references,
+    installed: libraries,
+    open,
+    readOnly,
+    toggle,
+    change: changeAt,
+  });
 
   return (
     <div className={styles.view}>
       <div className={styles.upper}>
         <div className={styles.bar}>
-          <Button
-            variant="quiet"
-            icon={Plus}
-            disabledReason={draft.readOnly ?? (addable(references, libraries).length ? null : t('library.allAdded'))}
-            onClick={() => void add()}
-          >
+          <Button variant="quiet" icon={Plus} disabledReason={draft.readOnly} onClick={() => void add()}>
             {t('library.add')}
           </Button>
           <IconButton
@@ -142,19 +101,26 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
             disabledReason={draft.readOnly ?? none}
             onClick={remove}
           />
+          <IconButton
+            icon={LibraryBig}
+            label={t('command.libraryRepository')}
+            onClick={() => void runCommand('tools.libraryRepository')}
+          />
         </div>
         <div className={styles.table}>
           <Table
             label={t('library.references')}
-            items={references}
+            items={rows}
             columns={columns}
-            keyOf={(reference) => reference.name}
-            selected={chosen?.name ?? null}
-            onSelect={(reference) => setSelected(reference?.name ?? null)}
-            onOpen={() => !draft.readOnly && void edit()}
+            keyOf={(row) => row.key}
+            selected={chosen?.key ?? null}
+            onSelect={(row) => setSelected(row?.key ?? null)}
+            onOpen={() => !readOnly && void edit()}
             onKey={(event) => {
-              if (event.key === 'Delete' && chosen && !draft.readOnly) remove();
-              if (event.key === 'Insert' && !draft.readOnly) void add();
+              if (event.key === 'Delete' && chosen?.at != null && !readOnly) remove();
+              if (event.key === 'Insert' && !readOnly) void add();
+              if (event.key === 'ArrowRight' && chosen?.expandable && !open.has(chosen.key)) toggle(chosen.key);
+              if (event.key === 'ArrowLeft' && chosen && open.has(chosen.key)) toggle(chosen.key);
             }}
             empty={<Empty icon={LibraryIcon} title={t('library.none')} text={t('library.noneText')} />}
           />
@@ -162,13 +128,13 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
       </div>
       <div className={styles.lower}>
         <div className={styles.contents}>
-          {summary ? (
+          {library ? (
             <LibraryTree
-              key={summary.name}
-              label={t('library.contents', { name: summary.name })}
-              libraries={[summary]}
+              key={idOf(library)}
+              label={t('library.contents', { name: library.name })}
+              libraries={[library]}
               flat
-              onChoose={(library, item) => setShown({ library, item })}
+              onChoose={(from, item) => setShown({ library: idOf(from), item })}
             />
           ) : (
             <Empty
@@ -177,7 +143,10 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
             />
           )}
         </div>
-        <ItemDoc library={shown?.library ?? null} item={shown && shown.library === summary?.name ? shown.item : null} />
+        <ItemDoc
+          library={library && `${library.name}, ${library.version}`}
+          item={shown && library && shown.library === idOf(library) ? shown.item : null}
+        />
       </div>
     </div>
   );

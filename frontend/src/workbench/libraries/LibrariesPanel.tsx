@@ -35,7 +35,7 @@ export default function LibrariesPanel() {
         label={t('panel.libraries')}
         libraries={data}
         search={search}
-        onChoose={chooseItem}
+        onChoose={(library, item) => chooseItem(`${library.name}, ${library.version}`, item)}
         onOpen={() => showPanel('libraryDoc', false)}
       />
     </div>

@@ -5,7 +5,7 @@ import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
 import { findTyped, moveFocus, type Motion, type Row } from '../tree/model';
 import treeStyles from '../tree/Tree.module.css';
-import { groupsOf, objectKindOf } from './model';
+import { groupsOf, idOf, objectKindOf } from './model';
 import styles from './Libraries.module.css';
 import { useContents } from './useLibraries';
 
@@ -14,9 +14,9 @@ interface Node {
   level: number;
   name: string;
   detail?: string;
-  kind: 'library' | 'group' | 'item';
+  kind: 'library' | 'group' | 'item' | 'required';
   expandable: boolean;
-  library: string;
+  library: LibrarySummary;
   item?: LibraryItem;
 }
 
@@ -26,8 +26,8 @@ interface LibraryTreeProps {
   search?: string;
   /** Show the contents of a single library without a node for the library itself. */
   flat?: boolean;
-  onChoose: (library: string, item: LibraryItem | null) => void;
-  onOpen?: (library: string, item: LibraryItem | null) => void;
+  onChoose: (library: LibrarySummary, item: LibraryItem | null) => void;
+  onOpen?: (library: LibrarySummary, item: LibraryItem | null) => void;
 }
 
 const MOTIONS: Record<string, Motion> = {
@@ -39,38 +39,60 @@ const MOTIONS: Record<string, Motion> = {
   End: 'end',
 };
 
-/** Libraries, folders by kind, items. */
+/** Libraries in their versions, what they require, folders by kind, items. */
 export function LibraryTree({ label, libraries, search = '', flat, onChoose, onOpen }: LibraryTreeProps) {
   const t = useText();
   const id = useId();
   const tree = useRef<HTMLDivElement>(null);
-  const [open, setOpen] = useState<ReadonlySet<string>>(
-    () => new Set(flat ? libraries.map((library) => library.name) : []),
-  );
+  const [open, setOpen] = useState<ReadonlySet<string>>(() => new Set(flat ? libraries.map(idOf) : []));
   const [focused, setFocused] = useState<string | null>(null);
   const searching = search.trim() !== '';
-  const wanted = libraries.filter((library) => searching || flat || open.has(library.name));
-  const contents = useContents(wanted.map((library) => library.name));
+  const wanted = libraries.filter((library) => searching || flat || open.has(idOf(library)));
+  const contents = useContents(wanted);
 
   const nodes: Node[] = [];
   for (const library of libraries) {
-    const loaded = contents.get(library.name);
+    const libraryId = idOf(library);
+    const loaded = contents.get(libraryId);
     const groups = loaded ? groupsOf(loaded, search) : [];
     if (searching && loaded && groups.length === 0) continue;
     const base = flat ? 0 : 1;
     if (!flat)
       nodes.push({
-        id: library.name,
+        id: libraryId,
         level: 1,
         name: library.name,
         detail: library.version,
         kind: 'library',
         expandable: true,
-        library: library.name,
+        library,
       });
-    if (!(searching || flat || open.has(library.name))) continue;
+    if (!(searching || flat || open.has(libraryId))) continue;
+    if (!searching && library.requires.length > 0) {
+      const requiresId = `${libraryId}/requires`;
+      nodes.push({
+        id: requiresId,
+        level: base + 1,
+        name: t('libraries.requires'),
+        detail: String(library.requires.length),
+        kind: 'group',
+        expandable: true,
+        library,
+      });
+      if (open.has(requiresId))
+        for (const required of library.requires)
+          nodes.push({
+            id: `${requiresId}/${required.name}`,
+            level: base + 2,
+            name: required.name,
+            detail: required.version === '*' ? t('library.newest') : required.version,
+            kind: 'required',
+            expandable: false,
+            library,
+          });
+    }
     for (const { group, items } of groups) {
-      const groupId = `${library.name}/${group}`;
+      const groupId = `${libraryId}/${group}`;
       nodes.push({
         id: groupId,
         level: base + 1,
@@ -78,7 +100,7 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
         detail: String(items.length),
         kind: 'group',
         expandable: true,
-        library: library.name,
+        library,
       });
       if (!searching && !open.has(groupId)) continue;
       for (const item of items)
@@ -89,7 +111,7 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
           detail: item.summary,
           kind: 'item',
           expandable: false,
-          library: library.name,
+          library,
           item,
         });
     }
@@ -183,6 +205,6 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
 function NodeIcon({ node }: { node: Node }) {
   const { kind, subkind } = node.item
     ? objectKindOf(node.item)
-    : { kind: node.kind === 'library' ? ('library_manager' as const) : ('folder' as const), subkind: null };
+    : { kind: node.kind === 'group' ? ('folder' as const) : ('library_manager' as const), subkind: null };
   return <ObjectIcon kind={kind} subkind={subkind} style={{ flex: 'none' }} />;
 }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Library, LibraryItem } from '@/api/types';
-import { blockPins, groupsOf, objectKindOf } from './model';
+import { blockPins, groupsOf, objectKindOf, libraryFaults, nextVersion } from './model';
 
 const item = (name: string, kind: string, more: Partial<LibraryItem> = {}): LibraryItem => ({
   name,
@@ -23,6 +23,8 @@ const library = (items: LibraryItem[]): Library => ({
   company: '',
   description: '',
   removable: false,
+  requires: [],
+  stands_for: [],
   items,
 });
 
@@ -62,5 +64,29 @@ describe('pins', () => {
 
   it('of a function begin with its result', () => {
     expect(blockPins(item('LEN', 'function', { returns: 'INT' })).right).toEqual([{ name: 'LEN', type: 'INT' }]);
+  });
+});
+
+describe('a library to be saved', () => {
+  const installed = [
+    { name: 'Plant', version: '1.9.0.0', removable: true },
+    { name: 'Plant', version: '1.10.0.3', removable: true },
+    { name: 'Util', version: '1.0', removable: false },
+  ];
+
+  it('gets the next version of its name', () => {
+    expect(nextVersion('Plant', installed)).toBe('1.10.0.4');
+    expect(nextVersion('Other', installed)).toBe('1.0.0.0');
+  });
+
+  it('has a name, a version and a namespace that can be', () => {
+    const facts = { name: 'Plant', version: '1.10.0.3', namespace: '' };
+    expect(libraryFaults(facts, installed)).toEqual({ name: null, version: null, namespace: null });
+    expect(libraryFaults({ name: '2x', version: 'one', namespace: 'a b' }, installed)).toEqual({
+      name: 'libraries.nameFault',
+      version: 'libraries.versionFault',
+      namespace: 'library.namespaceFault',
+    });
+    expect(libraryFaults({ name: 'util', version: '1.0', namespace: '' }, installed).version).toBe('libraries.stays');
   });
 });

@@ -2,8 +2,9 @@ import { useQueries, useQuery, type UseQueryResult } from '@tanstack/react-query
 import { api } from '@/api/client';
 import { keys } from '@/api/queries';
 import type { Library, LibrarySummary } from '@/api/types';
+import { idOf, type LibraryId } from './model';
 
-/** The installed libraries. */
+/** The installed libraries in all their versions. */
 export function useLibraries(): UseQueryResult<LibrarySummary[]> {
   return useQuery({
     queryKey: keys.libraries,
@@ -12,22 +13,17 @@ export function useLibraries(): UseQueryResult<LibrarySummary[]> {
   });
 }
 
-/** How a library with all its items is fetched. */
-export const contentsQuery = (name: string) => ({
-  queryKey: keys.library(name),
-  queryFn: () => api.get<Library>(`/libraries/${encodeURIComponent(name)}`),
+/** How a library with all its items is fetched; without a version the newest one. */
+export const contentsQuery = (name: string, version = '*') => ({
+  queryKey: keys.library(name, version),
+  queryFn: () => api.get<Library>(`/libraries/${encodeURIComponent(name)}`, { query: { version } }),
   staleTime: Infinity,
 });
 
-/** One library with all its items; null asks for none. */
-export function useLibrary(name: string | null): UseQueryResult<Library> {
-  return useQuery({ ...contentsQuery(name ?? ''), enabled: name !== null });
-}
-
-/** The contents of several libraries by name, as far as they have arrived. */
-export function useContents(names: readonly string[]): ReadonlyMap<string, Library> {
+/** The contents of several libraries by `idOf`, as far as they have arrived. */
+export function useContents(libraries: readonly LibraryId[]): ReadonlyMap<string, Library> {
   return useQueries({
-    queries: names.map(contentsQuery),
-    combine: (results) => new Map(results.flatMap(({ data }) => (data ? [[data.name, data] as const] : []))),
+    queries: libraries.map(({ name, version }) => contentsQuery(name, version)),
+    combine: (results) => new Map(results.flatMap(({ data }) => (data ? [[idOf(data), data] as const] : []))),
   });
 }

@@ -1,0 +1,53 @@
+import { LibraryBig, PackageCheck } from 'lucide-react';
+import { api } from '@/api/client';
+import { keys, queryClient } from '@/api/queries';
+import type { LibrarySummary, ProjectSummary } from '@/api/types';
+import { t } from '@/i18n';
+import { registerCommands, type Command } from '../commands';
+import { openDialog } from '../dialogs';
+import { saveEditors } from '../docking/close';
+import { RepositoryDialog } from '../libraries/RepositoryDialog';
+import { SaveLibraryDialog } from '../libraries/SaveLibraryDialog';
+import { atLeast } from '../rights';
+
+const commands: Command[] = [
+  {
+    id: 'file.saveLibrary',
+    title: 'command.saveLibrary',
+    icon: PackageCheck,
+    menu: { menu: 'file', group: '2_exchange', order: 3 },
+    enabled: (context) =>
+      !context.projectId ? 'reason.noProject' : atLeast(context.role, 'engineer') ? true : 'reason.engineer',
+    run: async (context) => {
+      if (!(await saveEditors(context.dirtyPanels))) return;
+      const project = await api.get<ProjectSummary>(`/projects/${context.projectId}`);
+      const installed = await queryClient.fetchQuery({
+        queryKey: keys.libraries,
+        queryFn: () => api.get<LibrarySummary[]>('/libraries'),
+      });
+      await openDialog((close) => (
+        <SaveLibraryDialog
+          projectId={project.id}
+          projectName={project.name}
+          description={project.description}
+          installed={installed}
+          close={() => close()}
+        />
+      ));
+    },
+  },
+  {
+    id: 'tools.libraryRepository',
+    title: 'command.libraryRepository',
+    icon: LibraryBig,
+    menu: { menu: 'tools', group: '1_options', order: 2 },
+    run: async (context) => {
+      const readOnly = atLeast(context.role, 'engineer') ? null : t('reason.engineer');
+      await openDialog((close) => <RepositoryDialog readOnly={readOnly} close={() => close()} />);
+    },
+  },
+];
+
+export function registerLibraryCommands(): void {
+  registerCommands(commands);
+}
