@@ -55,7 +55,7 @@ VAR_GLOBAL
 END_VAR
 
 LIBRARY
-Standard.lib 5.12.10 14:48:34
+Valves.lib 5.12.10 14:48:34
 END_LIBRARY
 
 PROGRAM LAST
@@ -71,7 +71,7 @@ END_PROGRAM
     assert "CNC : BOOL;" in part(done, "Global_Variables", "declaration")
     assert part(done, "LAST") == ";"
     refused = [entry.object for entry in done.report.entries if entry.outcome == "refused"]
-    assert refused == ["LIBRARY"]
+    assert refused == ["Valves.lib"]
 
 
 def test_a_pointer_has_four_bytes() -> None:
@@ -131,3 +131,136 @@ END_PROGRAM
     relative = imported("PROGRAM P\nVAR\n\tR : REFERENCE TO INT;\nEND_VAR\nR := THIS^.R;\nEND_PROGRAM\n")
     assert "R : REFERENCE TO INT;" in part(relative, "P", "declaration")
     assert part(relative, "P") == "R := THIS^.R;"
+
+
+PROJECT = """
+
+(* @NESTEDCOMMENTS := 'Yes' *)
+(* @PATH := '' *)
+PROGRAM PLC_PRG
+VAR
+	DELAY : TON;
+END_VAR
+(* @END_DECLARATION := '0' *)
+DELAY(IN := TRUE, PT := T#1s);
+END_PROGRAM
+
+(* @PATH := '' *)
+
+VISUALISATION panel _VISU_TYPES : 1,1
+_BG_BMP : ''
+_SIMPLE : 0
+_TEXT : 5,4294967284,400
+_END_ELEM
+(* @TEXTSCALINGVARS := '_TEXTSCALINGVARS: $'$',$'$'' *)
+END_VISUALISATION
+
+PLC_CONFIGURATION
+_GLOBAL
+_END_GLOBAL
+_COMMENT: 'PROGRAM of the device'
+PLC_END
+
+
+RESOURCE
+{event_task : 'start','Called at start','','FUNCTION systemevent: DWORD$R$NEND_VAR'}{event_task_info : 0,1}
+{event_task : 'stop','Called at stop','LAST_STEPS','FUNCTION systemevent: DWORD'}{event_task_info : 0,2}
+
+TASK main (PRIORITY := 1, INTERVAL := T#3ms);
+PLC_PRG();
+{Additional_info : 1,0,0,0,1,4294967295}
+END_TASK
+
+TASK slow (PRIORITY := 12, INTERVAL := T#1s);
+REPORT(FULL := TRUE);
+CLEANUP();
+{Additional_info : 1,0,0,0,1,4294967295}
+END_TASK
+
+TASK event (PRIORITY := 3, EVENT := DOOR);
+END_TASK
+
+END_RESOURCE
+
+
+_ALARMCONFIG
+_ALARMCLASSLIST : 1
+_END_ALARMCONFIG
+
+
+LIBRARY
+STANDARD.LIB 4.10.05 11:14:46
+(* @LIBRARYSYMFILEINFO := '0' *)
+NumOfPOUs: 2
+CONCAT: 0
+TON: 0
+NumOfGVLs: 0
+END_LIBRARY
+
+LIBRARY
+Util.lib 18.5.10 15:14:28
+(* @LIBRARYSYMFILEINFO := '0' *)
+NumOfPOUs: 1
+BLINK: 2048
+NumOfGVLs: 1
+Globale_Variablen: 0
+END_LIBRARY
+
+LIBRARY
+C:\\Libs\\Pumps.lib 1.1.10 15:14:28
+(* @LIBRARYSYMFILEINFO := '0' *)
+NumOfPOUs: 2
+PUMP_ON: 2048
+PUMP_OFF: 2048
+NumOfGVLs: 0
+END_LIBRARY
+
+_WORKSPACE
+_GLOBALVISUALSETTINGS
+_END_GLOBALVISUALSETTINGS
+_END_WORKSPACE
+"""
+
+
+def test_a_whole_project_with_its_tasks_and_libraries() -> None:
+    done = imported(PROJECT)
+    tasks = {}
+    for name in ("main", "slow", "event"):
+        found = done.project.find(f"{APPLICATION}/Task Configuration/{name}")
+        assert found is not None
+        tasks[name] = found.data.model_dump()
+    assert tasks["main"]["interval"] == "T#3ms"
+    assert [pou["name"] for pou in tasks["main"]["pous"]] == ["PLC_PRG"]
+    assert [pou["name"] for pou in tasks["slow"]["pous"]] == ["REPORT", "CLEANUP"]
+    assert (tasks["slow"]["priority"], tasks["slow"]["interval"]) == (12, "T#1s")
+    assert (tasks["event"]["type"], tasks["event"]["event"]) == ("event", "DOOR")
+    manager = done.project.find(f"{APPLICATION}/Library Manager")
+    assert manager is not None
+    names = [item["name"] for item in manager.data.model_dump()["references"]]
+    assert sorted(names) == ["Standard", "Util"]
+    refused = {entry.object: entry.text for entry in done.report.entries if entry.outcome == "refused"}
+    assert set(refused) == {
+        "panel",
+        "PLC_CONFIGURATION",
+        "stop",
+        "_ALARMCONFIG",
+        "Pumps.lib",
+        "_WORKSPACE",
+    }
+    assert "LAST_STEPS" in refused["stop"]
+    assert refused["Pumps.lib"].endswith("PUMP_ON, PUMP_OFF")
+
+
+def test_texts_in_the_code_page_of_the_country() -> None:
+    text = "PROGRAM P\nVAR\n\tS : STRING := '%s';\nEND_VAR\n(* %s *)\n;\nEND_PROGRAM\n"
+    cyrillic = import_files({"p.exp": (text % ("Нагрев 5°", "управление насосом")).encode("cp1251")})
+    assert "(* управление насосом *)" in part(cyrillic, "P")
+    assert "'$CD$E0$E3$F0$E5$E2 5$B0'" in part(cyrillic, "P", "declaration")
+    chinese = import_files({"p.exp": (text % ("温度", "水泵启动后延时，运行")).encode("gbk")})
+    assert "(* 水泵启动后延时，运行 *)" in part(chinese, "P")
+    assert "'$CE$C2$B6$C8'" in part(chinese, "P", "declaration")
+    western = import_files(
+        {"p.exp": (text % ("Wärme 5° für 3 €", "Überdruck löst Gerät aus")).encode("cp1252")}
+    )
+    assert "(* Überdruck löst Gerät aus *)" in part(western, "P")
+    assert "'Wärme 5° für 3 $80'" in part(western, "P", "declaration")

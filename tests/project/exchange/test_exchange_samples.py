@@ -166,13 +166,12 @@ def test_codesys_23_export() -> None:
     assert networks["implementation"].startswith("_FBD_BODY")
     assert said(report) == {
         ("", "changed"),
-        ("LIBRARY", "refused"),
         ("PLC_CONFIGURATION", "refused"),
         ("NETWORKS", "kept"),
         ("Global Constants", "changed"),
     }
     lines = {entry.object: entry.line for entry in report.entries}
-    assert (lines["TURN"], lines["STORE.CLEAR"], lines["LIBRARY"]) == (7, 48, 103)
+    assert (lines["TURN"], lines["STORE.CLEAR"], lines["PLC_CONFIGURATION"]) == (7, 48, 111)
 
 
 def test_codesys_23_words_that_mean_something_else_today() -> None:

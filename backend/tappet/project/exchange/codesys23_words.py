@@ -14,7 +14,7 @@ from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.text_parts import NAME
 
 _TRUNC = "TRUNC gives INT in CoDeSys 2.3; it became TRUNC_INT"
-_BYTES = "characters of Windows-1252 in texts became their bytes, such as $80 for the euro sign"
+_BYTES = "characters in texts that are not of Latin-1 became their bytes, such as $80 for the euro sign"
 _KEYWORD = "names that are keywords today end in an underscore now: "
 _POINTER = "a pointer has 4 bytes in CoDeSys 2.3; SIZEOF of a pointer became SIZEOF(DWORD)"
 
@@ -98,14 +98,25 @@ def _closes(text: str, position: int) -> bool:
 
 
 def _in_bytes(text: str) -> str:
-    """A text with the bytes of what only Windows-1252 has; Latin-1 stays as it is."""
-    return text if text.isascii() else "".join(map(_as_byte, text))
+    """A text with the bytes that its characters had in the code page; Latin-1 stays as it is."""
+    page = next((page for page in _PAGES if _is_in(page, text)), None)
+    if page is None:
+        return text
+    return "".join(c if ord(c) < 256 and page == "cp1252" else _as_bytes(c, page) for c in text)
 
 
-def _as_byte(character: str) -> str:
-    if ord(character) < 256:
-        return character
+_PAGES = ("latin-1", "cp1252", "cp1251", "gbk")
+
+
+def _is_in(page: str, text: str) -> bool:
     try:
-        return f"${character.encode('cp1252').hex().upper()}"
+        text.encode(page)
     except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _as_bytes(character: str, page: str) -> str:
+    if character.isascii() or page == "latin-1":
         return character
+    return "".join(f"${byte:02X}" for byte in character.encode(page))

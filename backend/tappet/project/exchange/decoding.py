@@ -18,6 +18,17 @@ _MARKS = (
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
 _DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._-]{1,40})["']""")
+_CYRILLIC_WORD = re.compile(rb"[\xC0-\xFF\xA8\xB8]{3,}")
+_PAIRS = re.compile(rb"[\xA1-\xFE][\xA1-\xFE]")
+_MOST = 0.7
+"""Share of the letters beyond ASCII that must look like a script for a text to be taken as of it."""
+PAGE_NAMES = {
+    "cp1251": "Windows-1251 (Cyrillic)",
+    "cp1252": "Windows-1252 (Latin-1)",
+    "latin-1": "Windows-1252 (Latin-1)",
+    "gbk": "GBK (Chinese)",
+}
+"""Code pages of texts that are no Unicode, as a report names them."""
 _CODE_PAGES = frozenset(["cp1252", "iso8859-1", "iso8859-15", "cp1250", "cp1251", "cp936", "gb2312", "gbk"])
 """Encodings that an XML declaration may name besides Unicode ones; names as `codecs.lookup` gives them."""
 
@@ -25,7 +36,8 @@ _CODE_PAGES = frozenset(["cp1252", "iso8859-1", "iso8859-15", "cp1250", "cp1251"
 def decode_text(source: str, content: bytes) -> tuple[str, str]:
     """The text of a file with line feeds only, and the name of its encoding.
 
-    Without a byte order mark it is UTF-8, or else Windows-1252, whose unused places are read as Latin-1.
+    Without a byte order mark it is UTF-8, or else the code page that its letters look like: Windows-1251
+    (Cyrillic), GBK (Chinese), or Windows-1252, whose unused places are read as Latin-1.
     Raises ExchangeError for what is no text.
     """
     text, encoding = _decode(source, content)
@@ -62,10 +74,31 @@ def _decode(source: str, content: bytes) -> tuple[str, str]:
         return content.decode("utf-8"), "utf-8"
     except UnicodeDecodeError:
         pass
-    try:
-        return content.decode("cp1252"), "cp1252"
-    except UnicodeDecodeError:
-        return content.decode("latin-1"), "latin-1"
+    for page in _likely_pages(content):
+        try:
+            return content.decode(page), page
+        except UnicodeDecodeError:
+            continue
+    return content.decode("latin-1"), "latin-1"
+
+
+def _likely_pages(content: bytes) -> tuple[str, ...]:
+    """The code pages that a text may be in, the likeliest first.
+
+    Cyrillic has whole words of letters from 0xC0 on, mostly small ones from 0xE0 on. Chinese has pairs of
+    bytes, each from 0xA1 on, whose common characters begin below 0xD8. Western texts have single letters.
+    """
+    high = sum(byte >= 0x80 for byte in content)
+    cyrillic = b"".join(_CYRILLIC_WORD.findall(content))
+    words_of_letters = len(cyrillic) >= _MOST * high
+    small = sum(byte >= 0xE0 for byte in cyrillic)
+    if words_of_letters and small * 2 >= len(cyrillic):
+        return ("cp1251", "cp1252")
+    pairs = _PAIRS.findall(content)
+    common = sum(0xB0 <= pair[0] < 0xD8 or pair[0] < 0xAA for pair in pairs)
+    if 2 * len(pairs) >= _MOST * high and common >= _MOST * len(pairs):
+        return ("gbk", "cp1251" if words_of_letters else "cp1252", "cp1252")
+    return ("cp1251", "cp1252") if words_of_letters else ("cp1252",)
 
 
 def _strict(source: str, content: bytes, encoding: str) -> str:

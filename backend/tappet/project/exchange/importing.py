@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from tappet.project.exchange import twincat
 from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
-from tappet.project.exchange.decoding import decode_text, decode_xml
+from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml
 from tappet.project.exchange.drafts import Batch, task_configuration
 from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
 from tappet.project.exchange.placing import Place, empty_project, place
@@ -123,8 +123,8 @@ def _read(path: str, content: bytes, batch: Batch, report: ImportReport) -> None
         read_plcopen(path, content, batch, report)
     elif ending in (".st", ".exp", ".txt", ".iecst", ".lib"):
         text, encoding = decode_text(path, content)
-        if encoding in ("cp1252", "latin-1"):
-            report.add("changed", path, "the file is not UTF-8; it was read as Windows-1252 (Latin-1)")
+        if encoding in PAGE_NAMES:
+            report.add("changed", path, f"the file is not UTF-8; it was read as {PAGE_NAMES[encoding]}")
         if ending == ".exp" or _MARKED.search(text):
             read_export(path, text, batch, report)
         else:
