@@ -17,6 +17,7 @@ from tappet.core.life_cycle import after_init_methods, init_methods, life_cycle_
 from tappet.core.program import Program
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.initial import as_written
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 
 InitArguments = Sequence[list[ast.Argument]]
@@ -196,6 +197,7 @@ class Initialiser:
         given: InitArguments,
     ) -> None:
         if init is not None or len(given) > 1:
+            type_ = type_ if init is None else as_written(type_, init.elements)
             _ArrayFiller(self, template, type_, offset, given).run(init)
             return
         element, count = type_.element, type_.count

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.adaptation import require
@@ -79,11 +81,7 @@ def _elements(b: Body, elements: list[ast.Expr], array: t.Array) -> int:
     for position, x in enumerate(elements):
         if x.__class__ is ast.Call:
             elements[position] = _named_repeat(b, x)
-    nested = isinstance(element, t.Array) and not any(
-        isinstance(x, ast.ArrayInit)
-        or (isinstance(x, ast.Repeat) and any(isinstance(v, ast.ArrayInit) for v in x.values))
-        for x in elements
-    )
+    nested = as_written(array, elements) is not array
     if nested:
         assert isinstance(element, t.Array)
         flat = _elements(b, elements, element)
@@ -96,6 +94,19 @@ def _elements(b: Body, elements: list[ast.Expr], array: t.Array) -> int:
             initialise(b, x, element, inside_structure=False)
             used += 1
     return used
+
+
+def as_written(array: t.Array, elements: Sequence[ast.Expr]) -> t.Array:
+    """An array of arrays without brackets for its rows: as the array of one level that the values fill."""
+    while isinstance(array.element, t.Array) and not any(_is_row(x) for x in elements):
+        array = t.Array(array.element.element, array.bounds + array.element.bounds)
+    return array
+
+
+def _is_row(value: ast.Expr) -> bool:
+    if isinstance(value, ast.Repeat):
+        return any(_is_row(x) for x in value.values)
+    return isinstance(value, ast.ArrayInit)
 
 
 def _named_repeat(b: Body, e: ast.Call) -> ast.Expr:
