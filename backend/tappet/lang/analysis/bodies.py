@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from tappet.lang import ast
 from tappet.lang.analysis import program
 from tappet.lang.analysis.collect import Collected
-from tappet.lang.analysis.context import Body, Session
+from tappet.lang.analysis.context import Body, DirectWrite, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.statements import check_jumps, statements
@@ -22,13 +22,14 @@ from tappet.lang.symbols import PouSymbol
 @dataclass(slots=True)
 class Record:
     """What one part of the program has reported, named, written and called; sets hold id() of symbols.
-    `operands`: see `Session`."""
+    `operands`, `outputs`: see `Session`."""
 
     messages: list[Diagnostic]
     used: set[int]
     written: set[int]
     called: set[int]
     operands: set[tuple[str, int]]
+    outputs: set[DirectWrite]
 
 
 @dataclass(slots=True)
@@ -59,9 +60,10 @@ def with_children(pou: PouSymbol) -> Iterable[PouSymbol]:
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     """Resolves and checks the statements of one POU, method, action or accessor."""
-    record = Record([], set(), set(), set(), set())
+    record = Record([], set(), set(), set(), set(), set())
     session.diagnostics, session.used = record.messages, record.used
     session.written, session.called, session.operands = record.written, record.called, record.operands
+    session.outputs = record.outputs
     node = pou.pou
     if node is None:
         return record

@@ -112,8 +112,8 @@ def _bind(b: Body, e: ast.Call, target: PouSymbol) -> None:
     if target.kind == "ACTION" and target.owner is not None and e.args:
         parameters = target.owner.parameters  # those of the block it belongs to
         callee = e.callee
-        if callee.__class__ is ast.Member and callee.base.type is not None:  # type: ignore[attr-defined]
-            mark_written(b, callee.base)  # type: ignore[attr-defined]
+        if isinstance(callee, ast.Member) and callee.base.type is not None:
+            mark_written(b, callee.base)
     bind_arguments(b, e.args, parameters, target.name, e.span, target.kind)
 
 

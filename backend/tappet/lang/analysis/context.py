@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from tappet.lang import ast
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
@@ -15,6 +16,17 @@ from tappet.lang.types import Type
 
 SUGGESTION_LIMIT = 200
 """Closest matches are searched for so many unknown names of one analysis: the search is slow."""
+
+
+class DirectWrite(NamedTuple):
+    """A write to a variable or operand at an address: bits from `first` up to `last`, not included."""
+
+    area: str
+    first: int
+    last: int
+    name: str
+    uri: str
+    span: Span
 
 
 @dataclass(slots=True)
@@ -39,6 +51,8 @@ class Session:
     """id() of every POU that is called, instantiated or whose address is taken."""
     operands: set[tuple[str, int]] = field(default_factory=set)
     """Area and last byte + 1 of every address that some code names."""
+    outputs: set[DirectWrite] = field(default_factory=set)
+    """Places of the areas Q and M that some code writes."""
     suggestions: int = 0
 
     def report(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.context import Body, DirectWrite
 from tappet.lang.analysis.expressions import text_of
 from tappet.lang.symbols import (
     EnumValueSymbol,
@@ -12,6 +12,7 @@ from tappet.lang.symbols import (
     NamespaceSymbol,
     PouSymbol,
     PropertySymbol,
+    Storage,
     VarSymbol,
 )
 
@@ -90,9 +91,24 @@ def writable(b: Body, target: ast.Expr) -> bool:
         else:
             if kind is ast.Call and is_place(e):
                 return True
-            if target.type is not None or kind is not ast.Call:
+            if (target.type is not None or kind is not ast.Call) and not _unreadable(e):
                 b.report("E0305", target.span, name=text_of(target), hint="Only a variable can be assigned.")
             return False
+
+
+def _unreadable(e: ast.Expr) -> bool:
+    """Whether a target begins with what the parser could not read, and has reported."""
+    while isinstance(e, ast.Binary):
+        e = e.left
+    return isinstance(e, ast.ErrorExpr) or (isinstance(e, ast.Member) and not e.name)
+
+
+def note_output(b: Body, symbol: VarSymbol, target: ast.Expr) -> None:
+    """Notes that a variable or operand at an address is written."""
+    if symbol.home is Storage.DIRECT and symbol.area is not None and symbol.type is not None:
+        first = 8 * symbol.offset + (symbol.bit or 0)
+        last = first + (1 if symbol.bit is not None else 8 * symbol.type.size)
+        b.session.outputs.add(DirectWrite(symbol.area, first, last, symbol.name, b.uri, target.span))
 
 
 def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -> bool:
@@ -106,6 +122,8 @@ def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -
             b.report("E0306", target.span, name=symbol.name)
             return False
         b.session.written.add(id(symbol))
+        if symbol.area is not None:
+            note_output(b, symbol, target)
         return True
     if isinstance(symbol, PropertySymbol):
         if e is not target:

@@ -69,7 +69,9 @@ def analyse(
 
 def _take_record(session: Session) -> Record:
     """What the declarations have reported and used."""
-    return Record(session.diagnostics, session.used, session.written, session.called, session.operands)
+    return Record(
+        session.diagnostics, session.used, session.written, session.called, session.operands, session.outputs
+    )
 
 
 def _register(session: Session, found: Collected, declarations: Declarations) -> None:

@@ -12,7 +12,7 @@ from tappet.lang.analysis.adaptation import require, retype
 from tappet.lang.analysis.calls import bind_reference
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
-from tappet.lang.analysis.places import writable
+from tappet.lang.analysis.places import note_output, writable
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.rules import ASSIGN_RULES, LIST_RULES, STATEMENT_RULES
 from tappet.lang.symbols import PouSymbol, PropertySymbol, VarSymbol
@@ -72,6 +72,8 @@ def _assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
         symbol = target.symbol
         if "CONSTANT" not in symbol.flags and symbol.area != "I":
             b.session.written.add(id(symbol))
+            if symbol.area is not None:
+                note_output(b, symbol, target)
             if b.loop_variables and symbol in b.loop_variables:
                 b.loop_writes.append((symbol, target.span))
             return

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import types as t
 from tappet.lang.analysis.bodies import State
+from tappet.lang.analysis.context import DirectWrite
 from tappet.lang.analysis.result import Analysis
-from tappet.lang.diagnostics import Diagnostic, report
+from tappet.lang.diagnostics import Diagnostic, Related, report
 from tappet.lang.source import NOWHERE, Scope
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import FunctionBlock
@@ -28,6 +29,7 @@ class _Reach:
     task: str
     written: dict[int, str] = field(default_factory=dict)
     used: dict[int, str] = field(default_factory=dict)
+    outputs: list[DirectWrite] = field(default_factory=list)
 
 
 def check_shared(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
@@ -38,6 +40,7 @@ def check_shared(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
         reaches = [_reach(task, analysis, state) for task in tasks]
         for variable in _shareable(analysis):
             found += _check(variable, reaches, "S1505" in analysis.options.static.codes)
+        found += _places(reaches)
     return found
 
 
@@ -80,6 +83,7 @@ def _reach(task: Task, analysis: Analysis, state: State) -> _Reach:
                 found.written.setdefault(key, pou.qualified_name)
             for key in record.used:
                 found.used.setdefault(key, pou.qualified_name)
+            found.outputs += record.outputs
         todo += [target for target, _, _ in state.session.calls.get(id(pou), ())]
     return found
 
@@ -126,3 +130,24 @@ def _check(variable: VarSymbol, reaches: Sequence[_Reach], torn: bool) -> Iterat
                 reader=f"{readers[0].task} (in {readers[0].used[key]})",
                 size=type_.size,
             )
+
+
+def _places(reaches: Sequence[_Reach]) -> Iterator[Diagnostic]:
+    """Outputs and markers that several tasks write under different names, or by their address."""
+    told: set[tuple[str, int]] = set()
+    for number, reach in enumerate(reaches):
+        for other in reaches[number + 1 :]:
+            for one in sorted(reach.outputs):
+                for two in other.outputs:
+                    shared = one.area == two.area and one.first < two.last and two.first < one.last
+                    same = one.name.upper() == two.name.upper() and not one.name.startswith("%")
+                    key = (one.area, max(one.first, two.first))
+                    if not shared or same or key in told:
+                        continue
+                    told.add(key)
+                    related = [Related(f"task '{other.task}' writes it here", two.uri, two.span)]
+                    place = f"%{one.area}X{key[1] // 16}.{key[1] % 16}"
+                    tasks = _listed((reach.task, other.task))
+                    yield report(
+                        "W1406", one.uri, one.span, related, address=place, name=one.name, tasks=tasks
+                    )
