@@ -39,6 +39,8 @@ def _member(b: Body, e: ast.Member) -> None:
         evaluate(b, base)
     e.bit = e.symbol = e.type = e.constant = None
     e.is_constant = e.untyped = False
+    if not e.name:
+        return  # the parser has said that it is missing
     type_ = base.type
     if type_ is None:
         if base.__class__ in NAMING and base.symbol is not None:  # type: ignore[attr-defined]

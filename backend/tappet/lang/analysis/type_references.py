@@ -257,7 +257,7 @@ class TypeReferences:
             base = found if isinstance(found, Elementary) else None
         low, high = self._constant_integer(body, ref.low), self._constant_integer(body, ref.high)
         if base is None or not base.is_integer:
-            body.report("E0415", ref.span, type=ref.base)
+            body.report("E0415", ref.span, what="A subrange", type=ref.base)
             return None
         if low is None or high is None:
             return base
@@ -279,7 +279,7 @@ class TypeReferences:
         if ref.base is not None:
             found = t.ELEMENTARY.get(ref.base.upper())
             if found is None or not found.is_integer:
-                body.report("E0415", ref.span, type=ref.base)
+                body.report("E0415", ref.span, what="An enumeration", type=ref.base)
             else:
                 base = found
         enum = t.Enum(name, base, decl=declaration)
