@@ -264,3 +264,16 @@ def test_texts_in_the_code_page_of_the_country() -> None:
     )
     assert "(* Überdruck löst Gerät aus *)" in part(western, "P")
     assert "'Wärme 5° für 3 $80'" in part(western, "P", "declaration")
+
+
+def test_all_texts_of_an_import_are_in_one_code_page() -> None:
+    text = "PROGRAM %s\nVAR\nEND_VAR\n(* %s *)\n;\nEND_PROGRAM\n"
+    files = {
+        "a.exp": (text % ("A", "да")).encode("cp1251"),
+        "b.exp": (text % ("B", "управление насосом")).encode("cp1251"),
+        "c.st": (text % ("C", "ход")).encode(),
+    }
+    done = import_files(files)
+    assert "(* да *)" in part(done, "A")
+    assert "(* управление насосом *)" in part(done, "B")
+    assert "(* ход *)" in part(done, "C")

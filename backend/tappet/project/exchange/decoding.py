@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import re
+from collections.abc import Iterable
 
 from tappet.project.exchange.report import ExchangeError
 
@@ -20,6 +21,7 @@ _MARKS = (
 _DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._-]{1,40})["']""")
 _CYRILLIC_WORD = re.compile(rb"[\xC0-\xFF\xA8\xB8]{3,}")
 _PAIRS = re.compile(rb"[\xA1-\xFE][\xA1-\xFE]")
+_SAMPLE_BYTES = 4 << 20
 _MOST = 0.7
 """Share of the letters beyond ASCII that must look like a script for a text to be taken as of it."""
 PAGE_NAMES = {
@@ -33,14 +35,33 @@ _CODE_PAGES = frozenset(["cp1252", "iso8859-1", "iso8859-15", "cp1250", "cp1251"
 """Encodings that an XML declaration may name besides Unicode ones; names as `codecs.lookup` gives them."""
 
 
-def decode_text(source: str, content: bytes) -> tuple[str, str]:
+def shared_pages(contents: Iterable[bytes]) -> tuple[str, ...]:
+    """The code pages that all texts of an import are likely in; none when all are Unicode.
+
+    What one text shows too little of, the others show: a project is written in one country.
+    """
+    sample = bytearray()
+    for content in contents:
+        if b"\0" in content:  # UTF-16, or no text
+            continue
+        try:
+            content.decode("utf-8")
+        except UnicodeDecodeError:
+            sample += content
+        if len(sample) > _SAMPLE_BYTES:
+            break
+    return _likely_pages(bytes(sample)) if sample else ()
+
+
+def decode_text(source: str, content: bytes, pages: tuple[str, ...] = ()) -> tuple[str, str]:
     """The text of a file with line feeds only, and the name of its encoding.
 
     Without a byte order mark it is UTF-8, or else the code page that its letters look like: Windows-1251
-    (Cyrillic), GBK (Chinese), or Windows-1252, whose unused places are read as Latin-1.
+    (Cyrillic), GBK (Chinese), or Windows-1252, whose unused places are read as Latin-1. `pages` are the
+    code pages to try instead.
     Raises ExchangeError for what is no text.
     """
-    text, encoding = _decode(source, content)
+    text, encoding = _decode(source, content, pages)
     position = text.find("\x00")
     if position >= 0:
         raise ExchangeError(source, "is no text file", text.count("\n", 0, position) + 1)
@@ -60,7 +81,7 @@ def decode_xml(source: str, content: bytes) -> str:
     return _decode(source, content)[0]
 
 
-def _decode(source: str, content: bytes) -> tuple[str, str]:
+def _decode(source: str, content: bytes, pages: tuple[str, ...] = ()) -> tuple[str, str]:
     if len(content) > MAX_FILE_BYTES:
         raise ExchangeError(source, f"is larger than {MAX_FILE_BYTES >> 20} MiB")
     for mark, encoding in _MARKS:
@@ -74,7 +95,7 @@ def _decode(source: str, content: bytes) -> tuple[str, str]:
         return content.decode("utf-8"), "utf-8"
     except UnicodeDecodeError:
         pass
-    for page in _likely_pages(content):
+    for page in pages or _likely_pages(content):
         try:
             return content.decode(page), page
         except UnicodeDecodeError:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from tappet.project.exchange import twincat
 from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
-from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml
+from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml, shared_pages
 from tappet.project.exchange.drafts import Batch, task_configuration
 from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
 from tappet.project.exchange.placing import Place, empty_project, place
@@ -24,6 +24,7 @@ from tappet.project.model import Project
 ENDINGS = (".xml", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS)
 """Endings of the files that are read, in lower case."""
 
+_TEXT_ENDINGS = (".st", ".exp", ".txt", ".iecst", ".lib")
 _MARKED = re.compile(r"\(\*\s*@(?:NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION|GLOBAL_VARIABLE_LIST)\s*:=")
 
 
@@ -94,6 +95,7 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
         except ExchangeError as error:
             _failed(path, error, report, failures)
             used.add(path)
+    pages = shared_pages(files[path] for path in sorted(files) if path.lower().endswith(_TEXT_ENDINGS))
     for path in sorted(files):
         if path in used:
             continue
@@ -101,7 +103,7 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
             report.add("refused", path, "no .plcproj lists this file, so it is not part of the project")
             continue
         try:
-            _read(path, files[path], batch, report)
+            _read(path, files[path], pages, batch, report)
         except ExchangeError as error:
             _failed(path, error, report, failures)
     return failures
@@ -112,8 +114,8 @@ def _failed(path: str, error: ExchangeError, report: ImportReport, failures: lis
     report.add("refused", path, str(error).partition(": ")[2], line=error.line)
 
 
-def _read(path: str, content: bytes, batch: Batch, report: ImportReport) -> None:
-    """Read one file by its ending; XML by its root."""
+def _read(path: str, content: bytes, pages: tuple[str, ...], batch: Batch, report: ImportReport) -> None:
+    """Read one file by its ending; XML by its root. `pages` are the code pages that texts are likely in."""
     ending = posixpath.splitext(path)[1].lower()
     if ending in twincat.ENDINGS:
         for draft in twincat.read_object(path, content, report):
@@ -121,8 +123,8 @@ def _read(path: str, content: bytes, batch: Batch, report: ImportReport) -> None
             parent.children.append(draft)
     elif ending == ".xml" or decode_xml(path, content[:400]).lstrip("\ufeff \t\r\n").startswith("<?xml"):
         read_plcopen(path, content, batch, report)
-    elif ending in (".st", ".exp", ".txt", ".iecst", ".lib"):
-        text, encoding = decode_text(path, content)
+    elif ending in _TEXT_ENDINGS:
+        text, encoding = decode_text(path, content, pages)
         if encoding in PAGE_NAMES:
             report.add("changed", path, f"the file is not UTF-8; it was read as {PAGE_NAMES[encoding]}")
         if ending == ".exp" or _MARKED.search(text):
