@@ -103,12 +103,16 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 
 
 def _left_out(b: Body, e: ast.Call) -> None:
-    """Inputs of an instance that a call with names does not assign: they keep their last value."""
+    """Inputs without initial value that a call with arguments does not assign: they keep their last value."""
     target = e.target
     if not isinstance(target, PouSymbol) or target.kind != "FUNCTION_BLOCK" or not e.args:
         return
     given = {id(a.parameter) for a in e.args}
-    missing = [p.name for p in target.parameters if p.section == "VAR_INPUT" and id(p) not in given]
+    missing = [
+        p.name
+        for p in target.parameters
+        if p.section == "VAR_INPUT" and id(p) not in given and (p.decl is None or p.decl.init is None)
+    ]
     if missing:
         b.report("S1418", e.span, name=target.name, inputs=", ".join(missing))
 

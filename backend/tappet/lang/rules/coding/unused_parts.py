@@ -5,10 +5,12 @@ Source: coding guidelines of PLCopen, CP2 (all code shall be used); CODESYS Stat
 Passes:
     @static
     TYPE E_Mode : (eOff, eOn); END_TYPE
+    TYPE ST_Part : STRUCT nA, nB : INT; END_STRUCT END_TYPE
     FUNCTION_BLOCK FB_Motor
-    VAR eMode : E_Mode := E_Mode.eOff; END_VAR
+    VAR eMode : E_Mode := E_Mode.eOff; aPart : ARRAY[1..2] OF ST_Part; END_VAR
     METHOD Start
     eMode := E_Mode.eOn;
+    aPart[1].nA := 1;
     END_METHOD
     END_FUNCTION_BLOCK
     PROGRAM Main
@@ -50,7 +52,7 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.source import Scope, Source
-from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Symbol
+from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Symbol, TypeSymbol
 from tappet.lang.types import Array, Enum, Pointer, Reference, Struct
 from tappet.lang.walk import all_expressions, expressions, statements
 
@@ -162,8 +164,8 @@ class _Used:
             if isinstance(symbol, EnumValueSymbol):
                 self.values.add((id(symbol.type), symbol.name.upper()))
                 self.types.add(id(symbol.type))
-            elif symbol is not None:
-                self.types.add(id(getattr(symbol, "type", None)))
+            elif isinstance(symbol, TypeSymbol):
+                self.type(symbol.type)
 
 
 def _all_pous(session: Session) -> Iterator[PouSymbol]:
