@@ -30,9 +30,15 @@ def assign(b: Body, op: str, target: ast.Expr, value: ast.Expr) -> None:
     type_ = target.type
     assert type_ is not None
     if scalar_of(type_) is None:
+        listed = isinstance(value, ast.ArrayInit | ast.StructInit)
+        # the value first: a call in it may change the indices of the target
+        source = None if listed else places.freeze(b, value_place(b, value, type_), b.out)
         place = places.freeze(b, b.target(target), b.out)
         b.touch(place)
-        copy_value(b, place, type_, value)
+        if source is None:
+            copy_value(b, place, type_, value)
+        else:
+            copy_place(b, place, type_, source, value.type)
         return
     store_scalar(b, target, b.value_as(value, declared_type(target)))
 
@@ -138,8 +144,12 @@ def copy_value(b: Body, target: ir.Place, type_: t.Type, value: ast.Expr) -> Non
     if isinstance(value, ast.ArrayInit | ast.StructInit):
         INITIALISERS[0](b, target, type_, value)
         return
-    source = string_place(b, value, type_) if isinstance(type_, t.String) else b.place(value)
-    copy_place(b, target, type_, source, value.type)
+    copy_place(b, target, type_, value_place(b, value, type_), value.type)
+
+
+def value_place(b: Body, value: ast.Expr, wanted: t.Type) -> ir.Place:
+    """Memory with the value of an expression that is no scalar."""
+    return string_place(b, value, wanted) if isinstance(wanted, t.String) else b.place(value)
 
 
 def string_place(b: Body, value: ast.Expr, wanted: t.String) -> ir.Place:

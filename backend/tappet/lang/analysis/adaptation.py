@@ -167,22 +167,25 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
 def adapt_choice(e: ast.Call, target: Type) -> bool:
     """`SEL(a, 0, 255)`: a choice among literals takes the type of its context when each of them fits."""
     alternatives = _literal_choice(e)
-    if not alternatives or not isinstance(target, Elementary):
+    if not alternatives or not isinstance(target, Elementary) or not _all_fit(alternatives, target):
         return False
-    literals = [x for x in alternatives if x.__class__ is not ast.Call]
-    trials = [copy(x) for x in literals]
-    if not all(retype(x, target) for x in trials):
-        return False
-    for x in literals:
-        retype(x, target)
     for x in alternatives:
         if isinstance(x, ast.Call):
             adapt_choice(x, target)
+        else:
+            retype(x, target)
     symbol = e.target
     assert isinstance(symbol, BuiltinSymbol)
     types = (symbol.parameter_types[0], *(target for _ in alternatives))
     e.target, e.type = BuiltinSymbol(symbol.name, parameter_types=types, return_type=target), target
     return True
+
+
+def _all_fit(alternatives: list[ast.Expr], target: Elementary) -> bool:
+    return all(
+        _all_fit(_literal_choice(x), target) if isinstance(x, ast.Call) else retype(copy(x), target)
+        for x in alternatives
+    )
 
 
 def _literal_choice(e: ast.Call) -> list[ast.Expr]:
