@@ -330,7 +330,7 @@ def test_objects_hide_each_other_from_inside_out() -> None:
 
 
 def test_name_of_two_libraries_is_ambiguous() -> None:
-    text = "FUNCTION F : INT\nVAR_INPUT n : INT; END_VAR\nF := n;\nEND_FUNCTION"
+    text = "FUNCTION F : INT\nF := 1;\nEND_FUNCTION"
     a = program(
         "VAR x : INT; END_VAR",
         "x := F(); x := L1.F();",
