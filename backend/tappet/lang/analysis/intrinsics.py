@@ -91,13 +91,13 @@ def _adr(b: Body, e: ast.Call, name: str) -> None:
             else:
                 finish(e, name, [None], t.Pointer(None))
         elif symbol is not None and not isinstance(symbol, VarSymbol):  # else its type has been reported
-            b.report("E0323", operand.span, op=name)
+            b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
         return
     if isinstance(operand, ast.Literal) and isinstance(type_, t.String):
         finish(e, name, [None], t.Pointer(type_))
         return
     if not is_place(operand):
-        b.report("E0323", operand.span, op=name)
+        b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
         e.type = t.Pointer(type_)
         return
     mark_written(b, operand)
@@ -120,7 +120,9 @@ def _bitadr(b: Body, e: ast.Call, name: str) -> None:
         return
     symbol = getattr(operand, "symbol", None)
     if not isinstance(symbol, VarSymbol) or symbol.storage is not Storage.DIRECT:
-        b.report("E0323", operand.span, op=name)
+        hint = "Give the variable an address, as in x AT %IX0.0 : BOOL."
+        wanted = "a variable with an address"
+        b.report("E0323", operand.span, op=name, what=wanted, given="something else", hint=hint)
         e.type = t.DWORD
         return
     finish(e, name, [None], t.DWORD, 8 * symbol.offset + (symbol.bit or 0))
@@ -304,7 +306,7 @@ def _load(b: Body, e: ast.Call, name: str) -> None:
     if operand is None or value(b, operand) is None:
         return
     if not is_place(operand):
-        b.report("E0323", operand.span, op=name)
+        b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
     finish(e, name, [None], operand.type)
 
 
