@@ -277,3 +277,71 @@ def test_all_texts_of_an_import_are_in_one_code_page() -> None:
     assert "(* да *)" in part(done, "A")
     assert "(* управление насосом *)" in part(done, "B")
     assert "(* ход *)" in part(done, "C")
+
+
+def test_addresses_through_modules_of_a_device() -> None:
+    text = """
+VAR_GLOBAL
+\tLEVEL AT %ID0.2.0 : REAL;
+\tHEAT AT %IR3.1 : REAL;
+\tKEYS AT %IB0.4.2 : BYTE;
+\tENTER AT %IX0.4.2.3 : BOOL;
+\tHIGH_BIT AT %QX2.1.17 : BOOL;
+\tPLAIN AT %IX0.5 : BOOL;
+\tNEXT AT %QW4 : WORD;
+END_VAR
+
+PROGRAM P
+VAR
+END_VAR
+HIGH_BIT := %IX0.4.2.3 AND %IX0.5; (* %ID0.2.0 *)
+END_PROGRAM
+"""
+    done = imported(text)
+    listed = part(done, "Global_Variables", "declaration")
+    assert "LEVEL AT %ID512 : REAL;" in listed
+    assert "HEAT AT %ID514 : REAL;" in listed
+    assert "KEYS AT %IB2064 : BYTE;" in listed
+    assert "ENTER AT %IX1032.3 : BOOL;" in listed
+    assert "HIGH_BIT AT %QX1025.1 : BOOL;" in listed
+    assert "PLAIN AT %IX0.5 : BOOL;" in listed
+    assert "NEXT AT %QW4 : WORD;" in listed
+    assert part(done, "P") == "HIGH_BIT := %IX1032.3 AND %IX0.5; (* %ID0.2.0 *)"
+    assert any("%ID0.2.0 became %ID512" in note for note in notes(done, "Global_Variables"))
+
+
+def test_names_of_the_controller_configuration() -> None:
+    text = """
+PLC_CONFIGURATION
+_MODULE: '3S'
+_CHANNEL
+_SECTION_NAME: 'Input'
+_INDEX_IN_PARENT: '1'
+_SYMBOLIC_NAME: 'TANK_LEVEL'
+_COMMENT: 'in percent'
+_CHANNEL_MODE: 'I'
+_IECADR: %IW0.2.0
+_BIT 0: %IX0.2.0.0 '' 'Bit 0'
+_BIT 1: %IX0.2.0.1 'TANK_FULL' 'Bit 1'
+_END_CHANNEL
+_CHANNEL
+_SYMBOLIC_NAME: ''
+_COMMENT: 'not used'
+_CHANNEL_MODE: 'Q'
+_IECADR: %QB1
+_END_CHANNEL
+_END_MODULE
+PLC_END
+
+PROGRAM P
+VAR
+END_VAR
+TANK_FULL := TANK_LEVEL > 90;
+END_PROGRAM
+"""
+    done = imported(text)
+    assert part(done, "PLC_CONFIGURATION", "declaration") == (
+        "VAR_GLOBAL\n\tTANK_LEVEL AT %IW1024 : WORD; (* in percent *)\n"
+        "\tTANK_FULL AT %IX1024.1 : BOOL; (* Bit 1 *)\nEND_VAR"
+    )
+    assert any("2 symbolic names" in note for note in notes(done, "PLC_CONFIGURATION"))

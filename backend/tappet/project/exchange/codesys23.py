@@ -48,7 +48,7 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
         pointers = pointers_of(draft.data.get("declaration", ""))
         for item in (draft, *draft.children):
             _tell_language(item, report)
-            say_in_words_of_today(item, pointers, report)
+            say_in_words_of_today(item, pointers, batch.places, report)
         batch.loose.below(path, source).children.append(draft)
     read_configurations(split, batch.loose, report)
 

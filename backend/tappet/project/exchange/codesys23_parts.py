@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from tappet.project.declaration_text import words
-from tappet.project.exchange.drafts import Batch, library_manager, task_configuration
+from tappet.project.exchange.drafts import Batch, Draft, library_manager, task_configuration
 from tappet.project.exchange.libraries import reference
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.standard_tasks import task_draft
@@ -47,6 +47,13 @@ _LIBRARY_POU = re.compile(r"^[ \t]*(\w+):[ \t]*\d+[ \t]*$", re.MULTILINE)
 _OURS = {"standard": "Standard", "util": "Util"}
 _NOT_NEEDED = {"iecsfc": "charts run without it", "analyzation": "charts run without it"}
 _NAMES_SHOWN = 12
+_NAMED = re.compile(
+    r"^_SYMBOLIC_NAME: '(?P<channel>\w*)'\s*\n_COMMENT: '(?P<comment>[^'\n]*)'\s*\n_CHANNEL_MODE: '\w*'\s*\n"
+    r"_IECADR: (?P<address>%\S+)|^_BIT \d+: (?P<bit_address>%\S+) '(?P<bit>\w*)' '(?P<bit_comment>[^'\n]*)'",
+    re.MULTILINE,
+)
+_TYPES = {"B": "BYTE", "W": "WORD", "D": "DWORD", "R": "REAL", "L": "LWORD"}
+_NAMES_LIST = "PLC_CONFIGURATION"
 
 _WHY = {
     "PLC_CONFIGURATION": "the controller configuration is of a device that is not here; add devices anew",
@@ -67,6 +74,8 @@ def without_parts(source: str, text: str, batch: Batch, report: ImportReport) ->
         line = text.count("\n", 0, match.start()) + 1
         if head == "LIBRARY":
             _read_library(source, part, line, batch, report)
+        elif head == "PLC_CONFIGURATION" and _read_names(source, part, line, batch, report):
+            pass
         elif not _read_tasks(source, part, line, batch, report):
             why = _WHY.get(head, "this part of an export is not read")
             name = (
@@ -103,6 +112,32 @@ def _next_part(text: str, position: int) -> re.Match[str] | None:
             if match is not None and match.start("head") == word.start:
                 return match
     return None
+
+
+def _read_names(source: str, part: str, line: int, batch: Batch, report: ImportReport) -> bool:
+    """Take the variables in that a controller configuration declares; False when it names none."""
+    rows: list[str] = []
+    for match in _NAMED.finditer(part):
+        name = match["channel"] or match["bit"]
+        if not name:
+            continue
+        address = match["address"] or match["bit_address"]
+        flat = batch.places.flat(address, 0)
+        type_ = _TYPES.get(address[2:3].upper(), "BOOL")
+        comment = match["comment"] or match["bit_comment"] or ""
+        rows.append(
+            f"\t{name} AT {flat[1] if flat else address} : {type_};{f' (* {comment} *)' if comment else ''}"
+        )
+    if not rows:
+        return False
+    declaration = "\n".join(["VAR_GLOBAL", *rows, "END_VAR"])
+    batch.loose.children.append(Draft("gvl", _NAMES_LIST, {"declaration": declaration}, source, line))
+    note = (
+        f"its {len(rows)} symbolic names became variables; their types are of the size of the addresses: check"
+        " them; the modules themselves are not read"
+    )
+    report.add("changed", source, note, name=_NAMES_LIST, line=line)
+    return True
 
 
 def _read_tasks(source: str, part: str, line: int, batch: Batch, report: ImportReport) -> bool:

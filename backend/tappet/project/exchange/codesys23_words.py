@@ -1,7 +1,7 @@
 """What CoDeSys 2.3 meant by words and texts that mean something else today.
 
 TRUNC gave an INT (LOPR-77), a character of a STRING was one byte of the Windows code page, a pointer had four
-bytes, and keywords of object orientation were names like any other.
+bytes, keywords of object orientation were names like any other, and addresses led through modules.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from tappet.project.declaration_text import Word, words
+from tappet.project.exchange.codesys23_places import Places
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.text_parts import NAME
@@ -16,6 +17,8 @@ from tappet.project.exchange.text_parts import NAME
 _TRUNC = "TRUNC gives INT in CoDeSys 2.3; it became TRUNC_INT"
 _BYTES = "characters in texts that are not of Latin-1 became their bytes, such as $80 for the euro sign"
 _KEYWORD = "names that are keywords today end in an underscore now: "
+_PLACE = "addresses lead through a device that is not here: "
+_SHOWN = 8
 _POINTER = "a pointer has 4 bytes in CoDeSys 2.3; SIZEOF of a pointer became SIZEOF(DWORD)"
 
 
@@ -33,9 +36,12 @@ def pointers_of(declaration: str) -> frozenset[str]:
     return frozenset(found)
 
 
-def say_in_words_of_today(draft: Draft, pointers: frozenset[str], report: ImportReport) -> None:
+def say_in_words_of_today(
+    draft: Draft, pointers: frozenset[str], places: Places, report: ImportReport
+) -> None:
     """Rewrite what is read differently today. `pointers` are the pointers of the POU, in upper case."""
     notes: dict[str, None] = {}
+    moved: list[str] = []
     for part in ("declaration", "implementation"):
         text = draft.data.get(part)
         if not text or (part == "implementation" and draft.data.get("language") not in (None, "ST", "IL")):
@@ -44,9 +50,12 @@ def say_in_words_of_today(draft: Draft, pointers: frozenset[str], report: Import
         position = 0
         before = ("", "")
         for word in words(text):
-            now, note = None, ""
+            now, note, end = None, "", word.end
             if word.text == "TRUNC":
                 now, note = "TRUNC_INT", _TRUNC
+            elif word.text == "%" and (found := places.flat(text, word.start)) is not None:
+                now, end = found[1], word.start + len(found[0])
+                moved.append(f"{found[0]} became {found[1]}")
             elif word.text.startswith("'"):
                 now, note = _in_bytes(word.text), _BYTES
             elif word.text in _KEYWORDS and not _is_keyword(text, word, before[1]):
@@ -56,11 +65,14 @@ def say_in_words_of_today(draft: Draft, pointers: frozenset[str], report: Import
                 now, note = "DWORD", _POINTER
             before = (before[1], word.text)
             if now is not None and now != word.text:
-                notes[note] = None
+                notes |= {note: None} if note else {}
                 pieces += [text[position : word.start], now]
-                position = word.end
+                position = end
         if pieces:
             draft.data[part] = "".join([*pieces, text[position:]])
+    if moved:
+        more = f" and {len(moved) - _SHOWN} more" if len(moved) > _SHOWN else ""
+        notes[f"{_PLACE}{', '.join(moved[:_SHOWN])}{more}"] = None
     for note in notes:
         report.add("changed", draft.source, note, name=draft.name, line=draft.line)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tappet.project.data import CodeData
+from tappet.project.exchange.codesys23_places import Places
 from tappet.project.model import KIND_CLASSES
 
 
@@ -52,6 +53,8 @@ class Batch:
     """Devices with their PLC logic, applications and what is in these."""
     pous: Draft = field(default_factory=lambda: Draft("pous_view", ""))
     """What belongs into the POUs view."""
+    places: Places = field(default_factory=Places)
+    """Where addresses of devices that are not here lie."""
     complete: bool = False
     """Whether the file is our own export, in which nothing is missing that a new project has."""
 
