@@ -74,15 +74,17 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
             outside = e.symbol.home is Storage.GLOBAL and e.symbol.section == "VAR_GLOBAL"
             if outside and not e.symbol.is_constant and "S1419" in chosen:
                 b.report("S1419", e.span, name=e.name)
-        elif isinstance(e, ast.Call) and isinstance(e.target, PouSymbol) and "S1420" in chosen:
-            if e.target.owner is pou.owner and _may_be_replaced(e, e.target):
-                b.report("S1420", e.span, name=e.target.name)
+        elif isinstance(e, ast.Call) and "S1420" in chosen and _may_be_replaced(e, pou.owner):
+            b.report("S1420", e.span, name=getattr(e.target, "name", ""))
 
 
-def _may_be_replaced(e: ast.Call, method: PouSymbol) -> bool:
+def _may_be_replaced(e: ast.Call, owner: PouSymbol) -> bool:
     """Whether a call of an own method can reach that of a derived block."""
+    method = e.target
     base = e.callee.base if isinstance(e.callee, ast.Member) else None
-    if method.kind != "METHOD" or (isinstance(base, ast.Deref) and isinstance(base.base, ast.Super)):
+    if not isinstance(method, PouSymbol) or method.kind != "METHOD" or method.owner is not owner:
+        return False
+    if isinstance(base, ast.Deref) and isinstance(base.base, ast.Super):
         return False
     return method.pou is not None and "FINAL" not in method.pou.modifiers and method.pou.access != "PRIVATE"
 
