@@ -133,7 +133,7 @@ def _read_names(source: str, part: str, line: int, batch: Batch, report: ImportR
     declaration = "\n".join(["VAR_GLOBAL", *rows, "END_VAR"])
     batch.loose.children.append(Draft("gvl", _NAMES_LIST, {"declaration": declaration}, source, line))
     note = (
-        f"its {len(rows)} symbolic names became variables; their types are of the size of the addresses: check"
+        f"its {len(rows)} symbolic names became variables with types of the size of the addresses: check"
         " them; the modules themselves are not read"
     )
     report.add("changed", source, note, name=_NAMES_LIST, line=line)
