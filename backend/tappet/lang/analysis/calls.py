@@ -58,6 +58,8 @@ def _resolve(b: Body, e: ast.Call) -> None:
             b.report("E0516", callee.span, name=symbol.name)
             _evaluate_arguments(b, e.args)
         else:
+            if symbol.pou is not None and symbol.pou.attributes:
+                b.warn_obsolete(callee.span, symbol.pou.attributes)
             _bind(b, e, symbol)
         return
     if isinstance(type_, t.FunctionBlock):

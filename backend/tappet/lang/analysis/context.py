@@ -9,6 +9,7 @@ from typing import NamedTuple
 from tappet.lang import ast
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.scope import Levels, suggestion
+from tappet.lang.attributes import attribute
 from tappet.lang.diagnostics import Diagnostic, Related, report
 from tappet.lang.source import Source, Span
 from tappet.lang.symbols import PouSymbol, Symbol
@@ -108,6 +109,12 @@ class Body:
     def report(self, code: str, span: Span, related: Iterable[Related] = (), /, **fields: object) -> None:
         """Adds a message at a place of this text."""
         self.session.diagnostics.append(report(code, self.uri, span, related, **fields))
+
+    def warn_obsolete(self, span: Span, attributes: Iterable[ast.Pragma]) -> None:
+        """Reports the use of what has the attribute 'obsolete' (LPRG-39)."""
+        text = attribute(attributes, "obsolete")
+        if text is not None:
+            self.report("W1203", span, text=text or "This is obsolete")
 
     def lookup(self, name: str) -> Symbol | None:
         """What a plain name means here."""

@@ -14,7 +14,6 @@ from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.scope import AmbiguousSymbol, describe
 from tappet.lang.any_type import ANY_TYPES
 from tappet.lang.attributes import attribute
-from tappet.lang.source import Span
 from tappet.lang.symbols import InterfaceSymbol, NamespaceSymbol, PouSymbol, Symbol, TypeSymbol
 from tappet.lang.types import Elementary, Type
 
@@ -105,7 +104,7 @@ class TypeReferences:
             type_ = self.symbol_type(symbol)
             declared = self.declared.get(id(symbol))
             if declared is not None and declared.attributes:
-                _warn_obsolete(body, ref.span, declared.attributes)
+                body.warn_obsolete(ref.span, declared.attributes)
             return type_
         if isinstance(symbol, PouSymbol):
             return self._instance(body, ref, symbol, below_pointer)
@@ -137,7 +136,7 @@ class TypeReferences:
         pou = symbol.pou
         if pou is not None:
             if pou.attributes:
-                _warn_obsolete(body, ref.span, pou.attributes)
+                body.warn_obsolete(ref.span, pou.attributes)
             if "ABSTRACT" in pou.modifiers and not below_pointer:
                 body.report("E0425", ref.span, name=symbol.name)
         return symbol.instance
@@ -364,9 +363,3 @@ def _any_group(body: Body, ref: ast.NamedType, key: str) -> Type | None:
     hint = f"'{key}' is for inputs of functions and methods."
     body.report("E0202", ref.span, name=key, hint=hint)
     return None
-
-
-def _warn_obsolete(body: Body, span: Span, attributes: list[ast.Pragma]) -> None:
-    text = attribute(attributes, "obsolete")
-    if text is not None:
-        body.report("W1203", span, text=text or "The type is obsolete")
