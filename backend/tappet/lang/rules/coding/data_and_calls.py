@@ -56,6 +56,13 @@ Fails:
     END_FUNCTION
 Fails:
     @static
+    FUNCTION_BLOCK FB_Step
+    VAR_INPUT nStep, nUnused : INT; END_VAR   (* S1406: nUnused is not used *)
+    VAR nOwn : INT; END_VAR
+    nOwn := nOwn + nStep;
+    END_FUNCTION_BLOCK
+Fails:
+    @static
     FUNCTION F_One : INT
     F_One := 1;
     END_FUNCTION
@@ -70,11 +77,12 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import Related
+from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.walk import bodies, own_expressions
 
 if TYPE_CHECKING:
-    from tappet.lang.analysis.context import Body
+    from tappet.lang.analysis.context import Body, Session
 
 CODES = ("S1401", "S1402", "S1403", "S1404", "S1405", "S1406", "S1407")
 
@@ -90,6 +98,28 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
         for p in pou.parameters:
             if p.section == "VAR_INPUT" and id(p) not in b.session.used and p.span is not None:
                 b.report("S1406", p.span, name=p.name)
+
+
+def check_program(session: Session, chosen: frozenset[str]) -> None:
+    """Reports inputs of blocks that neither the body nor a method, action or user of the block names."""
+    if "S1406" not in chosen:
+        return
+    for pou in session.analysis.pous:
+        source = pou.source
+        bare = pou.pou is None or not (pou.pou.body or pou.methods or pou.actions)
+        own = source is not None and source.scope is not Scope.LIBRARY
+        if pou.kind != "FUNCTION_BLOCK" or bare or not own or pou.interfaces:
+            continue
+        assert source is not None
+        for p in pou.parameters:
+            inherited = p.owner is not None and p.owner.upper() != pou.qualified_name.upper()
+            if (
+                p.section == "VAR_INPUT"
+                and id(p) not in session.used
+                and p.span is not None
+                and not inherited
+            ):
+                session.report("S1406", source.uri, p.span, name=p.name)
 
 
 class _Seen:
