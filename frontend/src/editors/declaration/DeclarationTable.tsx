@@ -43,6 +43,7 @@ export function DeclarationTable(props: DeclarationTableProps) {
   const [draft, setDraft] = useState<Draft | null>(null);
   const [sorting, setSorting] = useState<Sorting | null>(null);
   const grid = useRef<GridHandle>(null);
+  const area = useRef<HTMLDivElement>(null);
   const columns = useMemo(() => tableColumns(t, model), [t, model]);
   const shown = useMemo(() => displayOrder(model, draft, sorting), [model, draft, sorting]);
   const selection = useGridSelection(shown.length);
@@ -61,7 +62,15 @@ export function DeclarationTable(props: DeclarationTableProps) {
 
   const onFocus = useCallback(() => {
     const history = document.models.declaration as unknown as { undo: () => void; redo: () => void };
-    setPanelTable(panelId, { undo: () => history.undo(), redo: () => history.redo() });
+    const showFixes = () => {
+      const table = area.current?.querySelector('[role="grid"]');
+      if (table) openMenuAt(activeDescendant(table));
+    };
+    setPanelTable(panelId, {
+      undo: () => history.undo(),
+      redo: () => history.redo(),
+      acts: { 'st.quickFix': showFixes },
+    });
   }, [document, panelId]);
 
   const serious = model.problems.filter((problem) => problem.kind !== 'not-tabular');
@@ -90,11 +99,6 @@ export function DeclarationTable(props: DeclarationTableProps) {
     if (event.key === 'Insert') return (acts.insert(true), true);
     if (event.altKey && event.key === 'ArrowUp') return (event.preventDefault(), acts.move(-1), true);
     if (event.altKey && event.key === 'ArrowDown') return (event.preventDefault(), acts.move(1), true);
-    if (event.ctrlKey && event.key === '.') {
-      event.preventDefault();
-      openMenuAt(activeDescendant(event.currentTarget));
-      return true;
-    }
     if (event.key === ' ' && selection.cursor) return (event.preventDefault(), acts.edit(selection.cursor), true);
     return false;
   };
@@ -194,7 +198,7 @@ export function DeclarationTable(props: DeclarationTableProps) {
         />
       </div>
       <ContextMenu entries={entries}>
-        <div className={styles.grid}>
+        <div ref={area} className={styles.grid}>
           <Grid
             ref={grid}
             label={t('decl.tableOf', { name: object.name })}

@@ -28,7 +28,8 @@ export function registerMending(monaco: Monaco): void {
   monaco.editor.registerCommand(MEND, (_accessor, mending: Mending) => void guard(() => mend(monaco, mending)));
 }
 
-async function mend(monaco: Monaco, { uri, action }: Mending): Promise<void> {
+/** Carries out what an action is more than its title. */
+export async function mend(monaco: Monaco, { uri, action }: Mending): Promise<void> {
   const address = parsePartUri(uri);
   if (address === null) return;
   const { edit, data } = action;
@@ -57,10 +58,10 @@ async function declare(monaco: Monaco, address: PartAddress, { name, type }: { n
   const { projectId, objectId, part } = address;
   const object = objectsOf(projectId).find((candidate) => candidate.id === objectId);
   const editor = editorOn(monaco, `tappet:/${projectId}/${objectId}/${part}`);
-  if (object === undefined || editor === undefined) return;
+  if (object === undefined) return;
   const document = await openDocument(monaco, projectId, objectId);
   try {
-    await autoDeclare({ monaco, document, projectId, object, instance: null }, editor, name, type);
+    await autoDeclare({ monaco, document, projectId, object, instance: null }, editor ?? null, name, type);
   } finally {
     document.release();
   }

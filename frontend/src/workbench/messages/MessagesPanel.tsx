@@ -1,5 +1,5 @@
 import { CircleCheck, CircleX, Hammer, Info, ListX, TriangleAlert } from 'lucide-react';
-import { useMemo, useState } from 'react';
+import { useMemo, useState, type KeyboardEvent } from 'react';
 import type { Diagnostic, Severity } from '@/api/types';
 import { useText } from '@/i18n';
 import { useRegistry } from '../commands';
@@ -8,9 +8,12 @@ import { Button, IconButton } from '../ui/Button';
 import { Empty } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
 import { FilterToggle } from '../ui/FilterToggle';
+import { ContextMenu } from '../ui/Menu';
+import { activeDescendant, openMenuAt } from '../ui/menuKey';
 import type { Column } from '../ui/table';
 import { Table } from '../ui/Table';
 import { jumpTo } from './jump';
+import { messageEntries } from './messageMenu';
 import styles from './Messages.module.css';
 import { bytesText, clearMessages, countOf, pathParts, presentMessages, setCurrent, useMessages } from './store';
 
@@ -104,6 +107,16 @@ export default function MessagesPanel() {
     [t],
   );
 
+  const entries = () => {
+    const line = lines.find(({ message }) => message === current);
+    return line === undefined ? [] : messageEntries(line.message, t);
+  };
+  const onKey = (event: KeyboardEvent, line: Line | undefined) => {
+    if (line === undefined || !event.ctrlKey || event.key !== '.') return;
+    event.preventDefault();
+    openMenuAt(activeDescendant(event.currentTarget));
+  };
+
   return (
     <div className={styles.view}>
       <div className={styles.bar}>
@@ -137,16 +150,21 @@ export default function MessagesPanel() {
         )}
       </div>
       <div className={styles.table}>
-        <Table
-          label={t('panel.messages')}
-          items={lines}
-          columns={columns}
-          keyOf={(line) => line.key}
-          selected={lines.find((line) => line.message === current)?.key ?? null}
-          onSelect={(line) => setCurrent(line?.message ?? null)}
-          onOpen={(line) => jumpTo(line.message)}
-          empty={<NoMessages built={build !== null} filtered={all.length > 0} />}
-        />
+        <ContextMenu entries={entries}>
+          <div className={styles.rows}>
+            <Table
+              label={t('panel.messages')}
+              items={lines}
+              columns={columns}
+              keyOf={(line) => line.key}
+              selected={lines.find((line) => line.message === current)?.key ?? null}
+              onSelect={(line) => setCurrent(line?.message ?? null)}
+              onOpen={(line) => jumpTo(line.message)}
+              onKey={onKey}
+              empty={<NoMessages built={build !== null} filtered={all.length > 0} />}
+            />
+          </div>
+        </ContextMenu>
       </div>
     </div>
   );

@@ -1,6 +1,6 @@
 import { Check, ChevronRight } from 'lucide-react';
 import { ContextMenu as RadixContext, DropdownMenu as RadixDropdown, Menubar } from 'radix-ui';
-import { useState, type ComponentType, type ReactElement, type ReactNode } from 'react';
+import { useRef, useState, type ComponentType, type ReactElement, type ReactNode } from 'react';
 import type { IconComponent } from '../types';
 import styles from './Menu.module.css';
 import { Tooltip } from './Tooltip';
@@ -117,11 +117,30 @@ export function DropdownMenu({
   );
 }
 
-/** The right-click menu of whatever it surrounds. The entries are made when it opens. */
-export function ContextMenu({ entries, children }: { entries: () => readonly MenuEntry[]; children: ReactElement }) {
+interface ContextMenuProps {
+  /** Made when the menu opens; it appears when they are there. */
+  entries: () => readonly MenuEntry[] | Promise<readonly MenuEntry[]>;
+  children: ReactElement;
+}
+
+/** The right-click menu of whatever it surrounds. */
+export function ContextMenu({ entries, children }: ContextMenuProps) {
   const [shown, setShown] = useState<readonly MenuEntry[]>([]);
+  const opened = useRef(0);
+  const onOpenChange = (open: boolean) => {
+    opened.current += 1;
+    if (!open) return;
+    const made = entries();
+    if (!(made instanceof Promise)) {
+      setShown(made);
+      return;
+    }
+    const turn = opened.current;
+    setShown([]);
+    void made.then((found) => turn === opened.current && setShown(found));
+  };
   return (
-    <RadixContext.Root modal={false} onOpenChange={(open) => open && setShown(entries())}>
+    <RadixContext.Root modal={false} onOpenChange={onOpenChange}>
       <RadixContext.Trigger asChild>{children}</RadixContext.Trigger>
       <RadixContext.Portal>
         {shown.length > 0 && (

@@ -16,3 +16,8 @@ export function openMenuAt(place: Element): void {
     }),
   );
 }
+
+/** The row or cell that has the cursor in such a list, or the list itself. */
+export function activeDescendant(list: Element): Element {
+  return document.getElementById(list.getAttribute('aria-activedescendant') ?? '') ?? list;
+}

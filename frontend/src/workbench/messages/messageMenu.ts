@@ -1,0 +1,48 @@
+/** What can be done with a message: what mends it, going to its place, copying it. */
+import { Copy, CornerDownRight } from 'lucide-react';
+import type { Diagnostic } from '@/api/types';
+import type { useText } from '@/i18n';
+import { useProject } from '../project';
+import type { MenuEntry } from '../ui/Menu';
+import { jumpTo } from './jump';
+
+export async function messageEntries(message: Diagnostic, t: ReturnType<typeof useText>): Promise<MenuEntry[]> {
+  const fixes = await fixesOf(message);
+  return [
+    ...fixes,
+    ...(fixes.length > 0 ? [{ kind: 'line', key: 'fixes' } as const] : []),
+    {
+      kind: 'item',
+      key: 'open',
+      text: t('messages.goTo'),
+      icon: CornerDownRight,
+      shortcut: t('messages.enterKey'),
+      disabledReason: message.object_id === null ? t('messages.noPlace') : null,
+      run: () => jumpTo(message),
+    },
+    {
+      kind: 'item',
+      key: 'copy',
+      text: t('messages.copy'),
+      icon: Copy,
+      run: () => void navigator.clipboard.writeText(messageText(message)),
+    },
+  ];
+}
+
+/** `Application.PLC_PRG:3:5: error E0201: Identifier 'x' not defined. Declare it.` */
+export function messageText({ severity, code, message, advice, object_path, line, column }: Diagnostic): string {
+  const place = line === null ? object_path : `${object_path}:${String(line)}:${String(column ?? 1)}`;
+  return `${place}: ${severity} ${code}: ${[message, advice].filter(Boolean).join('. ')}`;
+}
+
+async function fixesOf(message: Diagnostic): Promise<MenuEntry[]> {
+  const { projectId } = useProject.getState();
+  const { object_id, part, line, column, end_line, end_column, code } = message;
+  if (projectId === null || object_id === null || part === null || line === null) return [];
+  const start = { line: line - 1, character: (column ?? 1) - 1 };
+  const end = end_line === null ? start : { line: end_line - 1, character: (end_column ?? 1) - 1 };
+  const { quickFixEntries } = await import('@/editors/st/quickFixes');
+  const uri = `tappet:/${projectId}/${object_id}/${part}`;
+  return quickFixEntries(projectId, uri, { start, end }, { code, show: () => jumpTo(message) });
+}
