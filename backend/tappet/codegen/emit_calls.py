@@ -95,8 +95,13 @@ class CallEmitter(PlaceEmitter):
         return self._after_call(barriers, value)
 
     def _type_number(self, instance: str) -> str:
-        """The type number of an instance. It stays while the instance exists, so one load of it is enough."""
-        return self.value(f"load i32, ptr {instance}, !invariant.group !1{self.location}")
+        """The type number of an instance.
+
+        Not marked as `!invariant.group`, though it stays while the instance exists: the GVN of LLVM 22 then
+        looks through all uses of the address, and dies over those in other functions when inlining has made
+        the address a constant.
+        """
+        return self.value(f"load i32, ptr {instance}{self.location}")
 
     def _entry(self, method: ir.VirtualMethod, number: str) -> str:
         """Code address of the body for a type number."""
