@@ -8,6 +8,7 @@ from tappet.core.scalars import FALSE, NULL, TRUE, convert, require_scalar, scal
 from tappet.core.values import bit_value
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.result import yields_reference
 from tappet.lang.symbols import PropertySymbol, VarSymbol
 
 
@@ -27,6 +28,11 @@ def assign(b: Body, op: str, target: ast.Expr, value: ast.Expr) -> None:
     if special is not None and not (isinstance(target, ast.Member) and target.bit is not None):
         special(b, target, symbol, value)
         return
+    assign_memory(b, target, value)
+
+
+def assign_memory(b: Body, target: ast.Expr, value: ast.Expr) -> None:
+    """`target := value` for a target that is memory."""
     type_ = target.type
     assert type_ is not None
     if scalar_of(type_) is None:
@@ -69,7 +75,7 @@ def store_bit(b: Body, base: ast.Expr, bit: int, value: ir.Expr) -> None:
     """`base.bit := value`."""
     scalar = require_scalar(base.type)
     symbol = getattr(base, "symbol", None)
-    if isinstance(symbol, PropertySymbol):
+    if isinstance(symbol, PropertySymbol) and not yields_reference(base):
         raise b.error("a bit of a property cannot be assigned", base)
     frozen = places.freeze(b, b.target(base), b.out)
     b.touch(frozen)
@@ -201,7 +207,7 @@ def assign_from_place(
     """Assign an output that lies at `source` to the expression after `=>`."""
     scalar = scalar_of(type_)
     symbol = getattr(target, "symbol", None)
-    if isinstance(symbol, PropertySymbol):
+    if isinstance(symbol, PropertySymbol) and not yields_reference(target):
         raise b.error("an output cannot be assigned to a property; use a variable", target)
     if scalar is None:
         place = b.target(target)

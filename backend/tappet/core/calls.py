@@ -1,4 +1,4 @@
-"""Calls of functions, methods, actions, programs, function block instances and property accessors."""
+"""Calls of functions, methods, actions, programs and function block instances."""
 
 from __future__ import annotations
 
@@ -11,18 +11,17 @@ from tappet.core.body import (
     BUILTIN_VALUES,
     INITIALISERS,
     PLACES,
-    TARGETS,
     VALUES,
     Body,
 )
 from tappet.core.program import attribute_value
 from tappet.core.scalars import NULL, require_scalar, scalar_of
-from tappet.core.values import member_value, variable_value
 from tappet.core.virtual_calls import BODY, Static, call_virtual, is_fixed
 from tappet.lang import any_type, ast
 from tappet.lang import types as t
+from tappet.lang.analysis.result import yields_reference
 from tappet.lang.any_type import is_any
-from tappet.lang.symbols import BuiltinSymbol, PouSymbol, PropertySymbol, VarSymbol
+from tappet.lang.symbols import BuiltinSymbol, PouSymbol, VarSymbol
 
 
 @dataclass(slots=True)
@@ -142,7 +141,7 @@ def prepare(b: Body, e: ast.Call) -> Prepared:
     if target.kind == "PROGRAM":
         return _instance_call(b, e, target, places.program_data(target), [])
     prepared = Prepared()
-    own, static = _instance_of(b, e.callee, target)
+    own, static = instance_of(b, e.callee, target)
     if target.kind == "ACTION" and e.args:
         own = _arguments_of_action(b, prepared, e.args, target, own)
     finish(b, prepared, target, [] if target.kind == "ACTION" else e.args, own, static)
@@ -164,7 +163,7 @@ def _arguments_of_action(
     return address
 
 
-def _instance_of(b: Body, callee: ast.Expr, target: PouSymbol) -> tuple[ir.Expr | None, Static | None]:
+def instance_of(b: Body, callee: ast.Expr, target: PouSymbol) -> tuple[ir.Expr | None, Static | None]:
     """Address of the instance a method is called on, and its type where that may be a derived one."""
     if not has_self(target):
         return None, None
@@ -199,7 +198,11 @@ def _through_reference(e: ast.Expr) -> bool:
     symbol = getattr(e, "symbol", None)
     if isinstance(symbol, VarSymbol):
         return symbol.section == "VAR_IN_OUT" or isinstance(symbol.type, t.Reference)
-    return isinstance(e, ast.Call) or (isinstance(e, ast.Index) and isinstance(e.base.type, t.Pointer))
+    return (
+        isinstance(e, ast.Call)
+        or yields_reference(e)
+        or (isinstance(e, ast.Index) and isinstance(e.base.type, t.Pointer))
+    )
 
 
 def finish(
@@ -447,58 +450,5 @@ def _root(instance: ir.Place, offset: int) -> int | None:
     return offset if instance.root < 0 and not instance.subscripts and not instance.offset else None
 
 
-# -- properties -------------------------------------------------------------------------------------
-
-
-def read_property(b: Body, e: ast.Name | ast.Member, symbol: PropertySymbol) -> Prepared:
-    """Call of the getter."""
-    if symbol.getter is None:
-        raise b.error(f"property '{symbol.name}' has no Get", e)
-    prepared = Prepared()
-    own, static = _instance_of(b, e, symbol.getter)
-    b.foreign_writes = True
-    finish(b, prepared, symbol.getter, [], own, static)
-    return prepared
-
-
-def write_property(b: Body, e: ast.Name | ast.Member, symbol: PropertySymbol, value: ast.Expr) -> None:
-    """Call of the setter with `value`."""
-    if symbol.setter is None:
-        raise b.error(f"property '{symbol.name}' has no Set", e)
-    prepared = Prepared()
-    own, static = _instance_of(b, e, symbol.setter)
-    b.foreign_writes = True
-    argument = ast.Argument(name=None, value=value, span=value.span)
-    if symbol.setter.parameters:
-        argument.parameter = symbol.setter.parameters[0]
-    finish(b, prepared, symbol.setter, [argument], own, static)
-    b.out.extend(prepared.statements())
-
-
-def _named_value(b: Body, e: ast.Name) -> ir.Expr:
-    if isinstance(e.symbol, PropertySymbol):
-        return as_value(b, read_property(b, e, e.symbol))
-    return variable_value(b, e)
-
-
-def _member_value(b: Body, e: ast.Member) -> ir.Expr:
-    if isinstance(e.symbol, PropertySymbol) and e.bit is None:
-        return as_value(b, read_property(b, e, e.symbol))
-    return member_value(b, e)
-
-
-def _named_place(b: Body, e: ast.Name) -> ir.Place:
-    if isinstance(e.symbol, PropertySymbol):
-        return as_place(b, read_property(b, e, e.symbol))
-    return places.place_of_name(b, e)
-
-
-def _member_place(b: Body, e: ast.Member) -> ir.Place:
-    if isinstance(e.symbol, PropertySymbol):
-        return as_place(b, read_property(b, e, e.symbol))
-    return places.place_of_member(b, e)
-
-
-VALUES.update({ast.Call: call_value, ast.Name: _named_value, ast.Member: _member_value})
-TARGETS[PropertySymbol] = write_property
-PLACES.update({ast.Call: call_place, ast.Name: _named_place, ast.Member: _member_place})
+VALUES[ast.Call] = call_value
+PLACES[ast.Call] = call_place

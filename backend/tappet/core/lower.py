@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tappet.core import addressed, assign, builtins, calls, conversions, initial, ir, places
+from tappet.core import addressed, assign, builtins, calls, conversions, initial, ir, places, properties
 from tappet.core.body import Body
 from tappet.core.method_tables import number_methods
 from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_value, data_symbol, export_name
@@ -379,5 +379,5 @@ def _initialise(
     initial.write_template(b, place, template, type_.align)
 
 
-OPERATORS = (builtins, conversions)
+OPERATORS = (builtins, conversions, properties)
 """Modules that register the lowering of operators when they are imported."""

@@ -8,6 +8,7 @@ from tappet.core.program import AREA_PREFIX, data_symbol
 from tappet.core.scalars import convert, require_scalar
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.result import yields_reference
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 
 FAULT_BOUNDS = 2
@@ -23,16 +24,13 @@ def is_place(e: ast.Expr) -> bool:
     """Whether `e` is memory rather than a computed value."""
     kind = e.__class__
     if kind is ast.Name:
-        return isinstance(e.symbol, VarSymbol)  # type: ignore[attr-defined]
+        return isinstance(e.symbol, VarSymbol) or yields_reference(e)  # type: ignore[attr-defined]
     if kind is ast.Member:
         assert isinstance(e, ast.Member)
-        return e.bit is None and isinstance(e.symbol, VarSymbol)
+        return e.bit is None and (isinstance(e.symbol, VarSymbol) or yields_reference(e))
     if kind is ast.Index or kind is ast.Deref:
         return True
-    if kind is ast.Call:
-        assert isinstance(e, ast.Call)
-        return isinstance(e.target, PouSymbol) and isinstance(e.target.return_type, t.Reference)
-    return False
+    return yields_reference(e)
 
 
 # -- variables --------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Body, DirectWrite
 from tappet.lang.analysis.expressions import text_of
+from tappet.lang.analysis.result import yields_reference
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -18,11 +19,13 @@ from tappet.lang.symbols import (
 
 
 def is_place(e: ast.Expr) -> bool:
-    """Whether `e` stands for memory (no literal, no computed value, no bit, no property)."""
+    """Whether `e` stands for memory (no literal, no computed value, no bit, no property but by reference)."""
     while True:
         if isinstance(e, ast.Name):
-            return isinstance(e.symbol, VarSymbol)
+            return isinstance(e.symbol, VarSymbol) or yields_reference(e)
         if isinstance(e, ast.Member):
+            if yields_reference(e):
+                return True
             if e.bit is not None or not isinstance(e.symbol, VarSymbol) or e.symbol.bit is not None:
                 return False
             if e.base.type is None:
@@ -34,10 +37,8 @@ def is_place(e: ast.Expr) -> bool:
             e = e.base
         elif isinstance(e, ast.Deref):
             return True
-        elif isinstance(e, ast.Call):
-            return isinstance(e.target, PouSymbol) and isinstance(e.target.return_type, t.Reference)
         else:
-            return False
+            return yields_reference(e)
 
 
 def mark_written(b: Body, e: ast.Expr) -> None:
@@ -126,6 +127,8 @@ def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -
             note_output(b, symbol, target)
         return True
     if isinstance(symbol, PropertySymbol):
+        if yields_reference(e) and symbol.getter is not None and (e is not target or symbol.setter is None):
+            return True
         if e is not target:
             b.report(
                 "E0305",

@@ -89,10 +89,11 @@ from tappet.lang.symbols import (
     GvlSymbol,
     InterfaceSymbol,
     PouSymbol,
+    PropertySymbol,
     Symbol,
     VarSymbol,
 )
-from tappet.lang.types import Type
+from tappet.lang.types import Reference, Type
 
 ARITHMETIC = frozenset({"+", "-", "*", "/", "MOD"})
 
@@ -184,4 +185,20 @@ def carried_type(expr: ast.Expr) -> Type | None:
     return expr.type
 
 
-__all__ = ["ARITHMETIC", "Analysis", "AnalysisOptions", "ConfiguredAddress", "VarSymbol", "carried_type"]
+def yields_reference(e: ast.Expr) -> bool:
+    """Whether a call or property returns a REFERENCE, so that it is the place referred to."""
+    if isinstance(e, ast.Call):
+        return isinstance(e.target, PouSymbol) and isinstance(e.target.return_type, Reference)
+    symbol = e.symbol if isinstance(e, (ast.Name, ast.Member)) else None
+    return isinstance(symbol, PropertySymbol) and isinstance(symbol.type, Reference)
+
+
+__all__ = [
+    "ARITHMETIC",
+    "Analysis",
+    "AnalysisOptions",
+    "ConfiguredAddress",
+    "VarSymbol",
+    "carried_type",
+    "yields_reference",
+]
