@@ -53,10 +53,12 @@ export type CodingRule = Schemas['CodingRule'];
 export type DeviceData = Schemas['DeviceData'];
 
 export type ImportNode = Schemas['ImportNode'];
-export type ImportPreview = Schemas['ImportPreview'];
-export type ImportResult = Schemas['ImportResult'];
-export type ImportReport = Schemas['ImportReport'];
 export type ImportEntry = Schemas['Entry'];
+export interface ImportReport {
+  entries: ImportEntry[];
+}
+export type ImportPreview = Omit<Schemas['ImportPreview'], 'report'> & { report: ImportReport };
+export type ImportResult = Omit<Schemas['ImportResult'], 'report'> & { report: ImportReport };
 
 export type Severity = Schemas['Severity'];
 export type Diagnostic = Schemas['Diagnostic'];

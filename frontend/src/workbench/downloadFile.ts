@@ -1,8 +1,9 @@
 import { api } from '@/api/client';
 
-/** Fetches a file of the API and hands it to the browser as a download. */
-export async function downloadUrl(path: string, name: string): Promise<void> {
-  saveBlob(await api.get<Blob>(path), name);
+/** Fetches a file of the API and hands it to the browser as a download; the name may depend on the media type. */
+export async function downloadUrl(path: string, name: string | ((type: string) => string)): Promise<void> {
+  const blob = await api.get<Blob>(path);
+  saveBlob(blob, typeof name === 'string' ? name : name(blob.type));
 }
 
 export function saveBlob(blob: Blob, name: string): void {

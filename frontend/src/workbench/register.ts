@@ -2,6 +2,7 @@
 import { FileText, FolderTree, Layers, Library, ListChecks, ScrollText, SquareFunction, Timer } from 'lucide-react';
 import { lazy } from 'react';
 import { registerEditCommands } from './commands/edit';
+import { registerExchangeCommands } from './commands/exchange';
 import { registerFileCommands } from './commands/file';
 import { registerHelpCommands } from './commands/help';
 import { registerLibraryCommands } from './commands/libraries';
@@ -92,6 +93,7 @@ export function registerWorkbench(): void {
     order: 40,
   });
   registerFileCommands();
+  registerExchangeCommands();
   registerEditCommands();
   registerProjectCommands();
   registerOnlineCommands();

@@ -1,16 +1,18 @@
 import { useQuery } from '@tanstack/react-query';
 import { Boxes, Download, Ellipsis, FileUp, FilePlus, FolderOpen, Trash2 } from 'lucide-react';
-import { useEffect, useRef, useState, type DragEvent } from 'react';
+import { useEffect, useState, type DragEvent } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient, useProjects } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
 import { secondText } from '@/workbench/clock';
 import { objectIcon, TappetMark } from '@/icons/objects';
-import { confirm } from '@/workbench/dialogs';
+import { confirm, openDialog } from '@/workbench/dialogs';
 import { downloadUrl } from '@/workbench/downloadFile';
 import { UserMenu } from '@/workbench/frame/UserMenu';
-import { guard, notify } from '@/workbench/notices';
+import { droppedFiles, type NamedFile } from '@/workbench/exchange/dropped';
+import { ImportDialog } from '@/workbench/exchange/ImportDialog';
+import { guard } from '@/workbench/notices';
 import { atLeast } from '@/workbench/rights';
 import { Button, IconButton } from '@/workbench/ui/Button';
 import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
@@ -36,7 +38,6 @@ export function StartPage() {
   const refused = atLeast(role, 'engineer') ? null : t('reason.engineer');
   const [search, setSearch] = useState('');
   const [over, setOver] = useState(false);
-  const file = useRef<HTMLInputElement>(null);
   useEffect(() => {
     document.title = 'Tappet';
   }, []);
@@ -48,8 +49,9 @@ export function StartPage() {
   const drop = (event: DragEvent) => {
     event.preventDefault();
     setOver(false);
-    const dropped = event.dataTransfer.files[0];
-    if (dropped && !refused) void importProject(dropped, t('project.imported', { name: dropped.name }));
+    if (refused) return;
+    const dropped = droppedFiles(event.dataTransfer);
+    void guard(async () => importFiles(await dropped));
   };
   const { recent: first, others } = sections(projects.data ?? [], recent.data ?? [], search);
 
@@ -64,18 +66,7 @@ export function StartPage() {
         <nav className={styles.side} aria-label={t('start.begin')}>
           <h2 className={styles.heading}>{t('start.begin')}</h2>
           <StartAction icon={FilePlus} text={t('command.newProject')} refused={refused} run={() => void create()} />
-          <StartAction icon={FileUp} text={t('start.import')} refused={refused} run={() => file.current?.click()} />
-          <input
-            ref={file}
-            type="file"
-            accept=".zip"
-            hidden
-            onChange={(event) => {
-              const chosen = event.target.files?.[0];
-              event.target.value = '';
-              if (chosen) void importProject(chosen, t('project.imported', { name: chosen.name }));
-            }}
-          />
+          <StartAction icon={FileUp} text={t('start.import')} refused={refused} run={() => void importFiles()} />
         </nav>
         <section
           className={styles.content}
@@ -110,7 +101,7 @@ export function StartPage() {
               <Button variant="primary" icon={FilePlus} disabledReason={refused} onClick={() => void create()}>
                 {t('command.newProject')}
               </Button>
-              <Button icon={FileUp} disabledReason={refused} onClick={() => file.current?.click()}>
+              <Button icon={FileUp} disabledReason={refused} onClick={() => void importFiles()}>
                 {t('start.import')}
               </Button>
             </Empty>
@@ -180,7 +171,7 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
     {
       kind: 'item',
       key: 'export',
-      text: t('command.export'),
+      text: t('start.export'),
       icon: Download,
       run: () => void guard(() => downloadUrl(`/projects/${project.id}/export`, `${project.name}.zip`)),
     },
@@ -230,14 +221,14 @@ async function deleteProject(project: ProjectSummary, t: ReturnType<typeof useTe
   });
 }
 
-/** Uploads a zip of the folder format and opens what comes of it. */
-async function importProject(file: File, done: string): Promise<void> {
-  await guard(async () => {
-    const form = new FormData();
-    form.append('file', file);
-    const project = await api.post<ProjectSummary>('/projects/import', form);
-    await queryClient.invalidateQueries({ queryKey: keys.projects });
-    notify({ tone: 'ok', title: done });
-    go({ page: 'project', projectId: project.id });
-  });
+/** Makes a project of files: our own archive, or those of other systems. */
+async function importFiles(files: readonly NamedFile[] = []): Promise<void> {
+  await openDialog((close) => (
+    <ImportDialog
+      target={null}
+      files={files}
+      openProject={(projectId) => go({ page: 'project', projectId })}
+      close={() => close()}
+    />
+  ));
 }

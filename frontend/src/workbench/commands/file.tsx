@@ -1,13 +1,11 @@
-import { Download, FilePlus, FolderOpen, LogOut, SquareArrowOutUpLeft } from 'lucide-react';
+import { FilePlus, FolderOpen, LogOut, SquareArrowOutUpLeft } from 'lucide-react';
 import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
 import { go } from '@/app/route';
 import { setUser, useSession } from '@/app/session';
 import { newProject } from '@/app/start/NewProjectDialog';
-import { downloadUrl } from '../downloadFile';
 import { registerCommands, type Command } from '../commands';
 import { closeEditors } from '../docking/close';
-import { useProject } from '../project';
 import { atLeast } from '../rights';
 import { useSelection } from '../selection';
 
@@ -48,14 +46,6 @@ const commands: Command[] = [
     run: async () => {
       if (await leaveProject()) go({ page: 'start' });
     },
-  },
-  {
-    id: 'file.export',
-    title: 'command.export',
-    icon: Download,
-    menu: { menu: 'file', group: '2_exchange', order: 1 },
-    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
-    run: (context) => downloadUrl(`/projects/${context.projectId}/export`, `${useProject.getState().projectName}.zip`),
   },
   {
     id: 'file.signOut',

@@ -1,0 +1,158 @@
+"""Editor check: from an edit in one text of a large project to the messages that the editor gets for it.
+
+What is timed is the language server as the browser talks to it: the notification `didChange` goes in, the
+messages of the edited document come out. Only the pause that the server waits for the typing to stop is left
+out. The baseline is the check of the whole project when its first document is opened. Bar: issue of the
+language, 100 ms.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from dataclasses import dataclass, field
+from statistics import median
+from typing import Any
+
+from lsprotocol import types as lsp
+
+from tappet.bench import build as build_bench
+from tappet.bench.report import Report, Row
+from tappet.lang.source import Source
+from tappet.project.model import Project, make_object, new_id
+from tappet.project.templates import new_project
+from tappet.server.lsp.project_programs import ProjectPrograms, part_uri
+from tappet.server.lsp.session import LanguageSession
+
+EDITS = 20
+"""Edits of each kind; every second one takes the one before back."""
+PATIENCE_S = 60.0
+"""Without messages for so long, the measurement has failed."""
+BAR = "one edit of a project of 550 POUs checked under 100 ms"
+_ID = "bench"
+
+
+@dataclass(slots=True)
+class Edit:
+    """A change of one part of an object that makes a message; taking it back takes the message away."""
+
+    part: str
+    good: str
+    bad: str
+
+
+BODY = Edit("implementation", "diErrors := diErrors + 1;", "diErrors := diErrors + unknown;")
+DECLARATION = Edit("declaration", "diCount : DINT;", "diCount : DINT; unused : DINT;")
+
+
+def project(pous: int = build_bench.POUS) -> tuple[Project, dict[str, str]]:
+    """The project of the build benchmark as the server stores it, and its object ids by name."""
+    empty = new_project("Bench")
+    application = empty.applications()[0].id
+    objects = {i: item for i, item in empty.objects.items() if item.kind != "task" and item.name != "PLC_PRG"}
+    ids = {}
+    for number, source in enumerate(build_bench.project(pous)):
+        declaration, implementation = _parts(source)
+        data = {"declaration": declaration, "implementation": implementation}
+        item = make_object(
+            id=new_id(), parent_id=application, kind="pou", name=source.name, index=100 + number, data=data
+        )
+        objects[item.id] = item
+        ids[item.name] = item.id
+    return Project("Bench", "", objects), ids
+
+
+def _parts(source: Source) -> tuple[str, str]:
+    head, end, body = source.text.rpartition("END_VAR\n")
+    return head + end.rstrip("\n"), body[: body.rindex("END_")].rstrip("\n")
+
+
+@dataclass(slots=True)
+class Editor:
+    """A client with one open document."""
+
+    session: LanguageSession
+    document: str
+    text: str
+    version: int = 0
+    heard: asyncio.Queue[list[Any]] = field(default_factory=asyncio.Queue)
+
+    async def take(self, message: str) -> None:
+        """A message of the server."""
+        content = json.loads(message)
+        params = content.get("params")
+        if content.get("method") == lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS and params["uri"] == self.document:
+            self.heard.put_nowait(params["diagnostics"])
+
+    async def tell(self, method: str, params: object) -> None:
+        """Send a notification."""
+        await self.session.receive(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
+
+    async def messages(self) -> list[Any]:
+        """The next messages of the document. Raises TimeoutError."""
+        return await asyncio.wait_for(self.heard.get(), PATIENCE_S)
+
+    async def open(self) -> float:
+        """Seconds from opening the document to its first messages: everything is checked."""
+        started = time.perf_counter()
+        hello = {"processId": None, "rootUri": None, "capabilities": {}}
+        request = {"jsonrpc": "2.0", "id": 1, "method": lsp.INITIALIZE, "params": hello}
+        await self.session.receive(json.dumps(request))
+        await self.tell(lsp.INITIALIZED, {})
+        item = {"uri": self.document, "languageId": "iec-st", "version": 0, "text": self.text}
+        await self.tell(lsp.TEXT_DOCUMENT_DID_OPEN, {"textDocument": item})
+        await self.messages()
+        return time.perf_counter() - started
+
+    async def edit(self, edit: Edit) -> float:
+        """Seconds from a change of the text to the messages that follow from it."""
+        old, new = (edit.good, edit.bad) if edit.good in self.text else (edit.bad, edit.good)
+        start = self.text.index(old)
+        line = self.text.count("\n", 0, start)
+        column = start - (self.text.rfind("\n", 0, start) + 1)
+        self.text = self.text.replace(old, new, 1)
+        self.version += 1
+        span = {
+            "start": {"line": line, "character": column},
+            "end": {"line": line, "character": column + len(old)},
+        }
+        params = {
+            "textDocument": {"uri": self.document, "version": self.version},
+            "contentChanges": [{"range": span, "text": new}],
+        }
+        started = time.perf_counter()
+        await self.tell(lsp.TEXT_DOCUMENT_DID_CHANGE, params)
+        await self.messages()
+        return time.perf_counter() - started
+
+
+async def measure(edit: Edit, pous: int = build_bench.POUS) -> tuple[float, list[float]]:
+    """Seconds of the first check and of each edit in a document in the middle of the project."""
+    content, ids = project(pous)
+    name = f"FB_Unit{pous // 2}"
+    found = content.objects[ids[name]].data
+    editor: Editor
+
+    async def send(message: str) -> None:
+        await editor.take(message)
+
+    session = LanguageSession(ProjectPrograms(_ID, lambda: content), send, debounce_s=0.0)
+    # with its message from the beginning: of a text without any, nothing would be told when it is opened
+    text = str(getattr(found, edit.part)).replace(edit.good, edit.bad, 1)
+    editor = Editor(session, part_uri(_ID, ids[name], edit.part), text)
+    try:
+        first = await editor.open()
+        return first, [await editor.edit(edit) for _ in range(EDITS)]
+    finally:
+        await session.close()
+
+
+def run(pous: int = build_bench.POUS) -> Report:
+    """Edits of a body and of a declaration."""
+    rows = []
+    for name, edit in (("body edited", BODY), ("declaration edited", DECLARATION)):
+        first, edits = asyncio.run(measure(edit, pous))
+        note = f"median of {len(edits)}, slowest {max(edits) * 1e3:.0f} ms; baseline: first check"
+        rows.append(Row(name, median(edits) * 1e3, first * 1e3, "ms", note))
+    return Report("editor", "the check of the whole project", rows, BAR)

@@ -1,0 +1,69 @@
+import { FileDown, FileUp } from 'lucide-react';
+import { keys, queryClient } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
+import { go } from '@/app/route';
+import { registerCommands, type Command } from '../commands';
+import { openDialog } from '../dialogs';
+import { saveEditors } from '../docking/close';
+import { openObject } from '../docking/dock';
+import { ExportDialog } from '../exchange/ExportDialog';
+import { ImportDialog } from '../exchange/ImportDialog';
+import { useProject } from '../project';
+import { mayEdit } from '../rights';
+import { leaveProject } from './file';
+import { showInTree } from './project';
+
+const commands: Command[] = [
+  {
+    id: 'file.import',
+    title: 'command.import',
+    icon: FileUp,
+    menu: { menu: 'file', group: '2_exchange', order: 1 },
+    enabled: mayEdit,
+    run: async (context) => {
+      const projectId = context.projectId!;
+      const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+      await openDialog((close) => (
+        <ImportDialog
+          target={{
+            projectId,
+            projectName: useProject.getState().projectName,
+            objects,
+            selected: context.selection[0],
+            applicationId: context.applicationId,
+          }}
+          openObject={(entry) => {
+            showInTree(projectId, entry.object_id!);
+            openObject(entry.object_id!, entry.object.split('.').at(-1) ?? '');
+          }}
+          openProject={(id) => {
+            void leaveProject().then((left) => left && go({ page: 'project', projectId: id }));
+          }}
+          close={() => close()}
+        />
+      ));
+    },
+  },
+  {
+    id: 'file.export',
+    title: 'command.export',
+    icon: FileDown,
+    menu: { menu: 'file', group: '2_exchange', order: 2 },
+    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
+    run: async (context) => {
+      if (!(await saveEditors(context.dirtyPanels))) return;
+      await openDialog((close) => (
+        <ExportDialog
+          projectId={context.projectId!}
+          projectName={useProject.getState().projectName}
+          selection={context.selection}
+          close={() => close()}
+        />
+      ));
+    },
+  },
+];
+
+export function registerExchangeCommands(): void {
+  registerCommands(commands);
+}

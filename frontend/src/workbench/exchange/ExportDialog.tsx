@@ -1,0 +1,90 @@
+import { useState } from 'react';
+import type { ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { downloadUrl } from '../downloadFile';
+import { guard } from '../notices';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Field, Select } from '../ui/Field';
+
+const FORMATS = ['archive', 'plcopen', 'st'] as const;
+type Format = (typeof FORMATS)[number];
+const PATHS: Record<Format, string> = { archive: '', plcopen: '/plcopen', st: '/st' };
+
+interface ExportDialogProps {
+  projectId: string;
+  projectName: string;
+  selection: readonly ObjectSummary[];
+  close: () => void;
+}
+
+/** The project, or what is selected of it with all below, as our archive, PLCopen XML or ST. */
+export function ExportDialog({ projectId, projectName, selection, close }: ExportDialogProps) {
+  const t = useText();
+  const [format, setFormat] = useState<Format>('archive');
+  const [scope, setScope] = useState<'whole' | 'selection'>('whole');
+  const save = async () => {
+    const objects = scope === 'selection' ? selection : [];
+    const query = objects.map(({ id }) => `object=${id}`).join('&');
+    const single = objects.length === 1 ? objects[0] : undefined;
+    const name = single?.name ?? projectName;
+    const done = await guard(async () => {
+      const path = `/projects/${projectId}/export${PATHS[format]}`;
+      await downloadUrl(query ? `${path}?${query}` : path, (type) => `${name}.${endingOf(format, type)}`);
+      return true;
+    });
+    if (done) close();
+  };
+  return (
+    <Dialog
+      title={t('command.export')}
+      width={440}
+      onClose={close}
+      onSubmit={() => void save()}
+      footer={
+        <>
+          <Button onClick={close}>{t('action.cancel')}</Button>
+          <Button type="submit" variant="primary">
+            {t('exchange.export')}
+          </Button>
+        </>
+      }
+    >
+      <Field label={t('exchange.format')} hint={t(`exchange.format.${format}.hint`)}>
+        {(attributes) => (
+          <Select
+            {...attributes}
+            value={format}
+            choices={FORMATS.map((value) => ({ value, text: t(`exchange.format.${value}`) }))}
+            onValue={setFormat}
+          />
+        )}
+      </Field>
+      <Field label={t('exchange.scope')}>
+        {(attributes) => (
+          <Select
+            {...attributes}
+            value={scope}
+            choices={[
+              { value: 'whole', text: t('exchange.wholeProject') },
+              {
+                value: 'selection',
+                text: selection.length
+                  ? t('exchange.selection', { names: selection.map(({ name }) => name).join(', ') })
+                  : t('exchange.noSelection'),
+                disabled: selection.length === 0,
+              },
+            ]}
+            onValue={setScope}
+          />
+        )}
+      </Field>
+    </Dialog>
+  );
+}
+
+/** Several ST texts come as an archive. */
+function endingOf(format: Format, type: string): string {
+  if (format === 'plcopen') return 'xml';
+  return format === 'st' && type.startsWith('text/') ? 'st' : 'zip';
+}

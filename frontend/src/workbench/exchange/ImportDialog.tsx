@@ -1,0 +1,239 @@
+import { useMemo, useState } from 'react';
+import { api } from '@/api/client';
+import { keys, queryClient } from '@/api/queries';
+import type { ImportEntry, ImportPreview, ImportResult, ObjectSummary } from '@/api/types';
+import { useText } from '@/i18n';
+import { notifyError } from '../notices';
+import { Button } from '../ui/Button';
+import { Dialog } from '../ui/Dialog';
+import { Loading } from '../ui/Empty';
+import { Field, Select, TextInput } from '../ui/Field';
+import { formOf, type NamedFile } from './dropped';
+import styles from './Exchange.module.css';
+import { FilesStep } from './FilesStep';
+import { ImportTree } from './ImportTree';
+import { nodeForest, placesOf, proposedPlace } from './model';
+import { ReportView } from './ReportView';
+
+/** The project that an import may go into. */
+export interface ImportTarget {
+  projectId: string;
+  projectName: string;
+  objects: readonly ObjectSummary[];
+  selected: ObjectSummary | undefined;
+  applicationId: string | null;
+}
+
+interface ImportDialogProps {
+  /** Null: there is none open, a new project is made. */
+  target: ImportTarget | null;
+  files?: readonly NamedFile[];
+  /** Opens an object of the open project. */
+  openObject?: (entry: ImportEntry) => void;
+  openProject: (projectId: string) => void;
+  close: () => void;
+}
+
+type Into = 'here' | 'new';
+type Step = { at: 'files' } | { at: 'choose'; preview: ImportPreview } | { at: 'report'; result: ImportResult };
+
+/** Files of other systems, ST texts and our own archives: choose them, choose of what they hold, read the report. */
+export function ImportDialog({ target, files: given = [], openObject, openProject, close }: ImportDialogProps) {
+  const t = useText();
+  const [files, setFiles] = useState(given);
+  const [into, setInto] = useState<Into>(target ? 'here' : 'new');
+  const [name, setName] = useState('');
+  const places = useMemo(() => placesOf(target?.objects ?? []), [target]);
+  const [place, setPlace] = useState(() =>
+    target ? proposedPlace(places, target.objects, target.selected, target.applicationId) : '',
+  );
+  const [step, setStep] = useState<Step>({ at: 'files' });
+  const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
+  const [search, setSearch] = useState('');
+  const [abort, setAbort] = useState<AbortController | null>(null);
+  const forest = useMemo(() => nodeForest(step.at === 'choose' ? step.preview.nodes : []), [step]);
+  const here = into === 'here' ? target : null;
+
+  const run = async (act: (signal: AbortSignal) => Promise<void>) => {
+    const controller = new AbortController();
+    setAbort(controller);
+    try {
+      await act(controller.signal);
+    } catch (error) {
+      if (!(error instanceof DOMException && error.name === 'AbortError')) notifyError(error);
+    } finally {
+      setAbort(null);
+    }
+  };
+  const preview = () =>
+    run(async (signal) => {
+      const form = formOf(files);
+      if (here) {
+        form.set('project_id', here.projectId);
+        form.set('place', place);
+      }
+      const found = await api.post<ImportPreview>('/projects/preview-files', form, { signal });
+      setChosen(new Set(found.nodes.map((node) => node.key)));
+      setStep({ at: 'choose', preview: found });
+    });
+  const importNow = (found: ImportPreview) =>
+    run(async (signal) => {
+      const form = formOf(files);
+      if (chosen.size < found.nodes.length) form.set('chosen', JSON.stringify([...chosen]));
+      if (here) form.set('place', place);
+      else if (name.trim()) form.set('name', name.trim());
+      const path = here ? `/projects/${here.projectId}/import-files` : '/projects/import-files';
+      const result = await api.post<ImportResult>(path, form, { signal });
+      await queryClient.invalidateQueries({ queryKey: here ? keys.objects(here.projectId) : keys.projects });
+      setStep({ at: 'report', result });
+    });
+  const cancel = () => (abort ? abort.abort() : close());
+  const title = t('command.import');
+
+  if (step.at === 'report') {
+    const { result } = step;
+    return (
+      <Dialog
+        title={t('exchange.reportOf', { name: result.project.name })}
+        width={940}
+        onClose={close}
+        footer={
+          <>
+            {!here && (
+              <Button
+                onClick={() => {
+                  close();
+                  openProject(result.project.id);
+                }}
+              >
+                {t('exchange.openProject')}
+              </Button>
+            )}
+            <Button variant="primary" data-autofocus onClick={close}>
+              {t('action.close')}
+            </Button>
+          </>
+        }
+      >
+        <ReportView
+          entries={result.report.entries}
+          open={
+            here && openObject
+              ? (entry) => {
+                  if (!entry.object_id) return;
+                  close();
+                  openObject(entry);
+                }
+              : undefined
+          }
+        />
+      </Dialog>
+    );
+  }
+  if (step.at === 'choose') {
+    const { preview: found } = step;
+    const noteworthy = found.report.entries.filter((entry) => entry.outcome !== 'imported');
+    return (
+      <Dialog
+        title={title}
+        width={940}
+        onClose={cancel}
+        onSubmit={() => abort === null && chosen.size > 0 && void importNow(found)}
+        footer={
+          <>
+            <span className={styles.count}>
+              {t('exchange.chosen', { chosen: chosen.size, all: found.nodes.length })}
+            </span>
+            <Button disabledReason={abort ? t('reason.busy') : null} onClick={() => setStep({ at: 'files' })}>
+              {t('exchange.back')}
+            </Button>
+            <Button onClick={cancel}>{t('action.cancel')}</Button>
+            <Button
+              type="submit"
+              variant="primary"
+              disabledReason={abort ? t('reason.busy') : chosen.size ? null : t('exchange.nothingChosen')}
+            >
+              {t('exchange.import')}
+            </Button>
+          </>
+        }
+      >
+        <div className={styles.buttons}>
+          <TextInput
+            className={styles.filter}
+            value={search}
+            onValue={setSearch}
+            placeholder={t('exchange.searchObjects')}
+            aria-label={t('exchange.searchObjects')}
+            onKeyDown={(event) => event.key === 'Enter' && event.preventDefault()}
+          />
+          <Button onClick={() => setChosen(new Set(found.nodes.map((node) => node.key)))}>{t('exchange.all')}</Button>
+          <Button onClick={() => setChosen(new Set())}>{t('exchange.none')}</Button>
+        </div>
+        <ImportTree forest={forest} chosen={chosen} search={search} change={setChosen} />
+        {noteworthy.length > 0 && (
+          <section className={styles.noteworthy} aria-label={t('exchange.noteworthy')}>
+            <ReportView entries={noteworthy} />
+          </section>
+        )}
+      </Dialog>
+    );
+  }
+  return (
+    <Dialog
+      title={title}
+      width={640}
+      onClose={cancel}
+      onSubmit={() => abort === null && files.length > 0 && void preview()}
+      footer={
+        <>
+          {abort && <Loading />}
+          <Button onClick={cancel}>{t('action.cancel')}</Button>
+          <Button
+            type="submit"
+            variant="primary"
+            disabledReason={abort ? t('reason.busy') : files.length ? null : t('exchange.noFiles')}
+          >
+            {t('exchange.next')}
+          </Button>
+        </>
+      }
+    >
+      <FilesStep files={files} change={setFiles} />
+      {target && (
+        <Field label={t('exchange.into')}>
+          {(attributes) => (
+            <Select
+              {...attributes}
+              value={into}
+              choices={[
+                { value: 'here', text: t('exchange.thisProject', { name: target.projectName }) },
+                { value: 'new', text: t('exchange.newProject') },
+              ]}
+              onValue={setInto}
+            />
+          )}
+        </Field>
+      )}
+      {here ? (
+        <Field label={t('exchange.placeInTree')} hint={t('exchange.placeHint')}>
+          {(attributes) => (
+            <Select
+              {...attributes}
+              value={place}
+              choices={places.map((one) => ({
+                value: one.id,
+                text: one.names.length ? one.names.join(' / ') : t('panel.pous'),
+              }))}
+              onValue={setPlace}
+            />
+          )}
+        </Field>
+      ) : (
+        <Field label={t('exchange.projectName')} hint={t('exchange.projectNameHint')}>
+          {(attributes) => <TextInput {...attributes} value={name} onValue={setName} />}
+        </Field>
+      )}
+    </Dialog>
+  );
+}

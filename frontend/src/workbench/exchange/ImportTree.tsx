@@ -1,0 +1,111 @@
+import { useVirtualizer } from '@tanstack/react-virtual';
+import { Check, ChevronRight, Minus } from 'lucide-react';
+import { useId, useMemo, useRef, useState, type KeyboardEvent } from 'react';
+import type { ObjectKind } from '@/api/types';
+import { useText } from '@/i18n';
+import { ObjectIcon } from '@/icons/objects';
+import { checkedOf, nodeRows, toggled, type Checked, type NodeForest, type NodeRow } from './model';
+import styles from './Exchange.module.css';
+
+const ROW_HEIGHT = 24;
+const ARIA: Record<Checked, boolean | 'mixed'> = { all: true, some: 'mixed', none: false };
+
+interface ImportTreeProps {
+  forest: NodeForest;
+  chosen: ReadonlySet<string>;
+  search: string;
+  change: (chosen: ReadonlySet<string>) => void;
+}
+
+/** What the files hold, each object with a box: Space checks, arrows move, open and close. */
+export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) {
+  const t = useText();
+  const id = useId();
+  const scroll = useRef<HTMLDivElement>(null);
+  const [closed, setClosed] = useState<ReadonlySet<string>>(new Set());
+  const [focused, setFocused] = useState(0);
+  const rows = useMemo(() => nodeRows(forest, closed, search), [forest, closed, search]);
+  const checked = useMemo(() => checkedOf(forest, chosen), [forest, chosen]);
+  const at = Math.min(focused, rows.length - 1);
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => scroll.current,
+    estimateSize: () => ROW_HEIGHT,
+    overscan: 10,
+  });
+  const goTo = (index: number) => {
+    const next = Math.max(0, Math.min(rows.length - 1, index));
+    setFocused(next);
+    virtual.scrollToIndex(next);
+  };
+  const twist = (row: NodeRow) => {
+    if (!row.expandable) return;
+    const next = new Set(closed);
+    if (!next.delete(row.node.key)) next.add(row.node.key);
+    setClosed(next);
+  };
+  const onKeyDown = (event: KeyboardEvent) => {
+    const row = rows[at];
+    if (!row) return;
+    if (event.key === 'ArrowDown') goTo(at + 1);
+    else if (event.key === 'ArrowUp') goTo(at - 1);
+    else if (event.key === 'Home') goTo(0);
+    else if (event.key === 'End') goTo(rows.length - 1);
+    else if (event.key === ' ') change(toggled(forest, chosen, row.node.key));
+    else if (event.key === 'ArrowRight' && row.expandable && !row.expanded) twist(row);
+    else if (event.key === 'ArrowLeft' && row.expanded) twist(row);
+    else return;
+    event.preventDefault();
+  };
+  return (
+    <div
+      ref={scroll}
+      className={styles.tree}
+      role="tree"
+      aria-label={t('exchange.contents')}
+      aria-activedescendant={rows[at] ? `${id}-${at}` : undefined}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+    >
+      <div className={styles.rows} style={{ height: virtual.getTotalSize() }}>
+        {virtual.getVirtualItems().map(({ index, start }) => {
+          const row = rows[index]!;
+          const state = checked.get(row.node.key) ?? 'none';
+          return (
+            <div
+              key={row.node.key}
+              id={`${id}-${index}`}
+              role="treeitem"
+              aria-level={row.level}
+              aria-expanded={row.expandable ? row.expanded : undefined}
+              aria-checked={ARIA[state]}
+              aria-selected={index === at}
+              className={styles.node}
+              style={{ transform: `translateY(${start}px)`, paddingLeft: 6 + (row.level - 1) * 16 }}
+              title={row.node.line === null ? row.node.source : `${row.node.source}:${row.node.line}`}
+              onPointerDown={() => setFocused(index)}
+              onDoubleClick={() => twist(row)}
+            >
+              <span className={styles.twist} data-open={row.expanded ? '' : undefined} onClick={() => twist(row)}>
+                {row.expandable && <ChevronRight size={14} strokeWidth={1.75} />}
+              </span>
+              <span
+                className={styles.box}
+                data-state={state}
+                onClick={() => change(toggled(forest, chosen, row.node.key))}
+                onDoubleClick={(event) => event.stopPropagation()}
+              >
+                {state === 'all' && <Check size={12} strokeWidth={3} />}
+                {state === 'some' && <Minus size={12} strokeWidth={3} />}
+              </span>
+              <ObjectIcon kind={row.node.kind as ObjectKind} subkind={row.node.subkind} name={row.node.name} />
+              <span data-excluded={row.node.excluded ? '' : undefined} className={styles.nodeName}>
+                {row.node.name}
+              </span>
+            </div>
+          );
+        })}
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,144 @@
+import { describe, expect, it } from 'vitest';
+import type { ImportEntry, ImportNode, ObjectKind, ObjectSummary } from '@/api/types';
+import {
+  checkedOf,
+  countOutcomes,
+  nodeForest,
+  nodeRows,
+  placesOf,
+  proposedPlace,
+  readable,
+  reportText,
+  shownEntries,
+  toggled,
+} from './model';
+
+const node = (key: string, parent: string | null, name = key): ImportNode => ({
+  key,
+  parent,
+  kind: 'pou',
+  subkind: null,
+  name,
+  source: 'a.st',
+  line: 1,
+  excluded: false,
+});
+const forest = nodeForest([
+  node('a', null, 'FB_Pump'),
+  node('a.0', 'a', 'Start'),
+  node('a.1', 'a', 'Stop'),
+  node('b', null),
+]);
+const all = new Set(['a', 'a.0', 'a.1', 'b']);
+
+describe('the tree of an import', () => {
+  it('is chosen with what is below', () => {
+    const without = toggled(forest, all, 'a.1');
+    expect([...checkedOf(forest, without)].sort()).toEqual([
+      ['a', 'some'],
+      ['a.0', 'all'],
+      ['a.1', 'none'],
+      ['b', 'all'],
+    ]);
+    expect(toggled(forest, without, 'a')).toEqual(all);
+    const nothing = toggled(forest, toggled(forest, all, 'a'), 'b');
+    expect(nothing.size).toBe(0);
+    expect(checkedOf(forest, toggled(forest, nothing, 'a.0')).get('a')).toBe('some');
+  });
+
+  it('is searched by name and keeps what a match stands in', () => {
+    const names = (search: string, closed: string[] = []) =>
+      nodeRows(forest, new Set(closed), search).map((row) => [row.node.name, row.level]);
+    expect(names('')).toEqual([
+      ['FB_Pump', 1],
+      ['Start', 2],
+      ['Stop', 2],
+      ['b', 1],
+    ]);
+    expect(names('', ['a'])).toEqual([
+      ['FB_Pump', 1],
+      ['b', 1],
+    ]);
+    expect(names('STO', ['a'])).toEqual([
+      ['FB_Pump', 1],
+      ['Stop', 2],
+    ]);
+  });
+});
+
+const object = (id: string, kind: ObjectKind, parent_id: string | null, index = 0): ObjectSummary => ({
+  id,
+  kind,
+  parent_id,
+  name: id.toUpperCase(),
+  subkind: null,
+  index,
+  revision: 1,
+  badges: [],
+});
+const objects = [
+  object('plc', 'device', null),
+  object('logic', 'plc_logic', 'plc'),
+  object('app', 'application', 'logic'),
+  object('pumps', 'folder', 'app'),
+  object('fb', 'pou', 'pumps'),
+  object('shared', 'folder', null),
+  object('f', 'pou', null, 1),
+];
+
+describe('places of an import', () => {
+  it('are applications, the POUs view and folders', () => {
+    const places = placesOf(objects);
+    expect(places.map((place) => [place.id, place.names.join('/')])).toEqual([
+      ['app', 'PLC/APP'],
+      ['pumps', 'PLC/APP/PUMPS'],
+      ['pous', ''],
+      ['shared', 'SHARED'],
+    ]);
+    const proposed = (id: string | null) =>
+      proposedPlace(
+        places,
+        objects,
+        objects.find((one) => one.id === id),
+        'app',
+      );
+    expect(['fb', 'f', 'plc', null].map(proposed)).toEqual(['pumps', 'pous', 'app', 'app']);
+  });
+});
+
+const entry = (outcome: ImportEntry['outcome'], name: string, text = '', line: number | null = 3): ImportEntry => ({
+  source: 'a.xml',
+  line,
+  object: name,
+  outcome,
+  text,
+  object_id: null,
+});
+
+describe('the report', () => {
+  const entries = [
+    entry('imported', 'FB_Pump'),
+    entry('refused', '', 'is no XML', null),
+    entry('changed', 'E', 'renamed'),
+  ];
+
+  it('is filtered and counted', () => {
+    expect(shownEntries(entries, new Set(['imported']), '').map((one) => one.outcome)).toEqual(['refused', 'changed']);
+    expect(shownEntries(entries, new Set(), 'XML no').map((one) => one.object)).toEqual([]);
+    expect(shownEntries(entries, new Set(), 'Renamed').map((one) => one.object)).toEqual(['E']);
+    expect(countOutcomes(entries)).toEqual({ imported: 1, changed: 1, kept: 0, refused: 1 });
+  });
+
+  it('is text for other programs', () => {
+    expect(reportText(entries)).toBe(
+      'a.xml:3: imported FB_Pump\na.xml: refused: is no XML\na.xml:3: changed E: renamed\n',
+    );
+  });
+});
+
+describe('files of a folder', () => {
+  it('are those that are read, or all of a project of our own', () => {
+    expect(readable(['L/x.TcPOU', 'L/x.txt', 'L/x.png', 'L/.git/y.xml'])).toEqual(['L/x.TcPOU', 'L/x.txt']);
+    expect(readable(['P/tappet-project.json', 'P/a.png', 'P/.git/c'])).toEqual(['P/tappet-project.json', 'P/a.png']);
+  });
+});

@@ -1,0 +1,174 @@
+/** Imports and exports as data: the tree to choose from, places, the report. Pure functions. */
+import type { ImportEntry, ImportNode, ObjectSummary } from '@/api/types';
+import { childrenOf, forestOf, lineage, type Forest } from '../tree/model';
+
+export interface NodeForest {
+  nodes: readonly ImportNode[];
+  children: ReadonlyMap<string | null, readonly ImportNode[]>;
+}
+
+export function nodeForest(nodes: readonly ImportNode[]): NodeForest {
+  const children = new Map<string | null, ImportNode[]>();
+  for (const node of nodes) {
+    const list = children.get(node.parent);
+    if (list) list.push(node);
+    else children.set(node.parent, [node]);
+  }
+  return { nodes, children };
+}
+
+export function below(forest: NodeForest, key: string): ImportNode[] {
+  const found: ImportNode[] = [];
+  const waiting = [...(forest.children.get(key) ?? [])];
+  for (let node = waiting.shift(); node; node = waiting.shift()) {
+    found.push(node);
+    waiting.push(...(forest.children.get(node.key) ?? []));
+  }
+  return found;
+}
+
+/** The choice after a click on the box of a node: all of it, or none when all was chosen. */
+export function toggled(forest: NodeForest, chosen: ReadonlySet<string>, key: string): ReadonlySet<string> {
+  const keys = [key, ...below(forest, key).map((node) => node.key)];
+  const next = new Set(chosen);
+  const all = keys.every((one) => chosen.has(one));
+  for (const one of keys) {
+    if (all) next.delete(one);
+    else next.add(one);
+  }
+  return next;
+}
+
+export type Checked = 'all' | 'some' | 'none';
+
+/** How the box of each node looks: itself with all below it, something of it, nothing. */
+export function checkedOf(forest: NodeForest, chosen: ReadonlySet<string>): ReadonlyMap<string, Checked> {
+  const state = new Map<string, Checked>();
+  for (const node of [...forest.nodes].reverse()) {
+    const states = (forest.children.get(node.key) ?? []).map((child) => state.get(child.key));
+    if (chosen.has(node.key)) state.set(node.key, states.every((one) => one === 'all') ? 'all' : 'some');
+    else state.set(node.key, states.some((one) => one !== 'none') ? 'some' : 'none');
+  }
+  return state;
+}
+
+export interface NodeRow {
+  node: ImportNode;
+  level: number;
+  expandable: boolean;
+  expanded: boolean;
+}
+
+/** Rows to draw; with a search the nodes that match, and what they stand in. */
+export function nodeRows(forest: NodeForest, closed: ReadonlySet<string>, search: string): NodeRow[] {
+  const text = search.trim().toLowerCase();
+  const shown = text ? new Set<string>() : null;
+  if (shown) {
+    const parents = new Map(forest.nodes.map((node) => [node.key, node.parent]));
+    for (const node of forest.nodes) {
+      if (!node.name.toLowerCase().includes(text)) continue;
+      for (let key: string | null | undefined = node.key; key; key = parents.get(key)) shown.add(key);
+    }
+  }
+  const rows: NodeRow[] = [];
+  const visit = (parent: string | null, level: number) => {
+    for (const node of forest.children.get(parent) ?? []) {
+      if (shown && !shown.has(node.key)) continue;
+      const expandable = forest.children.has(node.key);
+      const expanded = expandable && (shown !== null || !closed.has(node.key));
+      rows.push({ node, level, expandable, expanded });
+      if (expanded) visit(node.key, level + 1);
+    }
+  };
+  visit(null, 1);
+  return rows;
+}
+
+export interface Place {
+  /** Id of the object, or `pous` for the POUs view. */
+  id: string;
+  names: readonly string[];
+}
+
+/** Where imported objects can go: applications, the POUs view, and the folders in them. */
+export function placesOf(objects: readonly ObjectSummary[]): Place[] {
+  const forest: Forest = forestOf(objects);
+  const places: Place[] = [];
+  const folders = (parent: string | null, names: readonly string[]) => {
+    for (const child of childrenOf(forest, parent)) {
+      if (child.kind !== 'folder') continue;
+      places.push({ id: child.id, names: [...names, child.name] });
+      folders(child.id, [...names, child.name]);
+    }
+  };
+  for (const application of objects.filter((object) => object.kind === 'application')) {
+    const names = lineage(forest, application.id)
+      .filter((object) => object.kind === 'application' || object.kind === 'device')
+      .map((object) => object.name)
+      .reverse();
+    places.push({ id: application.id, names });
+    folders(application.id, names);
+  }
+  places.push({ id: 'pous', names: [] });
+  folders(null, []);
+  return places;
+}
+
+/** The place that fits the selected object best: itself, what it stands in, else the first application. */
+export function proposedPlace(
+  places: readonly Place[],
+  objects: readonly ObjectSummary[],
+  selected: ObjectSummary | undefined,
+  applicationId: string | null,
+): string {
+  const ids = new Set(places.map((place) => place.id));
+  const line = selected ? lineage(objects, selected.id) : [];
+  const inView = line.find((object) => ids.has(object.id))?.id;
+  if (inView) return inView;
+  if (line.length > 0 && line.at(-1)?.kind !== 'device') return 'pous';
+  return applicationId !== null && ids.has(applicationId) ? applicationId : (places[0]?.id ?? 'pous');
+}
+
+export const OUTCOMES = ['imported', 'changed', 'kept', 'refused'] as const;
+export type Outcome = ImportEntry['outcome'];
+
+export function shownEntries(
+  entries: readonly ImportEntry[],
+  hidden: ReadonlySet<Outcome>,
+  search: string,
+): ImportEntry[] {
+  const text = search.trim().toLowerCase();
+  return entries.filter(
+    (entry) =>
+      !hidden.has(entry.outcome) &&
+      (!text || `${entry.object} ${entry.text} ${entry.source}`.toLowerCase().includes(text)),
+  );
+}
+
+export function countOutcomes(entries: readonly ImportEntry[]): Record<Outcome, number> {
+  const count = { imported: 0, changed: 0, kept: 0, refused: 0 };
+  for (const entry of entries) count[entry.outcome]++;
+  return count;
+}
+
+export function placeText(entry: ImportEntry): string {
+  return entry.line == null ? entry.source : `${entry.source}:${entry.line}`;
+}
+
+/** The report as text: one line an entry, as `tappet import` prints it. */
+export function reportText(entries: readonly ImportEntry[]): string {
+  const lines = entries.map((entry) => {
+    const name = entry.object ? ` ${entry.object}` : '';
+    return `${placeText(entry)}: ${entry.outcome}${name}${entry.text ? `: ${entry.text}` : ''}`;
+  });
+  return lines.map((line) => `${line}\n`).join('');
+}
+
+const READ = /\.(xml|st|iecst|exp|txt|lib|plcproj|tcpou|tcdut|tcgvl|tcio|tctto|zip)$/i;
+
+/** Of a folder: what can be read, or all of it when it is a project of our own; hidden files never. */
+export function readable(paths: readonly string[]): string[] {
+  const visible = paths.filter((path) => !path.split('/').some((part) => part.startsWith('.')));
+  const own = visible.some((path) => /(^|\/)tappet-project\.json$/.test(path));
+  return own ? visible : visible.filter((path) => READ.test(path));
+}
