@@ -5,7 +5,7 @@ import { openDialog } from '@/workbench/dialogs';
 import { useProject } from '@/workbench/project';
 import { InputAssistant } from '../assistant/InputAssistant';
 import { CellInput } from '../grid/CellInput';
-import grid from '../grid/Grid.module.css';
+import grid from '../grid/CellInput.module.css';
 import { ELEMENTARY_TYPES, identifierProblem } from '../st/keywords';
 import type { Monaco } from '../st/monacoLoader';
 import { ArrayWizard } from './ArrayWizard';

@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
 import { DropdownMenu } from '@/workbench/ui/Menu';
-import grid from '../grid/Grid.module.css';
+import grid from '../grid/CellInput.module.css';
 
 /** The ">" of a data type cell: type browser or array wizard (DECL-27). */
 export function TypeButton({ onAssistant, onArray }: { onAssistant: () => void; onArray: () => void }) {

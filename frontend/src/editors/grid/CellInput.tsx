@@ -1,6 +1,6 @@
 import { useEffect, useImperativeHandle, useRef, useState, type KeyboardEvent, type ReactNode, type Ref } from 'react';
 import { Floating } from '@/workbench/ui/Floating';
-import styles from './Grid.module.css';
+import styles from './CellInput.module.css';
 import { SuggestionList } from './SuggestionList';
 import { useProposals, type Proposal, type Propose } from './useProposals';
 
@@ -48,7 +48,12 @@ export function CellInput(props: CellInputProps) {
     const input = field.current;
     input?.focus();
     if (initial === undefined) input?.select();
-    else input?.setSelectionRange(initial.length, initial.length);
+    else {
+      input?.setSelectionRange(initial.length, initial.length);
+      proposals.ask(initial, initial.length, false);
+    }
+    // Once, when the cell opens.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [initial]);
 
   const commit = (key: 'Enter' | 'Tab' | 'blur', backwards = false, taken = text) => {

@@ -11,10 +11,10 @@ import {
   type ReactNode,
   type Ref,
 } from 'react';
-import { Grip } from './Grip';
+import { Grip } from '@/workbench/ui/Grip';
 import { isMenuKey, openMenuAt } from '@/workbench/ui/menuKey';
 import { cursorAfterKey, type GridCursor } from './cursor';
-import styles from './Grid.module.css';
+import styles from '@/workbench/ui/Table.module.css';
 
 export interface GridColumn {
   id: string;
@@ -149,7 +149,7 @@ export function Grid(props: GridProps) {
   return (
     <div
       ref={scroll}
-      className={styles.scroll}
+      className={`${styles.scroll} ${styles.sheet}`}
       role={props.level ? 'treegrid' : 'grid'}
       aria-label={props.label}
       aria-rowcount={count}

@@ -5,7 +5,7 @@ import { openDialog } from '@/workbench/dialogs';
 import { InputAssistant } from '../assistant/InputAssistant';
 import type { TextDocument } from '../documents/documents';
 import { CellInput, type CellInputHandle } from '../grid/CellInput';
-import grid from '../grid/Grid.module.css';
+import grid from '../grid/CellInput.module.css';
 import { cellProblem } from './edits';
 import { proposer } from './proposals';
 import { cellText, type IlColumn, type IlRow } from './rows';

@@ -89,7 +89,8 @@ function firstLine(text: string): string {
 const STEP_PX = 16;
 
 function Operator({ row, messages }: { row: IlRow; messages: readonly RowMessage[] }) {
-  if (row.kind === 'comment') return <span className={styles.wideComment}>{firstLine(cellText(row, 'comment'))}</span>;
+  if (row.kind === 'comment')
+    return <span className={styles.wideComment}>{cellText(row, 'comment').replaceAll('\n', ' ↵ ')}</span>;
   if (row.operator === null) return null;
   const bad = touches(row.operator, row, messages);
   if (row.kind === 'label' || row.kind === 'raw')

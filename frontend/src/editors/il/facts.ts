@@ -17,7 +17,8 @@ const MOST = 2000;
 
 /** The operand of a row as it is asked for: without the comma or parenthesis behind it. */
 export function operandName(row: IlRow): string {
-  if (row.kind === 'label' || row.kind === 'raw') return '';
+  const jump = /^JMP/i.test(row.operator?.text ?? '');
+  if (row.kind === 'label' || row.kind === 'raw' || jump) return '';
   return (row.operand?.text ?? '').replace(/^\(+|[\s,()]+$/g, '');
 }
 

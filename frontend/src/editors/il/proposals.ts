@@ -42,8 +42,11 @@ export function fitting(items: readonly CompletionItem[], cell: string, caret: n
     return [{ label: item.label, detail: item.detail ?? '', insert: edit.newText, start, typed }];
   });
   const rank = ({ label, typed }: { label: string; typed: string }) => label.toUpperCase().indexOf(typed);
-  const begins = proposals.filter((one) => rank(one) === 0);
-  const holds = proposals.filter((one) => rank(one) > 0);
+  // An operator of IL comes before the function of its name.
+  const labels = new Set<string>();
+  const single = proposals.filter(({ label }) => !labels.has(label) && labels.add(label));
+  const begins = single.filter((one) => rank(one) === 0);
+  const holds = single.filter((one) => rank(one) > 0);
   return [...begins, ...holds]
     .slice(0, MOST_SHOWN)
     .map(({ label, detail, insert, start }) => ({ label, detail, insert, start }));

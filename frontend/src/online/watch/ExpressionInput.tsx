@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
-import grid from '@/editors/grid/Grid.module.css';
+import grid from '@/editors/grid/CellInput.module.css';
 import { SuggestionList } from '@/editors/grid/SuggestionList';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { useSymbols } from '../useLive';

@@ -1,7 +1,8 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { ArrowDown, ArrowUp } from 'lucide-react';
-import { useId, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent, type ReactNode } from 'react';
+import { useId, useMemo, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
 import { nextSorting, rowAfterKey, sorted, type Column, type Sorting } from './table';
+import { Grip } from './Grip';
 import { isMenuKey, openMenuAt } from './menuKey';
 import styles from './Table.module.css';
 
@@ -131,28 +132,5 @@ export function Table<Item>(props: TableProps<Item>) {
         )}
       </div>
     </div>
-  );
-}
-
-/** The right edge of a column head: drag to resize. */
-function Grip({ onResize }: { onResize: (width: number) => void }) {
-  const start = useRef<{ x: number; width: number } | null>(null);
-  const down = (event: PointerEvent<HTMLSpanElement>) => {
-    event.stopPropagation();
-    event.currentTarget.setPointerCapture(event.pointerId);
-    start.current = { x: event.clientX, width: event.currentTarget.parentElement?.offsetWidth ?? 0 };
-  };
-  const move = (event: PointerEvent) => {
-    if (start.current) onResize(start.current.width + event.clientX - start.current.x);
-  };
-  return (
-    <span
-      className={styles.grip}
-      aria-hidden
-      onClick={(event) => event.stopPropagation()}
-      onPointerDown={down}
-      onPointerMove={move}
-      onPointerUp={() => (start.current = null)}
-    />
   );
 }

@@ -1,5 +1,5 @@
 import { useRef, type PointerEvent } from 'react';
-import styles from './Grid.module.css';
+import styles from './Table.module.css';
 
 /** The right edge of a column head: drag to resize. */
 export function Grip({ onResize }: { onResize: (width: number) => void }) {
