@@ -178,7 +178,9 @@ def _member_of_object(b: Body, e: ast.Member, symbol: Symbol) -> None:
 
 
 def _member_of_type(b: Body, e: ast.Member, symbol: TypeSymbol, key: str) -> None:
-    if symbol.type is None or not isinstance(symbol.type, t.Enum):
+    if symbol.type is None:
+        b.session.resolve(symbol)
+    if not isinstance(symbol.type, t.Enum):
         b.report("E0204", e.name_span, name=e.name, type=symbol.name, hint="Use a variable of this type.")
         return
     enum = symbol.type

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from tappet.lang import ast
-from tappet.lang import types as t
 from tappet.lang.analysis import calls, intrinsics, layout, members, program, selection
 from tappet.lang.analysis.bodies import Record, State, analyse_body, finish, with_children
 from tappet.lang.analysis.collect import Collected, collect
@@ -263,7 +262,7 @@ def _initial_values(session: Session, found: Collected, declarations: Declaratio
         elif (
             declaration.initial is not None
             and symbol.type is not None
-            and not isinstance(symbol.type, t.Enum)
+            and not isinstance(declaration.type_ref, ast.EnumType)
         ):
             initialise(body, declaration.initial, symbol.type)
     for gvl, _ in found.gvls:

@@ -157,7 +157,6 @@ class TypeReferences:
         if isinstance(ref, ast.StructType):
             symbol.type = self._struct(body, ref, symbol.name, declaration, symbol)
         elif isinstance(ref, ast.EnumType):
-            self.enums.setdefault(id(ref), (ref, symbol.name, body, declaration))
             symbol.type = self.enum_type(ref)
         else:
             type_ = self.type_of(body, ref, symbol.name)
@@ -286,15 +285,21 @@ class TypeReferences:
         if declaration is not None:
             enum.qualified_only = attribute(declaration.attributes, "qualified_only") is not None
             enum.strict = attribute(declaration.attributes, "strict") is not None
+            symbol = body.names.get(name.upper())
+            if isinstance(symbol, TypeSymbol) and self.declared.get(id(symbol)) is declaration:
+                symbol.type = enum  # so that its own text can name a value behind it
         by_name = {s.name.upper(): s for s in self.found.enum_values.get(id(ref), ())}
-        for symbol in by_name.values():
-            symbol.type = enum
+        for own in by_name.values():
+            own.type = enum
+        outer = body.locals
+        # no value needs qualification in its own text, whatever others have the same name
+        body.locals = dict(outer)
         low, high = conversion.RANGES[base.name]
         number = -1
         previous: int | None = None
         for entry_ in ref.values:
             if entry_.value is not None:
-                given = self._enum_number(body, entry_.value, enum)
+                given = self._constant_integer(body, entry_.value)
                 number = number + 1 if given is None else given
             else:
                 number += 1
@@ -309,6 +314,7 @@ class TypeReferences:
             value_symbol = by_name.get(entry_.name.upper())
             if value_symbol is not None:
                 value_symbol.number = number
+                body.locals[entry_.name.upper()] = value_symbol
         if enum.values:
             enum.default = next(iter(enum.values.values()))
         if declaration is not None and declaration.initial is not None:
@@ -316,16 +322,8 @@ class TypeReferences:
             default = declaration.initial.constant
             if isinstance(default, int):
                 enum.default = int(default)
+        body.locals = outer
         return enum
-
-    def _enum_number(self, body: Body, e: ast.Expr, enum: t.Enum) -> int | None:
-        """A value may name those before it: they are in `enum.values` already."""
-        if isinstance(e, ast.Name):
-            known = {k.upper(): n for k, n in enum.values.items()}.get(e.name.upper())
-            if known is not None:
-                e.type, e.constant, e.is_constant = enum, known, True
-                return known
-        return self._constant_integer(body, e)
 
     # -- structures
 
