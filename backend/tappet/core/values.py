@@ -21,12 +21,8 @@ _ARITHMETIC = {
     "OR": "or",
     "XOR": "xor",
 }
-_DIVISION_CHECKS = {
-    "REAL": "CheckDivReal",
-    "LREAL": "CheckDivLReal",
-    "LINT": "CheckDivLInt",
-    "ULINT": "CheckDivLInt",
-}
+# The names of CoDeSys 2.3, by the bytes of the divisor; a wider one takes what is narrower.
+_DIVISION_CHECKS_23 = {1: "CheckDivByte", 2: "CheckDivWord", 4: "CheckDivDWord"}
 
 
 def variable_value(b: Body, e: ast.Name | ast.Member) -> ir.Expr:
@@ -114,14 +110,29 @@ def _division(b: Body, e: ast.Binary, scalar: ir.Scalar, left: ir.Expr, right: i
     """Division and MOD: CheckDiv functions see the divisor (LOPR-18); integers fault on zero without them."""
     constant = isinstance(right, ir.Const) and right.value != 0
     if not constant:
-        name = _DIVISION_CHECKS.get(str(e.operand_type), "CheckDivInt")
-        check = b.check_function(name)
-        if check is not None:
-            right = convert(check_call(b, check, [right]), scalar)
+        right = _checked_divisor(b, e.right, right)
     op = _ARITHMETIC[e.op]
     if scalar.floating:
         return ir.Binary(scalar, op, left, right)
     return ir.Binary(scalar, op, left, right, checked=not constant)
+
+
+def _checked_divisor(b: Body, e: ast.Expr, divisor: ir.Expr) -> ir.Expr:
+    """The divisor as the application's check function for its type returns it; without one as it is."""
+    scalar = divisor.type
+    wide = "L" if scalar.size == 8 else ""
+    check = b.check_function(f"CheckDiv{wide}{'Real' if scalar.floating else 'Int'}")
+    if check is not None:
+        return convert(check_call(b, check, [divisor]), scalar)
+    if scalar.floating or wide:
+        return divisor
+    # The functions of 2.3 have no sign: what comes back is read in the divisor's own type.
+    own = require_scalar(e.type)
+    earlier = (b.check_function(name) for size, name in _DIVISION_CHECKS_23.items() if size >= own.size)
+    check = next((found for found in earlier if found is not None), None)
+    if check is None:
+        return divisor
+    return convert(convert(check_call(b, check, [convert(divisor, own)]), own), scalar)
 
 
 def _comparison(b: Body, e: ast.Binary) -> ir.Expr:
@@ -183,6 +194,8 @@ def _time_arithmetic(b: Body, e: ast.Binary) -> ir.Expr:
     if e.op in ("*", "/"):
         if not unit_ns(left_type):
             left, right = right, left
+        if e.op == "/" and not isinstance(right, ir.Const):
+            right = _checked_divisor(b, e.right, right)
         if right.type.floating:
             product = ir.Binary(ir.F64, _ARITHMETIC[e.op], convert(left, ir.F64), convert(right, ir.F64))
             return convert(convert(product, ir.I64), result)
