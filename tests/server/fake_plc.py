@@ -289,6 +289,8 @@ class FakeClient:
         entries = [
             LogEntry(n, 1_700_000_000_000_000_000, "info", "application", f"entry {n}") for n in (1, 2)
         ]
+        at = 1_700_000_000_000_000_000
+        entries.append(LogEntry(3, at, "exception", "application", "division by zero", "Library/F", 7))
         return [entry for entry in entries if entry.number > since]
 
     def on_event(self, callback: Callable[[RuntimeEvent], None]) -> None:

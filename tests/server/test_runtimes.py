@@ -87,7 +87,10 @@ def test_add_and_remove(admin: TestClient, runtime_id: str) -> None:
 
 def test_log(admin: TestClient, runtime_id: str) -> None:
     log = admin.get(f"{URL}/{runtime_id}/log", params={"since": 1}).json()
-    assert [(e["id"], e["message"], e["at"][:10]) for e in log] == [(2, "entry 2", "2023-11-14")]
+    assert [(e["id"], e["message"], e["at"][:10]) for e in log] == [
+        (2, "entry 2", "2023-11-14"),
+        (3, "division by zero, line 7", "2023-11-14"),
+    ]
 
 
 def test_metrics(admin: TestClient, runtime_id: str) -> None:

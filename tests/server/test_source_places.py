@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.project.sources import Segment, SourceText
-from tappet.server.source_places import SourcePlaces
+from tappet.server.source_places import SourcePlaces, shown_line
 
 
 def _source(uri: str, scope: str, object_id: str) -> SourceText:
@@ -38,6 +38,13 @@ def test_lines_are_found_in_their_part(line: int, part: str, within: int) -> Non
 def test_what_is_not_of_the_project_has_no_place() -> None:
     assert PLACES.locate("Standard/TON", 3) is None
     assert PLACES.locate("A", 0) is None
+
+
+def test_lines_of_other_texts_are_shown_as_they_are() -> None:
+    assert shown_line(PLACES, "a", 6) == 2
+    assert shown_line(PLACES, "Standard/TON", 6) == 6
+    assert shown_line(None, "a", 6) == 6
+    assert shown_line(PLACES, "", 0) == 0
 
 
 def test_the_table_reads_back() -> None:

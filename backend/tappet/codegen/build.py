@@ -256,9 +256,6 @@ class _Build:
         specs = task_specs(task_list) or default_tasks(analysis, sources, options.main_program)
         try:
             self.generate(analysis, specs)
-            if result.package is not None:
-                lines = {s.uri: s.body_line for s in sources if s.body_line}
-                result.package.runtime = {**result.package.runtime, "body_lines": lines}
         except LoweringError as error:
             span = error.span if isinstance(error.span, Span) else NOWHERE
             result.diagnostics.append(report("E0901", error.uri, span, message=error.message))

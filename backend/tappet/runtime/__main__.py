@@ -71,7 +71,8 @@ def read_token(path: Path) -> str:
 
 
 def _echo(entry: LogEntry) -> None:
-    print(f"{entry.severity}: {entry.component}: {entry.message}", file=sys.stderr, flush=True)
+    place = f" ({entry.uri}:{entry.line})" if entry.line else ""
+    print(f"{entry.severity}: {entry.component}: {entry.message}{place}", file=sys.stderr, flush=True)
 
 
 def _scheduling(arguments: argparse.Namespace, log: Logbook) -> Scheduling:

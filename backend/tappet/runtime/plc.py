@@ -137,10 +137,8 @@ class SoftPlc(ApplicationAccess):
                 self.application.tasks.collect()
             state = self.state
             if state == "exception" and self._report is None:
-                loaded = self._need()
-                self._report = build_report(loaded, self.log)
-                body_lines = loaded.package.runtime.get("body_lines")
-                self.log.add("exception", "application", summary(self._report, body_lines))
+                report = self._report = build_report(self._need(), self.log)
+                self.log.add("exception", "application", summary(report), report.uri, report.line)
             if state != self._seen_state:
                 entered = state == "exception"
                 self._seen_state = state

@@ -55,13 +55,7 @@ def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str,
     return values
 
 
-def summary(report: ExceptionReport, body_lines: object) -> str:
-    """One line for the log, with the line that the editor shows beside the implementation.
-
-    `body_lines`: lines of the declaration above each implementation, by uri.
-    """
+def summary(report: ExceptionReport) -> str:
+    """One line for the log, without the line of the program: the entry carries its place."""
     place = f" in {report.pou}" if report.pou else ""
-    above = body_lines.get(report.uri) if isinstance(body_lines, dict) else None
-    above = above if isinstance(above, int) else 0
-    line = report.line - above if report.line > above else report.line
-    return f"task {report.task}: {report.message}{place}{f', line {line}' if line else ''}"
+    return f"task {report.task}: {report.message}{place}"

@@ -34,6 +34,7 @@ from tappet.server.schemas.runtimes import (
     TaskState,
 )
 from tappet.server.settings import LOCAL_RUNTIME
+from tappet.server.source_places import SourcePlaces, shown_line
 from tappet.server.tables import runtimes as table
 
 router = APIRouter(prefix="/runtimes", tags=["runtimes"])
@@ -154,7 +155,7 @@ async def read_log(
 ) -> list[LogEntry]:
     """Lines of the runtime's log after `since`, oldest first."""
     async with link.client() as client:
-        return [_log_entry(entry) for entry in await client.log(since)]
+        return [_log_entry(entry, link.places) for entry in await client.log(since)]
 
 
 @router.get("/{runtime_id}/symbols")
@@ -170,13 +171,15 @@ async def browse_symbols(
     return [Symbol(name=c.name, path=c.path, type=c.type, kind=c.kind, leaf=c.leaf) for c in children]
 
 
-def _log_entry(entry: logbook.LogEntry) -> LogEntry:
+def _log_entry(entry: logbook.LogEntry, places: SourcePlaces | None) -> LogEntry:
+    """The line as the log shows it; a place in a program is told as the editor counts lines."""
+    line = shown_line(places, entry.uri, entry.line)
     return LogEntry(
         id=entry.number,
         at=datetime.fromtimestamp(entry.timestamp_ns / 1e9, UTC),
         severity=entry.severity,
         component=entry.component,
-        message=entry.message,
+        message=f"{entry.message}, line {line}" if line else entry.message,
     )
 
 

@@ -69,3 +69,9 @@ class SourcePlaces:
             return cls(str(content["project_id"]), segments, dict(content["paths"]))
         except (KeyError, TypeError, AttributeError) as error:
             raise ValueError(f"no table of source places: {error!r}") from error
+
+
+def shown_line(places: SourcePlaces | None, uri: str, line: int) -> int:
+    """A line of a compiled text as its editor counts it; as it is where the text is not of the project."""
+    found = places.locate(uri, line) if places is not None else None
+    return line if found is None else found.line
