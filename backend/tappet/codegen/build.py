@@ -6,8 +6,6 @@ linked by itself, `layout_of` gives Python the offsets of ST structures.
 
 from __future__ import annotations
 
-import gc
-import sys
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -31,11 +29,9 @@ from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.parser import ParseResult
+from tappet.lang.room_for_trees import room_for_trees
 from tappet.lang.source import NOWHERE, Scope, Source, Span
 from tappet.lang.symbols import PouSymbol
-
-_RECURSION = 10_000
-"""Frames a pass over the deepest tree the parser accepts may need."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,21 +192,8 @@ def build_application(
     change over without stopping.
     """
     options = options or BuildOptions()
-    with _room_for_trees():
+    with room_for_trees():
         return _Build(options, previous, session or BuildSession()).run(list(sources), list(tasks))
-
-
-@contextmanager
-def _room_for_trees() -> Iterator[None]:
-    """Deep recursion; no garbage collection: growing trees have none, and it takes a third of the time."""
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), _RECURSION))
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
 
 
 class _Build:

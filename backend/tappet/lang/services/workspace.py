@@ -149,6 +149,8 @@ class Workspace:
         self._composed: list[Program] | None = None
         self.generation = 0
         """Grows with every change."""
+        self.whole_analyses = 0
+        """Analyses so far that had to look at more than edited bodies."""
         self._analysed: dict[str, int] = {}
 
     # -- documents
@@ -242,6 +244,7 @@ class Workspace:
         last = self._snapshots.get(program.name)
         previous = last.analysis if last is not None else None
         analysis = analyse([result.unit for result in results], settings, previous)
+        self.whole_analyses += analysis.changed is None
         snapshot = Snapshot(program, results, analysis)
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation

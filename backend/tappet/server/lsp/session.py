@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import gc
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from lsprotocol import converters
 from lsprotocol import types as lsp
 
 from tappet import __version__
+from tappet.lang.room_for_trees import room_for_trees
 from tappet.lang.services import documents as docs
 from tappet.lang.services.documents import Position, Programs
 from tappet.lang.services.fix_site import Offering, nothing_offered
@@ -101,6 +103,8 @@ class LanguageSession:
         self._timer: asyncio.TimerHandle | None = None
         self._publishing: asyncio.Task[None] | None = None
         self._again = False
+        self._tidied = 0
+        """Whole analyses of the workspace whose garbage is gone."""
 
     async def receive(self, message: str) -> None:
         """Take one message of the client."""
@@ -306,6 +310,7 @@ class LanguageSession:
                 return
             for params in changed:
                 await self.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params)
+            await self.endpoint.run(self._tidy)
             if not self._again:
                 return
 
@@ -313,6 +318,16 @@ class LanguageSession:
         """What to publish: documents whose messages are others than those told last, or just opened ones."""
         if self._state != "initialized":
             return []
+        with room_for_trees():
+            return self._new_messages()
+
+    def _tidy(self) -> None:
+        """Look for the garbage of a whole analysis while nobody waits for messages."""
+        if self._tidied != self.workspace.whole_analyses:
+            self._tidied = self.workspace.whole_analyses
+            gc.collect()
+
+    def _new_messages(self) -> list[Any]:
         found: dict[str, list[Report]] = {}
         for snapshot in self.workspace.snapshots():
             for document, entries in reports(snapshot).items():

@@ -1,0 +1,35 @@
+"""The editor benchmark edits what it says, and hears of it; its numbers are looked at, never asserted."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+
+from tappet.bench import editor
+from tappet.codegen.build import build_application
+from tappet.project import sources
+
+
+def test_the_stored_project_is_that_of_the_build_benchmark():
+    project, ids = editor.project(4)
+    texts = sources.application_sources(project, project.applications()[0].id)
+    assert {text.uri for text in texts} == {"FB_Unit1", "FB_Unit2", "FB_Unit3", "Main"} == set(ids)
+    assert [str(d) for d in build_application(texts).diagnostics if d.severity == "error"] == []
+
+
+@pytest.mark.parametrize("edit", [editor.BODY, editor.DECLARATION])
+def test_messages_come_and_go_with_the_edits(edit: editor.Edit, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(editor, "EDITS", 2)
+    heard: list[int] = []
+    messages = editor.Editor.messages
+
+    async def counted(self: editor.Editor) -> list[object]:
+        found = await messages(self)
+        heard.append(len(found))
+        return found
+
+    monkeypatch.setattr(editor.Editor, "messages", counted)
+    _, seconds = asyncio.run(editor.measure(edit, 4))
+    assert len(seconds) == 2
+    assert heard == [1, 0, 1]
