@@ -345,3 +345,37 @@ END_PROGRAM
         "\tTANK_FULL AT %IX1024.1 : BOOL; (* Bit 1 *)\nEND_VAR"
     )
     assert any("2 symbolic names" in note for note in notes(done, "PLC_CONFIGURATION"))
+
+
+def test_persistent_variables_are_declared_in_the_persistent_list() -> None:
+    """LDEC-80: RETAIN stays valid where it is."""
+    text = """
+(* @GLOBAL_VARIABLE_LIST := 'Counts' *)
+VAR_GLOBAL RETAIN PERSISTENT
+\thours : DINT := 3;
+END_VAR
+VAR_GLOBAL RETAIN
+\tpieces : DINT;
+END_VAR
+(* @OBJECT_END := 'Counts' *)
+(* @GLOBAL_VARIABLE_LIST := 'Kept' *)
+VAR_GLOBAL PERSISTENT
+\tstarts : DINT;
+END_VAR
+(* @OBJECT_END := 'Kept' *)
+"""
+    done = imported(text)
+    assert part(done, "Counts", "declaration") == "VAR_GLOBAL RETAIN\n\tpieces : DINT;\nEND_VAR"
+    kept = part(done, "PersistentVars", "declaration")
+    assert "hours : DINT := 3;" in kept
+    assert "starts : DINT;" in kept
+    assert done.project.find(f"{APPLICATION}/Kept") is None
+    assert notes(done, "Counts") == notes(done, "Kept") != []
+    found = done.project.find(f"{APPLICATION}/PersistentVars")
+    assert found is not None
+    assert found.kind == "persistent"
+    again = import_files({"more.exp": text.replace("hours", "days").encode()}, done.project)
+    kept = part(again, "PersistentVars", "declaration")
+    assert "hours : DINT := 3;" in kept
+    assert "days : DINT := 3;" in kept
+    assert "which was there already" in notes(again, "PersistentVars")[0]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from tappet.project.exchange.codesys23_parts import without_parts
+from tappet.project.exchange.codesys23_persistent import LIST, move_persistent
 from tappet.project.exchange.codesys23_words import pointers_of, say_in_words_of_today
 from tappet.project.exchange.drafts import Batch, Draft
 from tappet.project.exchange.report import ImportReport
@@ -39,6 +40,8 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
         list_names=tuple((at, value) for at, key, value in marks if key == "GLOBAL_VARIABLE_LIST"),
     )
     paths = [(at, value) for at, key, value in marks if key == "PATH"]
+    lists = (item for item in batch.loose.children if item.kind == "persistent")
+    kept = next(lists, None) or Draft("persistent", LIST, {}, source)
     index = 0
     path: tuple[str, ...] = ()
     for offset, draft in split.heads:
@@ -49,7 +52,10 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
         for item in (draft, *draft.children):
             _tell_language(item, report)
             say_in_words_of_today(item, pointers, batch.places, report)
-        batch.loose.below(path, source).children.append(draft)
+        if not move_persistent(draft, kept, report):
+            batch.loose.below(path, source).children.append(draft)
+    if kept.data and kept not in batch.loose.children:
+        batch.loose.children.append(kept)
     read_configurations(split, batch.loose, report)
 
 

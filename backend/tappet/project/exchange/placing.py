@@ -17,8 +17,8 @@ from tappet.project.templates import DEFAULT_DEVICE, DEFAULT_LIBRARIES
 
 _NOT_FREE = re.compile(r"[\x00-\x1f\x7f./\\]+")
 _NOT_IDENTIFIER = re.compile(r"[^A-Za-z0-9_]+", re.ASCII)
-_MERGED = frozenset(["plc_logic", "task_configuration", "library_manager", "folder"])
-"""Kinds whose like in the project takes the children instead of getting a twin."""
+_MERGED = frozenset(["plc_logic", "task_configuration", "library_manager", "folder", "persistent"])
+"""Kinds whose like in the project takes the content instead of getting a twin."""
 
 _REPORTED = frozenset(
     ["pou", "method", "action", "property", "interface", "dut", "gvl", "persistent", "task", "scene"]
@@ -242,6 +242,15 @@ class _Placer:
         return None
 
     def _merge_data(self, draft: Draft, there: ProjectObject) -> None:
+        if draft.kind == "persistent":
+            old = there.data.model_dump()["declaration"]
+            joined = "\n".join([old.rstrip("\n"), draft.data.get("declaration", "")])
+            self.objects[there.id] = changed_object(there, data={"declaration": joined})
+            text = f"its variables stand in the persistent list '{there.name}', which was there already"
+            self.report.add(
+                "changed", draft.source, text, name=draft.name, line=draft.line, object_id=there.id
+            )
+            return
         if draft.kind != "library_manager":
             return
         old = there.data.model_dump()
