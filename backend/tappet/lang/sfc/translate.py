@@ -45,6 +45,8 @@ def translate(
     head = chart.steps[0].name_span if chart.steps else pou.name_span
     c = Context(pou.name, chart, report, text_of, head)
     initial = _check(c)
+    if pou.kind == "ACTION":
+        _check_recursion(c)
     for step in chart.steps:
         for item in step.associations:
             if item.action.upper() in c.actions:
@@ -106,6 +108,18 @@ def _check(c: Context) -> Step | None:
         if step.name.upper() not in left:
             c.report("E0827", step.name_span, name=step.name)
     return initial[0] if initial else None
+
+
+def _check_recursion(c: Context) -> None:
+    """LSFC-85: no step of the chart of an action has this very action, which would never end."""
+    own = c.pou.upper()
+    for step in c.chart.steps:
+        places = [item.action_span for item in step.associations if item.action.upper() == own]
+        places += [span for name, span in step.roles.values() if name.upper() == own]
+        for place in places:
+            c.report("E0829", place, name=c.pou, step=step.name)
+        step.associations = [item for item in step.associations if item.action.upper() != own]
+        step.roles = {role: entry for role, entry in step.roles.items() if entry[0].upper() != own}
 
 
 def _check_condition(c: Context, condition: ast.Expr) -> None:
