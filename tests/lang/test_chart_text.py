@@ -87,6 +87,15 @@ def test_a_function_has_no_chart() -> None:
     assert [c for c, _ in found if c[0] == "E"] == ["E0113"]
 
 
+def test_an_action_is_not_at_a_step_of_its_own_chart() -> None:
+    """LSFC-85: directly, or through another action."""
+    chart = "INITIAL_STEP S{0}: {1}(N); END_STEP TRANSITION FROM S{0} TO S{0} := TRUE; END_TRANSITION"
+    one = f"A();\nACTION A: {chart.format(1, 'A')} END_ACTION"
+    two = f"A();\nACTION A: {chart.format(1, 'B')} END_ACTION\nACTION B: {chart.format(2, 'A')} END_ACTION"
+    for body, code in ((one, "E0829"), (two, "E0515")):
+        assert [c for c, _ in told(body) if c[0] == "E"] == [code]
+
+
 def test_words_of_charts_stay_free() -> None:
     """STEP and INITIAL_STEP are no keywords: ST may use them as names and labels."""
     body = "Step := 3;\nIF Step > 2 THEN JMP initial_step; END_IF\ninitial_step: Step := 4;"

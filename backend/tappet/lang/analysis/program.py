@@ -91,8 +91,13 @@ def _report_recursion(session: Session, path: list[PouSymbol], cycle: list[PouSy
     if caller.source is None:
         return
     chain = " -> ".join(p.qualified_name for p in [*cycle, cycle[0]])
-    strict = any(p.kind in ("FUNCTION", "PROGRAM") for p in cycle)
+    strict = any(p.kind in ("FUNCTION", "PROGRAM") or _charted(p) for p in cycle)
     session.report("E0515" if strict else "W1117", caller.source.uri, span, chain=chain)
+
+
+def _charted(pou: PouSymbol) -> bool:
+    """Whether this is an action written in SFC: it cannot be at a step of its own chart (LSFC-85)."""
+    return pou.kind == "ACTION" and pou.pou is not None and pou.pou.language == "SFC"
 
 
 # -- interfaces and overriding ----------------------------------------------------------------------
