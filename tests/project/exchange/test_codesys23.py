@@ -32,6 +32,39 @@ def test_a_pou_may_have_the_name_of_a_modifier() -> None:
     assert part(done, "OVERRIDE") == "OVERRIDE := A;"
 
 
+def test_transitions_between_steps_are_part_of_the_body() -> None:
+    chart = """INITIAL_STEP Idle:
+\tCount(N);
+END_STEP
+TRANSITION FROM Idle TO Busy := ready; END_TRANSITION
+STEP Busy:
+END_STEP
+STEP Failed:
+END_STEP
+TRANSITION done FROM Busy TO Idle := n > 9; END_TRANSITION
+TRANSITION fault (PRIORITY := 2) FROM Busy TO Failed := n > 99; END_TRANSITION
+TRANSITION (PRIORITY := 1) FROM Failed TO Idle := ready;
+END_TRANSITION"""
+    done = imported(
+        "PROGRAM PLC_PRG\nVAR\n\tready : BOOL;\n\tn : INT;\nEND_VAR\n"
+        f"(* @END_DECLARATION := '0' *)\n{chart}\n"
+        "ACTION Count:\nn := n + 1;\nEND_ACTION\nTRANSITION From := ready;\nEND_TRANSITION\nEND_PROGRAM\n"
+    )
+    assert part(done, "PLC_PRG") == chart
+    assert part(done, "PLC_PRG", "language") == "ST"
+    assert part(done, "PLC_PRG/Count") == "n := n + 1;"
+    assert part(done, "PLC_PRG/From") == ":= ready;"
+    assert not [entry for entry in done.report.entries if entry.outcome != "imported"]
+
+
+def test_a_chart_of_its_own_form_is_kept() -> None:
+    done = imported(
+        "PROGRAM PLC_PRG\nVAR\nEND_VAR\n(* @END_DECLARATION := '0' *)\n_SFC\n_STEP 1\nEND_PROGRAM\n"
+    )
+    assert part(done, "PLC_PRG", "language") == "SFC"
+    assert [entry.outcome for entry in done.report.entries if entry.object == "PLC_PRG"] == ["kept"]
+
+
 def test_parts_of_an_export_are_no_names_and_no_comments() -> None:
     text = """
 (* @NESTEDCOMMENTS := 'Yes' *)

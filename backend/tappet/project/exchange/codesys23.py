@@ -18,7 +18,8 @@ from tappet.project.exchange.standard_tasks import read_configurations
 
 _MARK = re.compile(r"\(\*\s*@(?P<key>[A-Z_]+)\s*:=\s*(?P<value>'(?:\$.|[^'\n])*'|[^*\n]*)(?P<rest>[^*]*)\*\)")
 _GRAPHICAL = re.compile(r"\s*_(LD|FBD|CFC|SFC)_BODY\b")
-_SFC_BODY = re.compile(r"\s*(?:_?INITIAL_STEP|_SFC\w*|_STEP)\b", re.IGNORECASE)
+_SFC_BODY = re.compile(r"\s*(?:_(?:INITIAL_STEP|SFC\w*|STEP)|INITIAL_STEP(?!\s+\w+\s*:))\b", re.IGNORECASE)
+"""A chart in a form of its own; steps as IEC 61131-3 writes them are text that compiles."""
 _IL_LINE = re.compile(
     r"\s*(?:\w+:\s*)?(?:LDN?|STN?|CALC?N?|JMPC?N?|ANDN?|ORN?|XORN?|S|R)\s+[\w.%^\[\]]+\s*(?:\(\*.*)?$",
     re.IGNORECASE,

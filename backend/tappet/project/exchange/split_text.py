@@ -129,7 +129,14 @@ class _Splitter:
             return True
         if i + 1 >= len(self.scan) or not NAME.fullmatch(self.scan[i + 1].text):
             return False
-        return self._begins_line(i)
+        return self._begins_line(i) and not (word.text == "TRANSITION" and self._of_chart(i))
+
+    def _of_chart(self, i: int) -> bool:
+        """Whether a TRANSITION joins steps in the body: FROM follows, behind a name and a priority."""
+        after = [item.text for item in self.scan[i + 1 : i + 3]]
+        if len(after) < 2:
+            return False
+        return after[1] in ("FROM", "(") or (after[0] == "FROM" and after[1] not in (":", ":="))
 
     def _begins_line(self, i: int) -> bool:
         """Whether only modifiers and closing keywords stand before a word on its line."""
@@ -249,7 +256,7 @@ class _Splitter:
             if first < len(self.scan) and self.scan[first].text == ":":
                 name_end = self.scan[first].end
             above = trimmed(self.text[start : word.start])
-            text = trimmed(self.text[name_end:stop])
+            text = trimmed(self.text[name_end:stop].lstrip(" \t"))
             draft.data = body("ST", f"{above}\n{text}" if above else text)
         return draft
 
