@@ -153,7 +153,9 @@ def _isvalidref(b: Body, e: ast.Call, name: str) -> None:
     if isinstance(symbol, VarSymbol) and isinstance(symbol.type, t.Reference):
         finish(e, name, [None], t.BOOL)
     else:
-        b.report("E0320", operand.span, name=text_of(operand), type=operand.type)
+        hint = "Declare it as REFERENCE TO; a pointer is compared with 0."
+        given = f"'{operand.type}'"
+        b.report("E0323", operand.span, op=name, what="a reference", given=given, hint=hint)
 
 
 def _new(b: Body, e: ast.Call, name: str) -> None:
