@@ -130,10 +130,10 @@ class Generator:
     def place(self, lowered: Lowered) -> image_layout.Layout:
         """Sizes and signatures of all data objects, then their offsets."""
         signatures = image_layout.Signatures()
-        wanted = [
-            image_layout.Wanted(AREA_PREFIX + area, size, f"area:{size}")
-            for area, size in self.area_sizes(lowered).items()
-        ]
+        wanted = []
+        for area, size in self.area_sizes(lowered).items():
+            lowered.module.data[AREA_PREFIX + area] = (size, 64)
+            wanted.append(image_layout.Wanted(AREA_PREFIX + area, size, f"area:{size}"))
         for item in lowered.data:
             owner = item.owner
             if isinstance(owner, PouSymbol):
@@ -159,10 +159,8 @@ class Generator:
         """Bytes of each area: the configured size, or more when the program reaches further."""
         assert lowered.program is not None
         sizes = dict(self.options.area_sizes)
-        for area, used in lowered.program.area_use.items():
+        for area, used in lowered.program.area_need().items():
             sizes[area] = max(sizes.get(area, 0), (used + 63) // 64 * 64)
-        for area, size in sizes.items():
-            lowered.module.data[AREA_PREFIX + area] = (size, 64)
         return sizes
 
     def image(self, lowered: Lowered, placed: image_layout.Layout) -> bytes:
@@ -192,7 +190,8 @@ class Generator:
             lowered.module.functions.pop(ONLINE_CHANGE_SYMBOL, None)
             fresh = relower(lowered, last.effects, changed)
             fresh.add(ONLINE_CHANGE_SYMBOL)
-            if not all(_fits(last.placed, area, end) for area, end in program.area_use.items()):
+            data, sizes = lowered.module.data, self.area_sizes(lowered)
+            if any(data[AREA_PREFIX + area][0] != size for area, size in sizes.items()):
                 return None
             parts, dirty = _refreshed(lowered, last.parts, fresh)
         more = len(parts) - len(last.parts)
@@ -268,9 +267,3 @@ def _take_remanence(package: CodePackage, remanence: Remanence) -> None:
     package.retain = remanence.retain
     package.persistent = remanence.persistent
     package.no_init = remanence.no_init
-
-
-def _fits(placed: image_layout.Layout, area: str, end: int) -> bool:
-    """Whether an area reaches as far as the program uses it."""
-    place = placed.objects.get(AREA_PREFIX + area)
-    return place is not None and end <= place.size

@@ -529,6 +529,8 @@ class Function:
     """Whether the body contains a loop."""
     callees: set[str] | None = None
     """Functions it calls, and keys of virtual methods, once somebody has looked."""
+    areas: dict[str, int] = field(default_factory=dict)
+    """Bytes of the areas I, Q, M that the body reaches to."""
     assumed: dict[str, object] = field(default_factory=dict)
     """Effects of callees, virtual ones too, that register variables and inputs of this one rest on."""
     promoted_bases: set[str] = field(default_factory=set)

@@ -49,7 +49,7 @@ def slot_of(b: Body, variable: VarSymbol) -> ir.Place:
     elif storage in (Storage.GLOBAL, Storage.PROGRAM):
         return ir.Place(ir.Data(b.program.home(variable)), variable.offset, root=variable.offset)
     elif storage is Storage.DIRECT:
-        b.program.use_area(variable)
+        b.program.use_area(variable, b.function)
         return ir.Place(ir.Data(AREA_PREFIX + (variable.area or "M")), variable.offset)
     raise b.error(f"'{variable.name}' has no place here", ast.Node(span=variable.span or ast.Node().span))
 

@@ -64,7 +64,7 @@ class Program:
     having: dict[str, list[PouSymbol]] = field(default_factory=dict)
     """Function blocks with a method, an accessor or a body that is called by this name."""
     area_use: dict[str, int] = field(default_factory=dict)
-    """Bytes of the areas I, Q, M that variables and direct addresses reach to."""
+    """Bytes of the areas I, Q, M that declared variables and configured addresses reach to."""
     library: dict[str, PouSymbol] = field(default_factory=dict)
     """Functions of the conversion library by upper-case name."""
     queried: dict[str, t.Interface] = field(default_factory=dict)
@@ -93,11 +93,20 @@ class Program:
             self.homes.setdefault(id(variable), symbol)
             self.use_area(variable)
 
-    def use_area(self, variable: VarSymbol) -> None:
-        """Note how far a variable at an address reaches into its area."""
+    def use_area(self, variable: VarSymbol, function: ir.Function | None = None) -> None:
+        """Note how far a variable at an address, or one that a function names, reaches into its area."""
         if variable.storage is Storage.DIRECT and variable.area is not None and variable.type is not None:
             end = variable.offset + max(variable.type.size, 1)
-            self.area_use[variable.area] = max(self.area_use.get(variable.area, 0), end)
+            use = self.area_use if function is None else function.areas
+            use[variable.area] = max(use.get(variable.area, 0), end)
+
+    def area_need(self) -> dict[str, int]:
+        """Bytes of the areas I, Q, M that declarations and bodies reach to."""
+        need = dict(self.area_use)
+        for function in self.module.functions.values():
+            for area, end in function.areas.items():
+                need[area] = max(need.get(area, 0), end)
+        return need
 
     def home(self, variable: VarSymbol) -> str:
         """Data symbol of a variable of a list or program."""

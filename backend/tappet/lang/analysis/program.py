@@ -91,7 +91,8 @@ def _report_recursion(session: Session, path: list[PouSymbol], cycle: list[PouSy
     if caller.source is None:
         return
     chain = " -> ".join(p.qualified_name for p in [*cycle, cycle[0]])
-    strict = any(p.kind in ("FUNCTION", "PROGRAM") or _charted(p) for p in cycle)
+    strict = any(p.kind in ("FUNCTION", "PROGRAM") for p in cycle)
+    strict |= len(cycle) > 1 and any(_charted(p) for p in cycle)  # one alone has been reported at its step
     session.report("E0515" if strict else "W1117", caller.source.uri, span, chain=chain)
 
 
