@@ -166,7 +166,7 @@ class ArrayInit(Expr):
 
     elements: list[Expr]
     bare: bool = False
-    """Whether it stands without brackets in the initial value of a structure, as in CoDeSys 2.3."""
+    """Whether it stands without brackets, as in CoDeSys 2.3, where the text alone does not tell an array."""
 
 
 @dataclass(slots=True, kw_only=True)

@@ -10,6 +10,7 @@ from tappet.lang.diagnostics import report
 from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, STRING
 from tappet.lang.parser_core import BODY_END, MAX_NESTING, MAX_TREE_DEPTH, Core, make_span
 from tappet.lang.source import Span
+from tappet.lang.types import ELEMENTARY
 
 _PRECEDENCE: Final = {
     "OR": 1, "OR_ELSE": 1,
@@ -434,17 +435,22 @@ class ExpressionParser(Core):
         self.take("]")
         return ast.ArrayInit(span=self.span_from(start), elements=elements)
 
-    def bare_array_initial(self) -> ast.Expr:
-        """The initial value of an array; CoDeSys 2.3 writes it without brackets: `1, 2, 4(0)`."""
+    def initial_value_of(self, type_ref: ast.TypeRef) -> ast.Expr:
+        """The initial value of a variable. CoDeSys 2.3 writes arrays without brackets: `1, 2, 4(0)`; only the
+        analysis knows whether a name stands for an array."""
+        named = isinstance(type_ref, ast.NamedType) and type_ref.name.upper() not in ELEMENTARY
+        if not named and not isinstance(type_ref, ast.ArrayType):
+            return self.initial_value()
         start = self.i
         first = self.array_element()
-        if self.kinds[self.i] != "," and not isinstance(first, ast.Repeat):
+        single = isinstance(first, ast.StructInit) and not named
+        if self.kinds[self.i] != "," and not isinstance(first, ast.Repeat) and not single:
             return first
         elements = [first]
         while self.kinds[self.i] == ",":
             self.i += 1
             elements.append(self.array_element())
-        return ast.ArrayInit(span=self.span_from(start), elements=elements)
+        return ast.ArrayInit(span=self.span_from(start), elements=elements, bare=named)
 
     def array_element(self) -> ast.Expr:
         """One element, or `n(value, ...)` for n times the values."""

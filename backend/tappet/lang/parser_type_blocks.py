@@ -69,7 +69,7 @@ class TypeBlockParser(VariableParser):
         if self.kinds[self.i] == "STRUCT" and not extends:
             extends, extends_span = self._extends_after_struct()
         type_ref = self.type_reference("type definition")
-        initial, _ = self.initialisation(isinstance(type_ref, ast.ArrayType))
+        initial, _ = self.initialisation(type_ref)
         if self.kinds[self.i] == ";":
             self.i += 1
         elif len(self.diagnostics) > messages or self.failed_at == self.i:

@@ -103,7 +103,7 @@ class VariableParser(TypeParser):
         else:
             self.expected("':' and a type", "Declare a variable as 'name : type;'.")
             type_ref = ast.NamedType(span=self.span_at(self.i), name="")
-        initial, initial_ref = self.initialisation(isinstance(type_ref, ast.ArrayType))
+        initial, initial_ref = self.initialisation(type_ref)
         if kinds[self.i] == ";":
             self.i += 1
         elif len(self.diagnostics) > messages or self.failed_at == self.i:
@@ -182,13 +182,13 @@ class VariableParser(TypeParser):
         self.i += 1
         return self.texts[self.i - 1].upper()
 
-    def initialisation(self, of_array: bool = False) -> tuple[ast.Expr | None, bool]:
+    def initialisation(self, type_ref: ast.TypeRef) -> tuple[ast.Expr | None, bool]:
         """`:= value` or `REF= variable` if it stands here; the flag tells the second."""
         start = self.i
         kind = self.kinds[start]
         if kind == ":=":
             self.i = start + 1
-            value = self.bare_array_initial() if of_array else self.initial_value()
+            value = self.initial_value_of(type_ref)
             return self.bounded(value, start), False
         if kind is ID and self.kinds[start + 1] == "=" and self.texts[start].upper() == "REF":
             self.i = start + 2

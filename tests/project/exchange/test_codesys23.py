@@ -221,6 +221,14 @@ _ALARMCLASSLIST : 1
 _END_ALARMCONFIG
 
 
+MACRO
+MacroName: 'Take the axes in'
+MacroMenu: 'Axes'
+MacroCmd: 'query off ok'
+MacroCmd: 'project import $$PROJECT_PATH$$\\PROGRAM.EXP'
+END_MACRO
+
+
 LIBRARY
 STANDARD.LIB 4.10.05 11:14:46
 (* @LIBRARYSYMFILEINFO := '0' *)
@@ -277,6 +285,7 @@ def test_a_whole_project_with_its_tasks_and_libraries() -> None:
         "PLC_CONFIGURATION",
         "stop",
         "_ALARMCONFIG",
+        "MACRO",
         "Pumps.lib",
         "_WORKSPACE",
     }

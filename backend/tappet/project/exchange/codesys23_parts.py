@@ -11,7 +11,7 @@ from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.standard_tasks import task_draft
 
 _PART = re.compile(
-    r"^[ \t]*(?P<head>PLC_CONFIGURATION|_?ALARM_?CONFIG\w*|_?WORKSPACE|VISUALISATION|LIBRARY"
+    r"^[ \t]*(?P<head>PLC_CONFIGURATION|MACRO|_?ALARM_?CONFIG\w*|_?WORKSPACE|VISUALISATION|LIBRARY"
     r"|_?TASK_?CONFIG\w*|_?WATCH_?LIST\w*|_?SAMPLING\w*|_?TRACE\w*|_?CNC\w*|_?CAM\w*|RESOURCE|_?NETVAR\w*|_?PARAMETER_?LIST\w*)\b"
     r"[^\n]*$",
     re.MULTILINE,
@@ -21,6 +21,7 @@ _ENDS = {
     "VISUALISATION": "END_VISUALISATION",
     "LIBRARY": "EndLibrary|END_LIBRARY",
     "RESOURCE": "END_RESOURCE",
+    "MACRO": "END_MACRO",
     "_WORKSPACE": "_END_WORKSPACE",
     "_ALARMCONFIG": "_END_ALARMCONFIG",
 }
@@ -60,6 +61,7 @@ _WHY = {
     "VISUALISATION": "visualisations of CoDeSys 2.3 are not read",
     "_WORKSPACE": "settings of the other editor are not read",
     "_ALARMCONFIG": "the alarm configuration is not read",
+    "MACRO": "macros of the other editor are not read",
 }
 
 
