@@ -110,6 +110,9 @@ def test_our_own_archive_comes_in_whole_or_in_parts() -> None:
     files = {f"Press/{path}": content for path, content in encode(origin).items()} | {"Press/README.md": b"x"}
     whole = import_files(files)
     assert encode(whole.project) == encode(origin) | {"README.md": b"x"}
+    fresh = import_files(files, chosen=keys(whole.nodes, "E_State")).project
+    assert fresh.find_kind("library_manager")
+    assert not fresh.find_kind("task")
     part = import_files(files, new_project("Other"), chosen=keys(whole.nodes, "E_State"))
     added = {item.name for item in part.project.walk()} - {item.name for item in new_project("x").walk()}
     assert added == {"E_State"}

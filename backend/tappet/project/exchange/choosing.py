@@ -59,6 +59,7 @@ def keep_chosen(batch: Batch, chosen: Collection[str]) -> None:
     for holder in (batch.loose, batch.pous, *(draft for _, draft in above.values())):
         holder.children = [child for child in holder.children if child in kept]
     batch.devices = [device for device in batch.devices if device in kept]
+    batch.complete = False  # what every application has comes with it, chosen or not
 
 
 _TOLD = frozenset(["pou", "dut"])

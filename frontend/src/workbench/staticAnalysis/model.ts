@@ -67,9 +67,9 @@ export function onIn(chosen: StaticAnalysisData, rules: readonly CodingRule[]): 
   return rules.filter((rule) => levelOf(chosen, rule.code) !== 'off').length;
 }
 
-/** A message of the table for people: what is filled in later is an ellipsis. */
+/** A message of the table for people: what is filled in later is a name in angle marks. */
 export function messageText(message: string): string {
-  return message.replace(/'?\{\w+\}'?/g, '…');
+  return message.replace(/'?\{(\w+)\}'?/g, '‹$1›');
 }
 
 /** Keys of texts; the codes come from the server, and each has its two texts. */

@@ -39,7 +39,7 @@ describe('static analysis settings', () => {
     expect(groupsOf(rules, 'magic', title)[0]?.rules.map((found) => found.code)).toEqual(['S1211']);
     expect(groupsOf(rules, 's1004', title)[0]?.rules).toHaveLength(1);
     expect(groupsOf(rules, 'prefix nothing', title)).toEqual([]);
-    expect(messageText("The name of {what} '{name}' is wrong")).toBe('The name of … … is wrong');
+    expect(messageText("The name of {what} '{name}' is wrong")).toBe('The name of ‹what› ‹name› is wrong');
   });
 
   it('have a title in both languages for every rule of the compiler', () => {
