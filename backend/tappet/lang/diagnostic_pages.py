@@ -87,10 +87,10 @@ def _index() -> str:
         title = _GROUPS.get(code[:3], "Others")
         heading = f"{title} ({'errors' if code[0] == 'E' else 'warnings and notes'})"
         if heading != group:
-            lines += ["", f"## {heading}", "", "| Code | Severity | Message |", "|---|---|---|"]
+            lines += ["", f"## {heading}", "", "| Code | Severity | CODESYS | Message |", "|---|---|---|---|"]
             group = heading
         message = _plain(entry.message).replace("|", r"\|")
-        lines.append(f"| [{code}]({code}.md) | {entry.severity} | {message} |")
+        lines.append(f"| [{code}]({code}.md) | {entry.severity} | {entry.alias} | {message} |")
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)) + "\n"
 
 
