@@ -45,9 +45,11 @@ def _add(client: TestClient, project_id: str, parent: str, kind: str, name: str,
     return str(answer.json()["id"])
 
 
-def run(client: TestClient, ids: dict[str, str], test_filter: str = "") -> dict[str, Any]:
+def run(
+    client: TestClient, ids: dict[str, str], test_filter: str = "", only: tuple[str, ...] = ()
+) -> dict[str, Any]:
     url = f"{PROJECTS}/{ids['project']}/applications/{ids['application']}/tests"
-    answer = client.post(url, json={"filter": test_filter})
+    answer = client.post(url, json={"filter": test_filter, "only": only})
     assert answer.status_code == 200, answer.text
     report: dict[str, Any] = answer.json()
     return report
@@ -74,6 +76,16 @@ def test_the_results_tree_leads_to_the_places(admin: TestClient, project: dict[s
     assert failure["call_stack"] == ["FB_Sum_Test, line 4"]
     report = run(admin, project, "good")
     assert (report["ok"], report["passed"], report["skipped"]) == (True, 1, 2)
+
+
+def test_tests_are_chosen_by_their_names(admin: TestClient, project: dict[str, str]) -> None:
+    report = run(admin, project, only=("FB_Sum_Test.Bad", "FB_Sum_Test.Worse"))
+    (suite,) = report["suites"]
+    assert {test["name"]: test["outcome"] for test in suite["tests"]} == {
+        "Good": "skipped",
+        "Bad": "failed",
+        "Worse": "error",
+    }
 
 
 def test_errors_of_the_program_are_diagnostics(admin: TestClient, project: dict[str, str]) -> None:

@@ -22,7 +22,7 @@ async def run_tests(
 ) -> TestReport:
     """Run the test suites of the application as it is stored, on simulated time, beside the server."""
     application = await commissioning.application(project_id, application_id)
-    return await services.test_runs.run(application, body.filter)
+    return await services.test_runs.run(application, body.filter, body.only)
 
 
 @router.delete("", status_code=204)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
 from contextlib import suppress
 
 from tappet.codegen.build import BuildOptions, LibraryReference, as_source
@@ -24,14 +25,14 @@ class TestRuns:
     def __init__(self) -> None:
         self._running: dict[tuple[str, str], asyncio.subprocess.Process | None] = {}
 
-    async def run(self, application: Application, test_filter: str) -> TestReport:
+    async def run(self, application: Application, test_filter: str, only: Sequence[str] = ()) -> TestReport:
         """Run and wait; the process is killed when the caller goes away. 409 while a run is going on."""
         key = (application.project_id, application.application_id)
         if key in self._running:
             raise Problem(409, "tests-running", "Tests of this application are running; wait for their end.")
         self._running[key] = None
         try:
-            order = await asyncio.to_thread(_order, application, test_filter)
+            order = await asyncio.to_thread(_order, application, test_filter, only)
             child = await asyncio.create_subprocess_exec(
                 *process.COMMAND, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
             )
@@ -64,14 +65,14 @@ async def _result(child: asyncio.subprocess.Process, order: bytes) -> Report:
             await child.wait()
 
 
-def _order(application: Application, test_filter: str) -> bytes:
+def _order(application: Application, test_filter: str, only: Sequence[str]) -> bytes:
     libraries = tuple(
         LibraryReference(n, v, space or None, holder) for n, v, space, holder in application.libraries
     )
     tasks = [TaskSpec(t.name, interval_ns=t.interval_ns, programs=t.programs) for t in application.tasks]
     sources = [as_source(text) for text in application.sources]
     options = BuildOptions(application.name, libraries=libraries)
-    return process.order(sources, tasks, options, test_filter=test_filter)
+    return process.order(sources, tasks, options, test_filter=test_filter, only=only)
 
 
 def _reply(report: Report, application: Application) -> TestReport:

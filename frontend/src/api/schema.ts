@@ -4398,6 +4398,12 @@ export interface components {
              * @default
              */
             filter: string;
+            /**
+             * Only
+             * @description Only these tests, as suite.test; empty: all.
+             * @default []
+             */
+            only: string[];
         };
         /**
          * TestReport

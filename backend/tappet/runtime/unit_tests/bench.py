@@ -18,6 +18,9 @@ WAITING, RUNNING, PASSED, FAILED, SKIPPED, BROKEN = range(6)
 """TEST_STATE of the library."""
 _OUTCOMES: dict[int, Outcome] = {PASSED: "passed", FAILED: "failed", SKIPPED: "skipped", BROKEN: "error"}
 NS_PER_S = 1_000_000_000
+LONGEST_NAME = 255
+MOST_CHOSEN = 500
+"""Tests that can be chosen by name: MAX_ONLY of the library."""
 _SHOWN_CALLERS = 20
 _KINDS = ((4, "error: "), (2, "warning: "))
 """Bits of ADSLOG_MSGTYPE_... that a line is marked for."""
@@ -57,11 +60,12 @@ class Bench:
 
     # -- before a start --------------------------------------------------------------------------------
 
-    def prepare(self, runtime: LocalRuntime, test_filter: str) -> None:
-        """Hands the library the filter and the outcomes of earlier starts."""
+    def prepare(self, runtime: LocalRuntime, test_filter: str, only: Sequence[str] = ()) -> None:
+        """Hands the library what is to run, and the outcomes of earlier starts."""
         if not self._suites:
             self._read_suites(runtime)
-        values: dict[str, Any] = {f"{self._root}.sFilter": test_filter}
+        values: dict[str, Any] = {f"{self._root}.sFilter": test_filter, f"{self._root}.diOnly": len(only)}
+        values |= {f"{self._root}.asOnly[{n}]": name[:LONGEST_NAME] for n, name in enumerate(only, 1)}
         known = [test for test in self._tests if test.outcome is not None]
         for number, test in enumerate(known, 1):
             at = f"{self._root}.aTest[{number}]"

@@ -34,6 +34,7 @@ def order(
     options: BuildOptions,
     *,
     test_filter: str = "",
+    only: Sequence[str] = (),
     limits: TestLimits | None = None,
 ) -> bytes:
     """What the process reads."""
@@ -44,6 +45,7 @@ def order(
         "sources": [asdict(source) for source in sources],
         "tasks": [{"name": t.name, "interval_ns": t.interval_ns, "programs": t.programs} for t in tasks],
         "filter": test_filter,
+        "only": list(only),
         "limits": asdict(limits or TestLimits()),
     }
     packed: bytes = msgpack.packb(content, use_bin_type=True)
@@ -98,6 +100,7 @@ def perform(content: dict[str, Any], write: Any) -> None:
         tasks,
         options,
         test_filter=content["filter"],
+        only=content["only"],
         limits=TestLimits(**content["limits"]),
         progress=lambda so_far: write(so_far.to_dict()),
     )

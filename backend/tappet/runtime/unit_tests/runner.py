@@ -17,7 +17,7 @@ from tappet.lang.source import Source
 from tappet.libraries import as_called, resolve
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.local import ApplicationException, LocalRuntime
-from tappet.runtime.unit_tests.bench import Bench
+from tappet.runtime.unit_tests.bench import MOST_CHOSEN, Bench
 from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY, discover, program_text
 from tappet.runtime.unit_tests.instrument import Mark, instrument
 from tappet.runtime.unit_tests.results import Report
@@ -47,12 +47,14 @@ def run_tests(
     options: BuildOptions | None = None,
     *,
     test_filter: str = "",
+    only: Sequence[str] = (),
     limits: TestLimits | None = None,
     progress: Callable[[Report], None] | None = None,
 ) -> Report:
     """Run the tests of an application; nothing is raised for what is wrong with it.
 
-    `test_filter` runs only tests with this text in `suite.test` (`*` for any text). `progress` gets a report
+    `test_filter` runs only tests with this text in `suite.test` (`*` for any text), `only` those with these
+    very names (at most MOST_CHOSEN; with more, all run). `progress` gets a report
     after each start of the application.
     """
     options = with_library(options or BuildOptions(), sources := list(sources))
@@ -73,7 +75,8 @@ def run_tests(
         errors = [d for d in (plain.diagnostics or result.diagnostics) if d.severity == "error"]
         errors = errors or [d for d in result.diagnostics if d.severity == "error"]
         return Report(options.application, diagnostics=tuple(_fields(d) for d in errors))
-    run = _Run(options.application, result.package, marks, limits or TestLimits(), test_filter)
+    chosen = tuple(only) if len(only) <= MOST_CHOSEN else ()
+    run = _Run(options.application, result.package, marks, limits or TestLimits(), test_filter, chosen)
     return run.all(progress)
 
 
@@ -120,12 +123,14 @@ class _Run:
         marks: Sequence[Mark],
         limits: TestLimits,
         test_filter: str,
+        only: Sequence[str],
     ) -> None:
         self.application = application
         self.package = package
         self.limits = limits
         self.bench = Bench(package.symbols, marks)
         self.filter = test_filter
+        self.only = only
 
     def all(self, progress: Callable[[Report], None] | None) -> Report:
         bench = self.bench
@@ -146,7 +151,7 @@ class _Run:
         with LocalRuntime(self.package, start=False, cycle_limit_s=limit, flight=no_flight) as runtime:
             if runtime.exception is not None:
                 return f"the application does not start: {ApplicationException(runtime.exception)}"
-            bench.prepare(runtime, self.filter)
+            bench.prepare(runtime, self.filter, self.only)
             runtime.start()
             end_ns = runtime.now_ns + int(self.limits.simulated_s * NS_PER_S)
             cycles = 1

@@ -18,6 +18,9 @@ class TestOrder(Request):
     filter: str = Field(
         default="", max_length=200, description="Only tests with this in suite.test; * is any text."
     )
+    only: list[str] = Field(
+        default=[], max_length=500, description="Only these tests, as suite.test; empty: all."
+    )
 
 
 class TestFailure(Reply):

@@ -1,4 +1,13 @@
-import { ChevronRight, CircleCheck, CircleMinus, CircleX, FlaskConical, Play, TriangleAlert } from 'lucide-react';
+import {
+  ChevronRight,
+  CircleCheck,
+  CircleMinus,
+  CircleX,
+  FlaskConical,
+  Play,
+  RotateCcw,
+  TriangleAlert,
+} from 'lucide-react';
 import { useMemo, useState, type KeyboardEvent } from 'react';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary, TestFailure } from '@/api/types';
@@ -63,6 +72,15 @@ export default function TestsPanel() {
     <div className={styles.view}>
       <div className={styles.bar}>
         {report && run}
+        {report && (
+          <Button
+            icon={RotateCcw}
+            onClick={() => void runCommand('build.runFailedTests')}
+            disabledReason={busy ? busy.text : report.failed + report.error === 0 ? t('tests.noneFailed') : null}
+          >
+            {t('tests.runFailed')}
+          </Button>
+        )}
         <TextInput
           className={styles.filter}
           value={filter}

@@ -1,10 +1,12 @@
 /** The results of unit tests and the command that runs them. */
-import { FlaskConical } from 'lucide-react';
+import { FlaskConical, RotateCcw } from 'lucide-react';
 import { lazy } from 'react';
 import { registerCommands } from '../commands';
 import { registerPanel } from '../panels';
 import { allOf, atLeast } from '../rights';
-import { runTests } from './store';
+import type { CommandContext } from '../context';
+import { namesOfBad } from './model';
+import { lastRunOf, runFailedTests, runTests } from './store';
 
 registerPanel({
   id: 'tests',
@@ -15,18 +17,31 @@ registerPanel({
   order: 30,
 });
 
+const runnable = (context: CommandContext) =>
+  allOf(
+    !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication',
+    atLeast(context.role, 'engineer') ? true : 'reason.engineer',
+    context.busy ? 'reason.busy' : true,
+  );
+
 registerCommands([
   {
     id: 'build.runTests',
     title: 'tests.run',
     icon: FlaskConical,
     menu: { menu: 'build', group: '3_tests' },
-    enabled: (context) =>
-      allOf(
-        !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication',
-        atLeast(context.role, 'engineer') ? true : 'reason.engineer',
-        context.busy ? 'reason.busy' : true,
-      ),
+    enabled: runnable,
     run: runTests,
+  },
+  {
+    id: 'build.runFailedTests',
+    title: 'tests.runFailed',
+    icon: RotateCcw,
+    menu: { menu: 'build', group: '3_tests' },
+    enabled: (context) => {
+      const last = lastRunOf(context.projectId);
+      return allOf(runnable(context), last && namesOfBad(last.report).length > 0 ? true : 'tests.noneFailed');
+    },
+    run: runFailedTests,
   },
 ]);

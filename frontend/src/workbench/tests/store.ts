@@ -8,6 +8,7 @@ import { saveEditors } from '../docking/close';
 import { showPanel } from '../docking/dock';
 import { buildFinished } from '../messages/store';
 import { useProject } from '../project';
+import { namesOfBad, withOthers } from './model';
 
 interface Run {
   projectId: string;
@@ -28,7 +29,23 @@ export function setFilter(filter: string): void {
 }
 
 /** Saves what is open and runs the tests of the active application; the results panel shows what came of it. */
-export async function runTests(context: CommandContext): Promise<void> {
+export function runTests(context: CommandContext): Promise<void> {
+  return run(context, []);
+}
+
+/** Runs the tests again that were not good; the others keep their results. */
+export function runFailedTests(context: CommandContext): Promise<void> {
+  const last = lastRunOf(context.projectId);
+  return last ? run(context, namesOfBad(last.report)) : Promise.resolve();
+}
+
+/** The last run of a project. */
+export function lastRunOf(projectId: string | null): Run | null {
+  const { last } = useTests.getState();
+  return last && last.projectId === projectId ? last : null;
+}
+
+async function run(context: CommandContext, only: readonly string[]): Promise<void> {
   const { projectId, applicationId } = context;
   if (!projectId || !applicationId || !(await saveEditors(context.dirtyPanels))) return;
   showPanel('tests', false);
@@ -37,7 +54,10 @@ export async function runTests(context: CommandContext): Promise<void> {
   useProject.setState({ busy: { text: t('tests.running'), cancel } });
   const begun = performance.now();
   try {
-    const report = await api.post<TestReport>(path, { filter: useTests.getState().filter });
+    const before = lastRunOf(projectId)?.report;
+    const filter = only.length > 0 ? '' : useTests.getState().filter;
+    const now = await api.post<TestReport>(path, { filter, only });
+    const report = before && only.length > 0 ? withOthers(before, now, only) : now;
     const seconds = (performance.now() - begun) / 1000;
     useTests.setState({ last: { projectId, applicationId, report, seconds } });
     if (report.diagnostics.length > 0) showErrors(applicationId, report, seconds);
