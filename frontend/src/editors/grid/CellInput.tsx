@@ -7,6 +7,8 @@ import { useProposals, type Proposal, type Propose } from './useProposals';
 export interface CellInputHandle {
   /** Shows what may stand at the caret. */
   suggest: () => void;
+  /** What is typed so far. */
+  text: () => string;
 }
 
 interface CellInputProps {
@@ -42,7 +44,7 @@ export function CellInput(props: CellInputProps) {
   const floating = useRef<HTMLDivElement>(null);
   const proposals = useProposals(props.propose);
   const caret = () => field.current?.selectionEnd ?? text.length;
-  useImperativeHandle(props.handle, () => ({ suggest: () => proposals.ask(text, caret(), true) }));
+  useImperativeHandle(props.handle, () => ({ suggest: () => proposals.ask(text, caret(), true), text: () => text }));
 
   useEffect(() => {
     const input = field.current;

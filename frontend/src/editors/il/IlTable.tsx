@@ -156,6 +156,7 @@ export function IlTable(props: IlTableProps) {
     return (
       <RowValues
         values={values.get(row) ?? NO_VALUES}
+        operand={operandName(rows[row])}
         runtimeId={runtimeId}
         lost={monitored.settings?.lost ?? false}
         stale={stale}
@@ -219,7 +220,7 @@ export function IlTable(props: IlTableProps) {
                   )
             }
             onEdit={acts.edit}
-            editOnClick
+            editOnClick={!locked}
             onKey={onKey}
             onEmptyClick={selection.clear}
             onRange={(first, last) =>

@@ -133,21 +133,21 @@ export function useIlActs(input: ActsInput) {
   const assist = async () => {
     const cursor = editing ?? selection.cursor;
     const row = cursor && rows[cursor.row];
-    const of = row && editedColumn(row, columns[cursor.column]?.id);
+    const of = editing?.of ?? (row && editedColumn(row, columns[cursor.column]?.id));
     if (cursor === null || row == null || of == null) return;
     if (of === 'comment') {
       edit(cursor);
       return;
     }
+    const present = (editing === null ? null : input.openCell.current?.text()) ?? cellText(row, of);
     setEditing(null);
-    const typed = /[\p{L}\p{N}_]*$/u.exec(cellText(row, of))?.[0] ?? '';
+    const typed = /[\p{L}\p{N}_]*$/u.exec(present)?.[0] ?? '';
     const chosenText = await openDialog<string>((close) =>
       createElement(InputAssistant, { projectId: input.projectId, object: input.object, typed, close }),
     );
     input.focus();
     if (chosenText === undefined) return;
     change(() => {
-      const present = cellText(row, of);
       const content = present.slice(0, present.length - typed.length) + chosenText;
       replace(setCell(model.getValue(), cursor.row, of, content));
     });

@@ -79,6 +79,8 @@ export function usesByRow(text: string, rows: readonly IlRow[]): ReadonlyMap<num
 
 interface RowValuesProps {
   values: readonly RowValue[];
+  /** The value of the whole operand needs no name beside it. */
+  operand: string;
   runtimeId: string;
   lost: boolean;
   /** The row is not the one that runs. */
@@ -87,11 +89,13 @@ interface RowValuesProps {
 }
 
 /** Value, force mark and prepared value of each variable of a row. */
-export function RowValues({ values, ...rest }: RowValuesProps) {
-  return values.map((value) => <OneValue key={value.expression} value={value} named={values.length > 1} {...rest} />);
+export function RowValues({ values, operand, ...rest }: RowValuesProps) {
+  return values.map((value) => (
+    <OneValue key={value.expression} value={value} named={values.length > 1 && value.name !== operand} {...rest} />
+  ));
 }
 
-type OneValueProps = Omit<RowValuesProps, 'values'> & { value: RowValue; named: boolean };
+type OneValueProps = Omit<RowValuesProps, 'values' | 'operand'> & { value: RowValue; named: boolean };
 
 function OneValue({ value, named, runtimeId, lost, stale, onPrepare }: OneValueProps) {
   const t = useText();

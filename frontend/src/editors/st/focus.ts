@@ -77,7 +77,9 @@ export function panelEditorOf(panelId: string, part: Part): CodeEditor | null {
 
 /** A table has the focus: undo and redo are its affair until a text editor is entered; null when it goes away. */
 export function setPanelTable(panelId: string, table: PanelTable | null): void {
-  panelOf(panelId).table = table;
+  const panel = panelOf(panelId);
+  panel.table = table;
+  if (table === null && Object.keys(panel.editors).length === 0) panels.delete(panelId);
 }
 
 export function panelTable(panelId: string): PanelTable | null {
