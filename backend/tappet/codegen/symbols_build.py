@@ -18,6 +18,7 @@ from tappet.core.lower import DataObject as ProgramData
 from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.monitored import SHOWN
 from tappet.lang.analysis.result import ConfiguredAddress
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Kind
@@ -98,7 +99,9 @@ class TypeTable:
             kind = "program" if type_.program else "fb"
         pou = type_.pou if isinstance(type_, t.FunctionBlock) else None
         locals_hidden = pou is not None and attribute_value(pou.attributes, "hide_all_locals") is not None
-        members = tuple(self.member(m, locals_hidden and m.section == "VAR") for m in type_.members.values())
+        found = [self.member(m, locals_hidden and m.section == "VAR") for m in type_.members.values()]
+        # a derived block watches its own property, not that of the base
+        members = tuple({m.name.upper(): m for m in found}.values())
         return TypeInfo(str(type_), kind, type_.size, members=members)
 
     def member(self, m: t.Member, out_of_sight: bool = False) -> MemberInfo:
@@ -107,7 +110,10 @@ class TypeTable:
         flags = set(m.flags) | marks(m.decl)
         if out_of_sight or m.name.upper() == VFTABLE:
             flags.add("HIDDEN")
-        return MemberInfo(m.name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
+        name = m.name
+        if m.decl is not None and m.decl.attributes:
+            name = attribute_value(m.decl.attributes, SHOWN) or name
+        return MemberInfo(name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
 
 
 def hidden(decl: ast.VarDecl | None) -> bool:

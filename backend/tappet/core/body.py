@@ -55,6 +55,8 @@ class Body:
         scope = source.scope if source is not None else Scope.APPLICATION
         self.checks = scope is not Scope.LIBRARY
         """Whether implicit check functions apply: to sources of the application, not to libraries."""
+        self.leave: Callable[[], None] | None = None
+        """Emits what is done wherever the body is left."""
         self.writing = False
         """Whether the place that is being worked out is written to; CheckPointer is told."""
         self.temporaries = 0

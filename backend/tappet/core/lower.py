@@ -9,7 +9,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tappet.core import addressed, assign, builtins, calls, conversions, initial, ir, places, properties
+from tappet.core import (
+    addressed,
+    assign,
+    builtins,
+    calls,
+    conversions,
+    initial,
+    ir,
+    monitored,
+    places,
+    properties,
+)
 from tappet.core.body import Body
 from tappet.core.method_tables import number_methods
 from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_value, data_symbol, export_name
@@ -232,7 +243,10 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
     _parameters(b, pou)
     _locals(b, pou)
     assert pou.pou is not None
+    b.leave = monitored.keeper(b, pou)
     lower_statements(b, pou.pou.body)
+    if b.leave is not None:
+        b.leave()
     copies = _input_copies(b)
     function.body = [*copies, *b.entry, *b.out]
     program.module.functions[function.name] = function

@@ -140,6 +140,8 @@ def _continue(b: Body, s: ast.Continue) -> None:
 
 
 def _return(b: Body, s: ast.Return) -> None:
+    if b.leave is not None:
+        b.leave()
     b.emit(ir.Return())
 
 

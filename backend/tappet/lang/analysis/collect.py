@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Session
+from tappet.lang.analysis.monitored import keeping_variable
 from tappet.lang.analysis.scope import Level, describe
 from tappet.lang.analysis.type_conversions import is_conversion
 from tappet.lang.any_type import ANY_TYPES, TYPE_CLASS_SYMBOL
@@ -187,6 +188,9 @@ def _property(
     symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
     check_name(session, property_.name, source, property_.name_span)
     owner.properties[key] = symbol
+    kept = keeping_variable(owner, property_, source)
+    if kept is not None:
+        found.own[id(owner)].variables[kept.name.upper()] = kept
     for accessor, prefix in ((property_.getter, "__get"), (property_.setter, "__set")):
         if accessor is None:
             continue
