@@ -234,6 +234,10 @@ class PlaceEmitter:
         number = self.value(f"sub {wrapping}i64 {index}, {sub.low}") if sub.low else index
         if sub.checked:
             outside = self.value(f"icmp uge i64 {number}, {sub.high - sub.low + 1}")
+            t = sub.index.type
+            if sub.low < 0 and t.bits == 64 and not t.signed and not isinstance(sub.index, ir.Const):
+                beyond = self.value(f"icmp slt i64 {index}, 0")  # it would wrap to where the array is
+                outside = self.value(f"or i1 {outside}, {beyond}")
             self.fault_if(outside, Fault.ARRAY_BOUNDS, [index, str(sub.low), str(sub.high)])
         return number
 

@@ -176,10 +176,14 @@ def _open_element(b: Body, e: ast.Index, type_: t.Array) -> ir.Place:
         high = ir.Load(ir.I64, at(descriptor, 16 + 16 * number))
         local = b.temp(ir.I64)
         position = ir.Load(ir.I64, ir.Place(local))
-        before.append(ir.Store(ir.Place(local), convert(b.value(index), ir.I64)))
-        outside = ir.ShortCircuit(
+        value = b.value(index)
+        before.append(ir.Store(ir.Place(local), convert(value, ir.I64)))
+        outside: ir.Expr = ir.ShortCircuit(
             ir.BOOL, "or", ir.Compare(ir.BOOL, "lt", position, low), ir.Compare(ir.BOOL, "gt", position, high)
         )
+        if value.type == ir.U64:  # above the largest LINT, where a lower bound may be negative
+            beyond = ir.Compare(ir.BOOL, "lt", position, ir.Const(ir.I64, 0))
+            outside = ir.ShortCircuit(ir.BOOL, "or", beyond, outside)
         before.append(ir.FaultIf(outside, FAULT_BOUNDS, [position, low, high]))
         extent = ir.Binary(ir.I64, "add", ir.Binary(ir.I64, "sub", high, low), ir.Const(ir.I64, 1))
         flat = ir.Binary(
@@ -248,13 +252,14 @@ def freeze(b: Body, place: ir.Place, out: list[ir.Stmt]) -> ir.Place:
         base = ir.Indirect(ir.Load(ir.PTR, ir.Place(local)), base.align)
     subs = []
     for sub in place.subscripts:
-        local = b.temp(ir.I64)
-        out.append(ir.Store(ir.Place(local), convert(sub.index, ir.I64)))
-        index = ir.Load(ir.I64, ir.Place(local))
+        kind = ir.U64 if sub.index.type == ir.U64 else ir.I64
+        local = b.temp(kind)
+        out.append(ir.Store(ir.Place(local), convert(sub.index, kind)))
+        index = ir.Load(kind, ir.Place(local))
         if sub.checked:
             out.append(ir.CheckIndex(ir.Subscript(index, sub.low, sub.high, sub.stride)))
         subs.append(
-            ir.Subscript(ir.Load(ir.I64, ir.Place(local)), sub.low, sub.high, sub.stride, checked=False)
+            ir.Subscript(ir.Load(kind, ir.Place(local)), sub.low, sub.high, sub.stride, checked=False)
         )
     if base is place.base and not subs:
         return place
