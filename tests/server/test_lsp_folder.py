@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from lsp_client import Client
 
+from tappet.project import edit, folder
+from tappet.project.templates import new_project
 from tappet.server.lsp.folder_programs import FolderPrograms, canonical_uri, file_uri
 from tappet.server.lsp.stdio import FrameError, frame, read_message
 
@@ -175,3 +177,19 @@ async def test_the_process_an_editor_starts(tmp_path: Path) -> None:
     assert await asyncio.wait_for(process.wait(), 30) == 0
     assert process.stderr is not None
     assert await process.stderr.read() == b""
+
+
+def test_what_a_project_folder_excludes_and_its_coding_rules_count(tmp_path: Path) -> None:
+    project = new_project("Press")
+    application = project.applications()[0]
+    chosen = {"static_analysis": {"rules": {"S1211": "error"}, "limits": {"nesting": 2}}}
+    project = edit.change_data(project, application.id, chosen)
+    project, old = edit.add_object(project, application.id, "pou", "Old", subkind="function_block")
+    project, _ = edit.add_object(project, old.id, "method", "Start")
+    project = edit.exclude_object(project, old.id, True)
+    folder.save(project, tmp_path)
+    (program,) = FolderPrograms(tmp_path)({})
+    own = [text.source.name for text in program.texts if not text.read_only]
+    assert own == ["PLC_PRG"]
+    assert program.static.errors == {"S1211"}
+    assert program.static.settings.nesting == 2

@@ -79,6 +79,7 @@ def test_the_tree(admin: TestClient, press: str) -> None:
         "index": 1,
         "revision": 1,
         "badges": [],
+        "excluded": False,
     }
     task = admin.get(f"{press}/objects/{found['MainTask']['id']}").json()
     assert task["data"]["pous"] == [{"name": "PLC_PRG", "comment": ""}]

@@ -12,8 +12,13 @@ from pathlib import Path
 from urllib.parse import quote, unquote, urlsplit
 
 from tappet import libraries
+from tappet.lang.coding_settings import NO_RULES, StaticAnalysis, static_analysis
 from tappet.lang.services.documents import Program, Segment, Text, library_text, whole_file
 from tappet.lang.source import Scope, Source, split_lines
+from tappet.project.data import ApplicationData
+from tappet.project.errors import FolderFormatError
+from tappet.project.folder.filenames import stem_of
+from tappet.project.folder.layout import INDEX_FILE, read_index
 
 MAX_FILES = 20_000
 """A folder with more is not a project but, say, a home folder."""
@@ -46,7 +51,8 @@ class FolderPrograms:
 
     def __call__(self, unsaved: Mapping[str, str]) -> list[Program]:
         """One program per application; files in no application count as one."""
-        files = dict(self._files(unsaved))
+        left_out = _LeftOut(self.root)
+        files = {path: text for path, text in self._files(unsaved) if not left_out(path)}
         groups: dict[str, list[Path]] = {}
         shared: list[Path] = []
         for path in files:
@@ -64,7 +70,8 @@ class FolderPrograms:
         programs = []
         for name, paths in groups.items():
             texts = [*self._texts(files, paths, Scope.APPLICATION), *self._texts(files, shared, Scope.POUS)]
-            programs.append(Program(name, [*texts, *standard], tasks=self._tasks(paths)))
+            program = Program(name, [*texts, *standard], self._tasks(paths), static=self._static(name))
+            programs.append(program)
         return programs
 
     def _files(self, unsaved: Mapping[str, str]) -> Iterator[tuple[Path, str]]:
@@ -127,6 +134,17 @@ class FolderPrograms:
         at = parts.index("PLC Logic")
         return "/".join(parts[: at + 2])
 
+    def _static(self, application: str) -> StaticAnalysis:
+        """The coding rules that the application of a project folder has chosen."""
+        path = self.root / f"{application}.application.json"
+        try:
+            chosen = ApplicationData.model_validate_json(path.read_bytes()).static_analysis
+        except (OSError, ValueError):
+            return NO_RULES
+        if not chosen.with_build:
+            return NO_RULES
+        return static_analysis(chosen.rules, chosen.prefixes, chosen.limits)
+
     def _tasks(self, paths: list[Path]) -> list[str]:
         folders = {path.parent / "Task Configuration" for path in paths}
         return sorted(
@@ -149,6 +167,38 @@ class FolderPrograms:
                     str(path), files[path], scope=scope, owner=owner, name=name.rpartition(".")[2]
                 )
                 yield whole_file(file_uri(path), source)
+
+
+class _LeftOut:
+    """Whether a file of a project folder is excluded from the build, itself or with what it is below."""
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+        self._listed: dict[Path, frozenset[str]] = {}
+
+    def __call__(self, path: Path) -> bool:
+        while path != self._root and path != path.parent:
+            stem = path.stem if path.suffix.lower() == ".st" else path.name
+            if stem in self._excluded_in(path.parent):
+                return True
+            path = path.parent
+        return False
+
+    def _excluded_in(self, folder: Path) -> frozenset[str]:
+        """Stems of the files in a folder whose index excludes them."""
+        found = self._listed.get(folder)
+        if found is None:
+            found = self._listed[folder] = frozenset(self._read(folder / INDEX_FILE))
+        return found
+
+    def _read(self, path: Path) -> Iterator[str]:
+        try:
+            entries = read_index(path.name, path.read_bytes())
+        except (OSError, FolderFormatError):
+            return
+        for entry in entries:
+            if (entry.options or {}).get("exclude_from_build") is True:
+                yield stem_of(entry.name)
 
 
 def _is_accessor(path: Path, files: Mapping[Path, str]) -> bool:
