@@ -125,6 +125,12 @@ def test_folding() -> None:
     }
 
 
+def test_a_string_over_lines_is_a_token_on_each() -> None:
+    project = Project(P="PROGRAM P\nVAR s : STRING; END_VAR\ns := 'one\n  two';\nEND_PROGRAM")
+    tokens = [t for t in semantic_tokens(project.snapshot, "P") if t.type == "string"]
+    assert [t[:3] for t in tokens] == [(2, 5, 4), (3, 0, 6)]
+
+
 def test_semantic_tokens_name_what_each_word_is() -> None:
     project = Project(
         P="PROGRAM P\nVAR\n  m : FB; e : E := On; i : INT; s : S; t : TON;\nEND_VAR\n"

@@ -123,6 +123,12 @@ def test_what_can_be_chosen(style: Style, expected: str) -> None:
     assert format_text("If a AND NOT_ME then b:=c+d( 1 , -2 );End_if", style) == expected
 
 
+def test_lines_of_a_string_over_lines_stay() -> None:
+    text = "PROGRAM P\nVAR s : STRING; END_VAR\ns:='one\n  two' ;\ns:= s;\nEND_PROGRAM\n"
+    expected = "PROGRAM P\nVAR s : STRING; END_VAR\ns:='one\n  two' ;\ns := s;\nEND_PROGRAM\n"
+    assert format_text(text) == expected
+
+
 def test_edits_are_the_lines_that_change() -> None:
     (edit,) = formatting("doc", "a := 1;\nb:=2;\nc := 3;")
     assert (edit.place.document, edit.place.span, edit.text) == ("doc", (1, 0, 1, 5), "b := 2;")

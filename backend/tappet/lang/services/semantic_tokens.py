@@ -92,7 +92,7 @@ def semantic_tokens(snapshot: Snapshot, document: str) -> list[SemanticToken]:
             continue
         type_, modifiers = _classify(kind, text, names.get((line, column)))
         if type_:
-            found.append((span, type_, modifiers))
+            found += [(part, type_, modifiers) for part in _by_line(span, text)]
     shift = view.text.place(Span(first, 0, first, 0)).span.line - first
     tokens = [
         SemanticToken(span.line + shift, span.column, span.end_column - span.column, type_, modifiers)
@@ -104,7 +104,7 @@ def semantic_tokens(snapshot: Snapshot, document: str) -> list[SemanticToken]:
 
 
 def _by_line(span: Span, text: str) -> list[Span]:
-    """A comment over several lines in pieces of one line."""
+    """A comment or string over several lines in pieces of one line."""
     pieces = split_lines(text)
     found = []
     for number, piece in enumerate(pieces):
