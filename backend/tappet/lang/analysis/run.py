@@ -10,7 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from tappet.lang import ast
-from tappet.lang.analysis import calls, intrinsics, layout, members, program, selection
+from tappet.lang.analysis import (
+    calls,
+    conditional_calls,
+    intrinsics,
+    layout,
+    members,
+    program,
+    selection,
+)
 from tappet.lang.analysis.bodies import Record, State, analyse_body, finish, with_children
 from tappet.lang.analysis.collect import Collected, collect
 from tappet.lang.analysis.context import Body, Session
@@ -24,7 +32,7 @@ from tappet.lang.sfc.library import with_types
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
-REGISTERED = (calls, members, intrinsics, selection)
+REGISTERED = (calls, conditional_calls, members, intrinsics, selection)
 """Modules that enter their handlers into the tables when they are imported."""
 _DEFAULT_SLOT = 50000
 

@@ -317,6 +317,8 @@ class _Reader(RowReader):
             return
         accumulator = None
         if net.level.value is not None and name.upper() not in WITHOUT_OPERAND:
+            if name.upper().endswith("CN"):
+                net.settle(True)  # the condition, and what stays when nothing is called (IL-52)
             accumulator = self.taken()
         if p.kinds[p.i] == "(" and same_row:
             operands = self.deferred(None, callee, start)
