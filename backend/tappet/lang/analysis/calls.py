@@ -36,7 +36,7 @@ def _resolve(b: Body, e: ast.Call) -> None:
     callee = e.callee
     if callee.__class__ is ast.Name and not callee.leading_dot:
         key = callee.name.upper()
-        symbol = b.locals.get(key) or b.names.get(key)
+        symbol = b.locals.get(key) or b.values.get(key) or b.names.get(key)
         if symbol is None:
             resolve = find_operator(key)
             if resolve is not None:

@@ -82,6 +82,7 @@ class Body:
         "source",
         "unreadable",
         "uri",
+        "values",
     )  # fmt: skip
 
     def __init__(
@@ -93,6 +94,8 @@ class Body:
         self.pou = pou
         self.locals = visible
         self.names = session.levels.seen_by(source)
+        self.values = session.levels.values_seen_by(source)
+        """Of the names of types: what they mean where a value stands."""
         self.loops = 0
         self.labels: dict[str, Span] = {}
         self.jumps: list[ast.Jump] = []
@@ -117,9 +120,9 @@ class Body:
             self.report("W1203", span, text=text or "This is obsolete")
 
     def lookup(self, name: str) -> Symbol | None:
-        """What a plain name means here."""
+        """What a plain name means here, where a value stands."""
         key = name.upper()
-        return self.locals.get(key) or self.names.get(key)
+        return self.locals.get(key) or self.values.get(key) or self.names.get(key)
 
     def suggest(self, name: str, *tables: Iterable[tuple[str, Symbol]]) -> str:
         """Advice with the closest name of the tables, by default of all that is visible here."""

@@ -177,7 +177,7 @@ def _name(b: Body, e: ast.Name) -> None:
     key = e.name.upper()
     symbol: Symbol | None = None if e.leading_dot else b.locals.get(key)
     if symbol is None:
-        symbol = b.names.get(key)
+        symbol = b.values.get(key) or b.names.get(key)
         if symbol is None:
             e.untyped = e.is_constant = False
             e.type = e.constant = e.symbol = None

@@ -271,7 +271,7 @@ class _Views:
 
     def _external(self, pou: PouSymbol, body: Body, variable: VarSymbol) -> None:
         key = variable.name.upper()
-        target = body.names.get(key)
+        target = body.values.get(key) or body.names.get(key)
         span = variable.span
         assert span is not None
         if isinstance(target, VarSymbol):

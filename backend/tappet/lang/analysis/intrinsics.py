@@ -53,7 +53,8 @@ def _sizeof(b: Body, e: ast.Call, name: str) -> None:
     operand = _only_argument(b, e, name)
     if operand is None:
         return
-    type_ = named_type(b, operand)
+    variable = isinstance(operand, ast.Name) and isinstance(b.lookup(operand.name), VarSymbol)
+    type_ = None if variable else named_type(b, operand)
     if type_ is None:
         type_ = evaluate(b, operand)
         symbol = getattr(operand, "symbol", None)

@@ -35,7 +35,7 @@ def _member(b: Body, e: ast.Member) -> None:
     base = e.base
     if base.__class__ is ast.Call:
         value(b, base)
-    else:
+    elif not _names_enumeration(b, e):
         evaluate(b, base)
     e.bit = e.symbol = e.type = e.constant = None
     e.is_constant = e.untyped = False
@@ -51,6 +51,23 @@ def _member(b: Body, e: ast.Member) -> None:
         b.report("E0204", e.name_span, name=e.name, type=type_, hint="")
     else:
         handler(b, e, type_)
+
+
+def _names_enumeration(b: Body, e: ast.Member) -> bool:
+    """Whether `Type.Value` is meant although a global variable has the name of the type, too."""
+    base = e.base
+    if not b.values or not isinstance(base, ast.Name):
+        return False
+    key = base.name.upper()
+    symbol = b.names.get(key)
+    if key not in b.values or key in b.locals or not isinstance(symbol, TypeSymbol):
+        return False
+    if symbol.type is None:
+        b.session.resolve(symbol)
+    if not isinstance(symbol.type, t.Enum) or e.name.upper() not in {n.upper() for n in symbol.type.values}:
+        return False
+    resolve_object(b, base, symbol)
+    return True
 
 
 def _member_of_struct(b: Body, e: ast.Member, type_: t.Struct) -> None:
@@ -204,7 +221,7 @@ def _bit(b: Body, e: ast.Member, type_: Elementary) -> None:
     if name.isdigit():
         number = int(name)
     else:
-        symbol = b.locals.get(name.upper()) or b.names.get(name.upper())
+        symbol = b.lookup(name)
         if isinstance(symbol, VarSymbol):
             if symbol.type is None:
                 b.session.resolve(symbol)

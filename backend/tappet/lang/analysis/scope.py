@@ -10,6 +10,7 @@ from tappet.lang.source import Scope, Source
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
+    InterfaceSymbol,
     NamespaceSymbol,
     PouSymbol,
     Symbol,
@@ -48,6 +49,8 @@ class Level:
     gvls: list[GvlSymbol] = field(default_factory=list)
     enum_values: list[tuple[str, bool, EnumValueSymbol]] = field(default_factory=list)
     """(type name, qualified_only, value)"""
+    values: dict[str, Symbol] = field(default_factory=dict)
+    """Global variables and enumeration values named as a type, which hides them in `names`."""
 
     def names(self) -> dict[str, Symbol]:
         """Everything visible by its plain name: objects hide global variables and enumeration values."""
@@ -58,6 +61,10 @@ class Level:
                 self._add(found, origin, key, member, gvl.name, gvl.qualified_only)
         for type_name, qualified, value in self.enum_values:
             self._add(found, origin, value.name.upper(), value, type_name, qualified)
+        for key, symbol in self.objects.items():
+            hidden = found.get(key)
+            if isinstance(hidden, (VarSymbol, EnumValueSymbol)) and is_type(symbol):
+                self.values[key] = hidden
         found.update(self.objects)
         return found
 
@@ -94,6 +101,7 @@ class Levels:
     system: dict[str, Symbol] = field(default_factory=dict)
     """Names every text sees last, such as `__SYSTEM`."""
     _tables: dict[str, dict[str, Symbol]] = field(default_factory=dict)
+    _values: dict[str, dict[str, Symbol]] = field(default_factory=dict)
     _namespaces: dict[str, NamespaceSymbol] = field(default_factory=dict)
 
     def of(self, source: Source) -> Level:
@@ -111,23 +119,36 @@ class Levels:
 
     def seen_by(self, source: Source) -> dict[str, Symbol]:
         """What a text of this source sees by plain name, own locals excepted. Valid once all is collected."""
-        if source.scope is Scope.LIBRARY:
-            key = f"L {(source.namespace or source.library or 'Library').upper()}"
-        else:
-            key = source.scope.value
+        key = self._key(source)
         table = self._tables.get(key)
         if table is None:
             table = dict(self._library_names())
+            values = self._values.setdefault(key, {})
             if source.scope is Scope.LIBRARY:
                 own = self.of(source)
                 table.update(self._used_names(own))
                 table.update(own.names())
+                values.update(own.values)
             else:
                 table.update(self.pous.names())
+                values.update(self.pous.values)
                 if source.scope is Scope.APPLICATION:
                     table.update(_without_qualified(self.application.names(), table))
+                    values.update(self.application.values)
+            for name in [n for n in values if not is_type(table[n])]:
+                del values[name]
             self._tables[key] = table
         return table
+
+    def values_seen_by(self, source: Source) -> dict[str, Symbol]:
+        """Variables and enumeration values with the name of a type: where a value stands, they are meant."""
+        self.seen_by(source)
+        return self._values[self._key(source)]
+
+    def _key(self, source: Source) -> str:
+        if source.scope is Scope.LIBRARY:
+            return f"L {(source.namespace or source.library or 'Library').upper()}"
+        return source.scope.value
 
     def _used_names(self, level: Level) -> dict[str, Symbol]:
         """What a library sees of those it needs: these versions, also where the application has others."""
@@ -176,6 +197,13 @@ class Levels:
                         table[key] = AmbiguousSymbol(symbol.name, choices=[*choices, choice])
             self._tables["libraries"] = table
         return table
+
+
+def is_type(symbol: Symbol) -> bool:
+    """Whether a name stands for a data type, a function block or an interface: for no value."""
+    if isinstance(symbol, PouSymbol):
+        return symbol.kind == "FUNCTION_BLOCK"
+    return isinstance(symbol, (TypeSymbol, InterfaceSymbol))
 
 
 def _without_qualified(names: dict[str, Symbol], outer: dict[str, Symbol]) -> dict[str, Symbol]:
