@@ -375,7 +375,7 @@ def test_operator_overloads(body: str, parameters: tuple[t.Type | None, ...], re
         ("re := SIN(b);", "E0303"),
         ("p := ADR(i + 1);", "E0323"),
         ("p := ADR(i.3);", "E0323"),
-        ("b := __ISVALIDREF(i);", "E0320"),
+        ("b := __ISVALIDREF(i);", "E0323"),
         ("i := BYTE_TO_INT(str);", "E0301"),
         ("i := __FENCE();", "E0518"),
         ("MAX := 3;", "E0201"),
