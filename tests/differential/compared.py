@@ -9,11 +9,12 @@ import write_st
 from arithmetic import Fault, same
 from typed_tree import Program, base_of
 
-from tappet.codegen.build import BuildOptions, BuildSession, build_application
+from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
 from tappet.codegen.jit import ApplicationFault, LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()
+LIBRARIES = (LibraryReference("Standard"), LibraryReference("Standard64"))
 
 
 class RefusedError(AssertionError):
@@ -23,7 +24,8 @@ class RefusedError(AssertionError):
 def compiled(program: Program, level: int) -> tuple[dict[str, Any], str | None]:
     """Values by path after the cycles, and the fault that ended the program."""
     text = write_st.program(program)
-    result = build_application([Source("a.st", text)], (), BuildOptions(level=level), session=SESSION)
+    options = BuildOptions(level=level, libraries=LIBRARIES)
+    result = build_application([Source("a.st", text)], (), options, session=SESSION)
     errors = [f"{d.span.line + 1}: {d.code} {d.message}" for d in result.diagnostics if d.severity == "error"]
     if result.package is None:
         raise RefusedError("\n".join([*errors, text]))

@@ -34,11 +34,8 @@ from typed_tree import (
     Type,
     Unary,
     base_of,
-    bit_type,
-    common,
-    comparable,
-    meet,
 )
+from typing_rules import bit_type, common, comparable, meet
 
 COMPARISONS = ("=", "<>", "<", ">", "<=", ">=")
 CLOCKS = (TIME, LTIME, DATE, DT, TOD, LDT)
@@ -49,7 +46,7 @@ BITS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in INTEGERS}
 for _left in NUMBERS:
     for _right in NUMBERS:
         MEETINGS[meet(_left, _right)[0]].append((_left, _right))
-        COMMONS[common(_left, _right)].append((_left, _right))
+        COMMONS[meet(_left, _right)[0]].append((_left, _right))
         if _left.integer and _right.integer:
             BITS[bit_type(_left, _right)].append((_left, _right))
 
@@ -99,7 +96,11 @@ class Maker(Leaves):
             operand = self.moving(self.r.choice(REALS), depth - 1)
             return Builtin(DINT, DINT, False, "TRUNC", [operand], [base_of(operand.type)])
         if choice < 95 and self.texts and type_ == INT:
-            return Builtin(INT, INT, False, "LEN", [self.moving_text(depth - 1)], [Text(255)])
+            long = Text(255, self.chance(30))
+            if self.chance(50):
+                return Builtin(INT, INT, False, wide_name("LEN", long), [self.moving_text(long, 0)], [long])
+            args = [self.moving_text(long, depth - 1), self.expr(Text(20, long.wide), depth - 1)]
+            return Builtin(INT, INT, False, wide_name("FIND", long), args, [long, long])
         return self._shift(type_, depth)
 
     def _arithmetic(self, type_: Scalar, depth: int) -> Expr:
@@ -178,10 +179,11 @@ class Maker(Leaves):
         name = self.r.choice(("MIN", "MAX", "LIMIT"))
         if name == "LIMIT" or self.chance(50) or not COMMONS[type_]:
             count = 3 if name == "LIMIT" else 2
-            args = [self.expr(type_, depth - 1) for _ in range(count)]
+            args, carried = [self.expr(type_, depth - 1) for _ in range(count)], type_
         else:
-            args = [self.moving(t, depth - 1) for t in self.r.choice(COMMONS[type_])]
-        return Builtin(type_, type_, all(a.constant for a in args), name, args, [type_] * len(args))
+            pair = self.r.choice(COMMONS[type_])
+            args, carried = [self.moving(t, depth - 1) for t in pair], common(*pair)
+        return Builtin(type_, carried, all(a.constant for a in args), name, args, [carried] * len(args))
 
     def selection(self, type_: Type, depth: int) -> Expr:
         held = base_of(type_)
@@ -235,9 +237,10 @@ class Maker(Leaves):
         op = self.r.choice(COMPARISONS)
         choice = self.r.randrange(100)
         if choice < 10 and self.texts:
-            left, right = self.moving_text(depth - 1), self.moving_text(depth - 1)
+            long = Text(255, self.chance(30))
+            left, right = self.moving_text(long, depth - 1), self.moving_text(long, depth - 1)
             constant = left.constant and right.constant
-            return Binary(BOOL, BOOL, constant, op, left, right, Text(255))  # type: ignore[arg-type]
+            return Binary(BOOL, BOOL, constant, op, left, right, long)  # type: ignore[arg-type]
         if choice < 20:
             clock = self.r.choice(CLOCKS)
             left, right = self.moving(clock, depth - 1), self.expr(clock, depth - 1)
@@ -287,27 +290,50 @@ class Maker(Leaves):
         date = LDT if type_ == LTIME else self.r.choice((DT, TOD, DATE))
         return self.clock(type_, "-", self.moving(date, depth - 1), self.moving(date, depth - 1))
 
-    def moving_text(self, depth: int) -> Expr:
-        found = self.places(lambda t: isinstance(t, Text))
-        return self.filled(self.r.choice(found), 0) if found else self.literal(Text(20))
+    def moving_text(self, type_: Text, depth: int) -> Expr:
+        found = self.places(lambda t: isinstance(t, Text) and t.wide == type_.wide)
+        return self.filled(self.r.choice(found), depth) if found else self.literal(Text(20, type_.wide))
+
+    def position(self, depth: int) -> Expr:
+        """A position or a length: small, sometimes anything."""
+        if self.chance(75):
+            return self.literal(INT, self.r.choice([-2, -1, 0, 0, 1, 1, 2, 3, 4, 6, 9, 32767]))
+        return self.expr(INT, depth - 1)
 
     def _text(self, type_: Text, depth: int) -> Expr:
         choice = self.r.randrange(100)
-        long = Text(255)
-        if choice < 35:
-            return self.moving_text(depth) if self.chance(70) else self.literal(Text(20))
-        if choice < 60:
-            args = [self.expr(type_, depth - 1), self.expr(type_, depth - 1)]
-            return Builtin(long, long, False, "CONCAT", args, [long, long])
-        if choice < 80:
-            count = self.literal(INT, self.r.randint(0, 6))
-            return Builtin(
-                long,
-                long,
-                False,
-                self.r.choice(("LEFT", "RIGHT")),
-                [self.expr(type_, depth - 1), count],
-                [long, INT],
-            )
+        long = Text(255, type_.wide)
+        if choice < 30:
+            literal = self.literal(Text(20, type_.wide))
+            return self.moving_text(type_, depth - 1) if self.chance(70) else literal
+        if choice < 85:
+            name = self.r.choice(tuple(TEXT_FUNCTIONS))
+            args = [
+                self.expr(type_, depth - 1) if kind == "T" else self.position(depth)
+                for kind in TEXT_FUNCTIONS[name]
+            ]
+            taken = [long if kind == "T" else INT for kind in TEXT_FUNCTIONS[name]]
+            return Builtin(long, long, False, wide_name(name, long), args, taken)
+        short = Text(80, type_.wide)
+        if type_.wide and self.chance(40):
+            narrow = self.moving_text(Text(20), depth - 1)
+            return Builtin(short, short, False, "text", [narrow], [Text(80)])
         source = self.r.choice(INTEGERS)
-        return Builtin(Text(80), Text(80), False, "text", [self.moving(source, depth - 1)], [source])
+        return Builtin(short, short, False, "text", [self.moving(source, depth - 1)], [source])
+
+
+TEXT_FUNCTIONS = {
+    "CONCAT": "TT",
+    "LEFT": "TI",
+    "RIGHT": "TI",
+    "MID": "TII",
+    "INSERT": "TTI",
+    "DELETE": "TII",
+    "REPLACE": "TTII",
+}
+"""Arguments that are a text (T) or an integer (I)."""
+
+
+def wide_name(name: str, text: Text) -> str:
+    """The function of the same meaning for WSTRING has a W before its name."""
+    return f"W{name}" if text.wide else name

@@ -22,12 +22,14 @@ from typed_tree import (
     Array,
     Block,
     Builtin,
+    Deref,
     Enum,
     Expr,
     Index,
     Literal,
     Member,
     Name,
+    Pointer,
     Scalar,
     Struct,
     Text,
@@ -39,6 +41,7 @@ from typed_tree import (
 _FLOATS = [0.0, -0.0, 1.0, -1.0, 0.5, 1.5, -2.5, 0.1, 3.0, 100.0, 1e10, 16777217.0, -1e-3, 127.5, 65535.5]
 _SINGLE = [1.1754944e-38, 1.4e-45, 3.4028235e38, -3.4028235e38, 2147483648.0]
 _DOUBLE = [5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, -1e300, 9007199254740993.0, 9.3e18]
+_WIDE = ["", "a", "\u00e4", "\u0162x", "\u4e2d\u6587", "abc", "zz\u25e6", "hello w\u00f6rld"]
 _TEXTS = ["", "a", "A", "abc", "12", "TRUE", "x y", "zz9", "hello world", "0"]
 
 
@@ -67,7 +70,7 @@ class Leaves:
         if isinstance(type_, Enum):
             return r.choice(type_.members)[1]
         if isinstance(type_, Text):
-            return r.choice(_TEXTS)[: type_.length]
+            return r.choice(_WIDE if type_.wide else _TEXTS)[: type_.length]
         if isinstance(type_, tree.Subrange):
             return r.randint(type_.low, type_.high)
         assert isinstance(type_, Scalar)
@@ -118,6 +121,9 @@ class Leaves:
         elif isinstance(e.type, Array):
             element = Index(e.type.element, base_of(e.type.element), False, e, [])
             self._descend(element, wanted, depth - 1, found, writable)
+        elif isinstance(e.type, Pointer) and not isinstance(e.type.target, Block):
+            inner = Deref(e.type.target, base_of(e.type.target), False, e)
+            self._descend(inner, wanted, depth - 1, found, writable)
         elif isinstance(e.type, Block) and not writable:
             for v in e.type.outputs:
                 self._descend(
@@ -128,6 +134,8 @@ class Leaves:
         """A place with the indices its arrays need."""
         if isinstance(e, Member):
             return Member(e.type, e.held, False, self.filled(e.base, depth), e.name)
+        if isinstance(e, Deref):
+            return Deref(e.type, e.held, False, self.filled(e.base, depth))
         if isinstance(e, Index):
             base = self.filled(e.base, depth)
             assert isinstance(base.type, Array)

@@ -14,13 +14,11 @@ from arithmetic import (
     compare,
     convert,
     divide,
-    real,
     round_away,
     saturate,
-    shift,
-    square_root,
     wrap,
 )
+from builtin_functions import FUNCTIONS
 from typed_tree import Array, Block, Enum, Scalar, Struct, Subrange, Text, Type, Variable, base_of
 
 
@@ -34,6 +32,10 @@ class _Continue(Exception):  # noqa: N818
 
 class _Return(Exception):  # noqa: N818
     pass
+
+
+BLOCK = ""
+"""Where an instance tells what it is an instance of."""
 
 
 class TooLong(Exception):  # noqa: N818
@@ -55,7 +57,9 @@ def default(type_: Type) -> Any:
     if isinstance(type_, Struct):
         return {name: default(t) for name, t in type_.members}
     if isinstance(type_, Block):
-        return fresh(type_.members)
+        return {**fresh(type_.members), BLOCK: type_}
+    if isinstance(type_, tree.Pointer | tree.Interface):
+        return None
     return {"bool": False, "real": 0.0}.get(type_.kind, 0)
 
 
@@ -71,6 +75,15 @@ def copied(value: Any) -> Any:
     if isinstance(value, dict):
         return {k: copied(v) for k, v in value.items()}
     return value
+
+
+def overwrite(place: Any, value: Any) -> None:
+    """Puts the parts of an array or structure where they belong: pointers lead to them."""
+    for key in range(len(place)) if isinstance(place, list) else list(place):
+        if isinstance(place[key], list | dict):
+            overwrite(place[key], value[key])
+        else:
+            place[key] = value[key]
 
 
 def stored(value: Any, type_: Type) -> Any:
@@ -101,6 +114,8 @@ class Slot:
         inner = self.holder[self.key]
         if isinstance(inner, Slot):
             inner.write(value, type_)
+        elif isinstance(inner, list | dict):
+            overwrite(inner, copied(value))
         elif self.bit is None:
             self.holder[self.key] = stored(value, type_)
         else:
@@ -109,11 +124,20 @@ class Slot:
             self.holder[self.key] = wrap(cleared | int(bool(value)) << self.bit, base)
 
 
+@dataclass(frozen=True)
+class Address:
+    """Value of a pointer, a reference or an interface."""
+
+    slot: Slot
+
+
 @dataclass
 class Frame:
     """Variables a body sees: its own first, then those of the instance."""
 
     scopes: list[dict[str, Any]]
+    this: dict[str, Any] | None = None
+    """The instance whose code runs."""
 
     def slot(self, name: str) -> Slot:
         for scope in self.scopes:
@@ -207,26 +231,49 @@ class Machine:
         raise {"EXIT": _Exit, "CONTINUE": _Continue, "RETURN": _Return}[s.word]
 
     def _callfunction(self, s: tree.CallFunction, f: Frame) -> None:
-        own = fresh(s.function.locals)
-        scopes = [own]
-        if s.instance is not None:
-            scopes.append(self.place(s.instance, f).read())
-        for variable, value in zip(s.function.inputs, s.inputs, strict=True):
+        this = f.this if s.via else self._instance(s.instance, f)
+        function = s.function
+        if this is not None and s.via != "SUPER":
+            function = this[BLOCK].all_methods[function.name]
+        own = fresh(function.locals)
+        for variable, value in zip(function.inputs, s.inputs, strict=True):
             own[variable.name] = stored(self.value(value, f), variable.type)
-        for variable, target in zip(s.function.in_outs, s.in_outs, strict=True):
+        for variable, target in zip(function.in_outs, s.in_outs, strict=True):
             own[variable.name] = self.place(target, f)
-        own[s.function.name] = default(s.function.result)
-        self._body(s.function.body, Frame(scopes))
-        self.place(s.target, f).write(own[s.function.name], s.target.type)
+        own[function.name] = default(function.result)
+        self._body(function.body, Frame([own] if this is None else [own, this], this))
+        self.place(s.target, f).write(own[function.name], s.target.type)
+
+    def _instance(self, e: Any, f: Frame) -> Any:
+        """The instance a call is for, None for functions."""
+        if e is None:
+            return None
+        found = self.place(e, f).read()
+        if isinstance(e.type, tree.Interface):
+            if found is None:
+                raise Fault("null interface")
+            found = found.slot.read()
+        return found
+
+    def _callbase(self, s: tree.CallBase, f: Frame) -> None:
+        assert f.this is not None
+        self._body(s.block.body, Frame([f.this], f.this))
+
+    def _bind(self, s: tree.Bind, f: Frame) -> None:
+        slot = self.place(s.place, f)
+        while isinstance(slot.holder[slot.key], Slot):
+            slot = slot.holder[slot.key]
+        target = f.slot(s.target.name)
+        target.holder[target.key] = Address(slot)
 
     def _callblock(self, s: tree.CallBlock, f: Frame) -> None:
         instance = self.place(s.instance, f).read()
         block = s.instance.type
         assert isinstance(block, Block)
-        types = {v.name: v.type for v in block.inputs}
+        types = {v.name: v.type for v in block.all_inputs}
         for name, value in s.inputs:  # one by one: a fault leaves those before it
-            instance[name] = stored(self.value(value, f), types[name])
-        self._body(block.body, Frame([instance]))
+            Slot(instance, name).write(self.value(value, f), types[name])
+        self._body(block.body, Frame([instance], instance))
 
     # -- places -------------------------------------------------------------------------------------
 
@@ -235,6 +282,11 @@ class Machine:
             return f.slot(e.name)
         if isinstance(e, tree.Member):
             return Slot(self.place(e.base, f).read(), e.name)
+        if isinstance(e, tree.Deref):
+            address = self.place(e.base, f).read()
+            if address is None:
+                raise Fault("null pointer")
+            return address.slot
         if isinstance(e, tree.Bit):
             slot = self.place(e.base, f)
             while isinstance(slot.holder[slot.key], Slot):
@@ -314,54 +366,4 @@ class Machine:
             number, count = self.value(e.args[0], f), len(e.args) - 1
             return handed(1 + number if 0 <= number < count else count)
         args = [handed(i) for i in range(len(e.args))]
-        return _FUNCTIONS[name](args, e)
-
-
-def _larger(a: Any, b: Any) -> Any:
-    return b if b > a else a
-
-
-def _smaller(a: Any, b: Any) -> Any:
-    return b if b < a else a
-
-
-def _converted(args: list[Any], e: tree.Builtin) -> Any:
-    target = base_of(e.type)
-    source = e.taken[0]
-    value = args[0]
-    if source.unit_ns and target.unit_ns and source != target:
-        day = 86_400_000_000_000 // source.unit_ns
-        if source in (tree.DT, tree.LDT) and target == tree.TOD:
-            value %= day
-        elif source in (tree.DT, tree.LDT) and target == tree.DATE:
-            value -= value % day
-        return wrap(value * source.unit_ns // target.unit_ns, target)
-    return convert(value, target)
-
-
-def _absolute(args: list[Any], e: tree.Builtin) -> Any:
-    held = e.held
-    return abs(args[0]) if held.kind == "real" else wrap(abs(args[0]), held)
-
-
-def _find(args: list[Any], e: tree.Builtin) -> int:
-    return args[0].find(args[1]) + 1 if args[1] else 0
-
-
-_FUNCTIONS: dict[str, Any] = {
-    "MAX": lambda a, e: _larger(a[0], a[1]),
-    "MIN": lambda a, e: _smaller(a[0], a[1]),
-    "LIMIT": lambda a, e: _smaller(_larger(a[1], a[0]), a[2]),
-    "convert": _converted,
-    "ABS": _absolute,
-    "SQRT": lambda a, e: square_root(a[0], e.held),
-    "TRUNC": lambda a, e: saturate(a[0], tree.DINT),
-    "LEN": lambda a, e: len(a[0]),
-    "CONCAT": lambda a, e: (a[0] + a[1])[:255],
-    "LEFT": lambda a, e: a[0][: max(a[1], 0)],
-    "RIGHT": lambda a, e: a[0][-a[1] :] if a[1] > 0 else "",
-    "text": lambda a, e: str(a[0]),
-}
-for _name in ("SHL", "SHR", "ROL", "ROR"):
-    _FUNCTIONS[_name] = lambda a, e, name=_name: shift(name, a[0], a[1], e.held)
-_FUNCTIONS["real"] = lambda a, e: real(a[0], e.held)
+        return FUNCTIONS[name](args, e)

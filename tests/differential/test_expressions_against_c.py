@@ -16,7 +16,8 @@ import write_c
 import write_st
 from arithmetic import same
 from expressions import Maker
-from typed_tree import BOOL, NUMBERS, Name, Program, Scalar, Variable, assignable
+from typed_tree import BOOL, NUMBERS, Name, Program, Scalar, Variable
+from typing_rules import assignable
 
 GCC = shutil.which("gcc")
 _NUMBERS = {"signed": "c_int", "unsigned": "c_uint", "bits": "c_uint"}

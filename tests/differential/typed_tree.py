@@ -58,13 +58,14 @@ NUMBERS = INTEGERS + REALS
 
 @dataclass(frozen=True)
 class Text:
-    """STRING(length)."""
+    """STRING(length), or WSTRING(length)."""
 
     length: int
+    wide: bool = False
 
     @property
     def name(self) -> str:
-        return f"STRING({self.length})"
+        return f"{'WSTRING' if self.wide else 'STRING'}({self.length})"
 
 
 @dataclass(frozen=True)
@@ -110,11 +111,33 @@ class Struct:
     members: tuple[tuple[str, Type], ...]
 
 
+@dataclass(frozen=True)
+class Pointer:
+    """POINTER TO, or REFERENCE TO."""
+
+    target: Type
+    reference: bool = False
+
+    @property
+    def name(self) -> str:
+        return f"{'REFERENCE' if self.reference else 'POINTER'} TO {self.target.name}"
+
+
+@dataclass(eq=False)
+class Interface:
+    """Heads of methods."""
+
+    name: str
+    methods: list[Function]
+
+
 @dataclass(eq=False)
 class Block:
     """A function block with its methods."""
 
     name: str
+    base: Block | None = None
+    interfaces: list[Interface] = field(default_factory=list)
     inputs: list[Variable] = field(default_factory=list)
     outputs: list[Variable] = field(default_factory=list)
     locals: list[Variable] = field(default_factory=list)
@@ -123,7 +146,23 @@ class Block:
 
     @property
     def members(self) -> list[Variable]:
-        return [*self.inputs, *self.outputs, *self.locals]
+        inherited = self.base.members if self.base else []
+        return [*inherited, *self.inputs, *self.outputs, *self.locals]
+
+    @property
+    def all_inputs(self) -> list[Variable]:
+        """Its own and the inherited ones."""
+        return [*(self.base.all_inputs if self.base else []), *self.inputs]
+
+    @property
+    def all_methods(self) -> dict[str, Function]:
+        """By name; what it overrides hides what it inherits."""
+        inherited = self.base.all_methods if self.base else {}
+        return {**inherited, **{m.name: m for m in self.methods}}
+
+    def is_a(self, other: Block) -> bool:
+        """Whether an instance may stand where one of `other` is meant."""
+        return self is other or (self.base is not None and self.base.is_a(other))
 
 
 @dataclass(eq=False)
@@ -136,9 +175,11 @@ class Function:
     in_outs: list[Variable] = field(default_factory=list)
     locals: list[Variable] = field(default_factory=list)
     body: list[Any] = field(default_factory=list)
+    rank: int = 0
+    """A method calls only methods of a lower rank, so that nothing is recursive; overriding keeps it."""
 
 
-Type = Scalar | Text | Enum | Subrange | Array | Struct | Block
+Type = Scalar | Text | Enum | Subrange | Array | Struct | Block | Pointer | Interface
 
 
 @dataclass(frozen=True)
@@ -160,6 +201,7 @@ class Program:
     variables: list[Variable]
     body: list[Any]
     cycles: int = 1
+    interfaces: list[Interface] = field(default_factory=list)
 
 
 # -- expressions ------------------------------------------------------------------------------------
@@ -197,6 +239,13 @@ class Member(Expr):
 class Index(Expr):
     base: Expr
     indices: list[Expr]
+
+
+@dataclass
+class Deref(Expr):
+    """What a pointer or a reference leads to."""
+
+    base: Expr
 
 
 @dataclass
@@ -296,7 +345,9 @@ class CallFunction:
     inputs: list[Expr]
     in_outs: list[Expr]
     instance: Expr | None = None
-    """The block instance of a method."""
+    """The block instance, or the interface, of a method."""
+    via: str = ""
+    """THIS or SUPER instead of an instance."""
 
 
 @dataclass
@@ -305,78 +356,21 @@ class CallBlock:
     inputs: list[tuple[str, Expr]]
 
 
-# -- typing -----------------------------------------------------------------------------------------
+@dataclass
+class CallBase:
+    """SUPER^(): the body of the base, on the own instance."""
+
+    block: Block
+
+
+@dataclass
+class Bind:
+    """Makes a pointer, a reference or an interface lead to a place."""
+
+    target: Name
+    place: Expr
 
 
 def base_of(type_: Type) -> Any:
     """Enumerations and subranges count as their base type."""
     return type_.base if isinstance(type_, Enum | Subrange) else type_
-
-
-def signed_of(bits: int) -> Scalar:
-    return {32: DINT, 64: LINT}[bits]
-
-
-def meet(left: Scalar, right: Scalar) -> tuple[Scalar, Scalar]:
-    """Static type of the result of an arithmetic operator, and the type both operands are computed in."""
-    if "real" in (left.kind, right.kind):
-        reals = [x for x in (left, right) if x.kind == "real"]
-        result = max(reals, key=lambda x: x.bits)
-        return result, result
-    signed_left, signed_right = left.kind == "signed", right.kind == "signed"
-    if left.bits != right.bits:
-        result = left if left.bits > right.bits else right
-    elif signed_left or signed_right:
-        result = left if signed_left else right
-    else:
-        result = right if left.kind == "bits" else left
-    if result.bits < 32:
-        return result, DINT
-    if signed_left == signed_right:
-        if signed_left:
-            return result, signed_of(result.bits)
-        return result, (UDINT if result.bits == 32 else ULINT)
-    unsigned, signed = (right, left) if signed_left else (left, right)
-    if unsigned.bits == 64:
-        return result, result
-    return result, signed_of(64 if unsigned.bits == 32 or signed.bits == 64 else 32)
-
-
-def common(left: Scalar, right: Scalar) -> Scalar:
-    """Type two values of SEL, MUX, MIN, MAX, LIMIT are handed over as."""
-    if left == right:
-        return left
-    result, computed = meet(left, right)
-    if (left.kind == "signed") != (right.kind == "signed") and result.kind != "real":
-        return computed if computed.bits >= result.bits else result
-    return result
-
-
-def bit_type(left: Scalar, right: Scalar) -> Scalar:
-    """AND, OR, XOR work in the wider type, of equal width the bit string."""
-    if left.bits != right.bits:
-        return left if left.bits > right.bits else right
-    return left if left.kind == "bits" or right.kind != "bits" else right
-
-
-def comparable(left: Scalar, right: Scalar) -> Scalar:
-    """Type in which two values are compared: nothing is stored, so narrow values are not cut."""
-    if left == right and not (left.integer and left.bits < 32):
-        return left
-    return meet(left, right)[1]
-
-
-def assignable(source: Type, target: Type) -> bool:
-    """Whether the language converts silently or with a warning."""
-    if isinstance(source, Text) and isinstance(target, Text):
-        return True
-    if isinstance(target, Enum):
-        return source is target
-    a, b = base_of(source), base_of(target)
-    if not isinstance(a, Scalar) or not isinstance(b, Scalar):
-        return bool(source == target)
-    if a == b:
-        return True
-    if a.integer and b.integer:
-        return a.bits <= b.bits
-    return b.kind == "real" and (a.integer or a.kind == "real")

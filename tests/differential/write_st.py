@@ -29,7 +29,7 @@ def literal(type_: Type, value: Any, untyped: bool = False) -> str:
         return f"{type_.name}.{names[value]}"
     base = base_of(type_)
     if isinstance(base, Text):
-        return "'" + value + "'"
+        return f'"{value}"' if base.wide else f"'{value}'"
     if base == tree.BOOL:
         return "TRUE" if value else "FALSE"
     if base.kind == "real":
@@ -63,6 +63,9 @@ def expression(e: Any) -> str:
         return f"{expression(e.base)}.{e.name}"
     if isinstance(e, tree.Index):
         return f"{expression(e.base)}[{', '.join(expression(i) for i in e.indices)}]"
+    if isinstance(e, tree.Deref):
+        assert isinstance(e.base.type, tree.Pointer)
+        return expression(e.base) + ("" if e.base.type.reference else "^")
     if isinstance(e, tree.Bit):
         return f"{expression(e.base)}.{e.bit}"
     if isinstance(e, tree.Unary):
@@ -71,8 +74,8 @@ def expression(e: Any) -> str:
         return f"({expression(e.left)} {e.op} {expression(e.right)})"
     args = ", ".join(expression(a) for a in e.args)
     if e.name in ("convert", "text"):
-        target = e.type.name if e.name == "convert" else "STRING"
-        return f"{e.taken[0].name}_TO_{target}({args})"
+        target = e.type.name.partition("(")[0]
+        return f"{e.taken[0].name.partition('(')[0]}_TO_{target}({args})"
     return f"{e.name}({args})"
 
 
@@ -112,12 +115,27 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
             args += [
                 f"{v.name} := {expression(e)}" for v, e in zip(s.function.in_outs, s.in_outs, strict=True)
             ]
-            callee = f"{expression(s.instance)}.{s.function.name}" if s.instance else s.function.name
+            owner = f"{s.via}^" if s.via else expression(s.instance) if s.instance else ""
+            callee = f"{owner}.{s.function.name}" if owner else s.function.name
             lines.append(f"{indent}{expression(s.target)} := {callee}({', '.join(args)});")
+        elif isinstance(s, tree.CallBase):
+            lines.append(f"{indent}SUPER^();")
+        elif isinstance(s, tree.Bind):
+            lines.append(indent + _bind(s))
         else:
             args = [f"{name} := {expression(e)}" for name, e in s.inputs]
             lines.append(f"{indent}{expression(s.instance)}({', '.join(args)});")
     return lines
+
+
+def _bind(s: tree.Bind) -> str:
+    place = expression(s.place)
+    if isinstance(s.target.type, tree.Interface):
+        return f"{s.target.name} := {place};"
+    assert isinstance(s.target.type, tree.Pointer)
+    return (
+        f"{s.target.name} REF= {place};" if s.target.type.reference else f"{s.target.name} := ADR({place});"
+    )
 
 
 def _while(s: tree.While, indent: str) -> list[str]:
@@ -146,20 +164,31 @@ def _section(word: str, variables: list[Variable]) -> list[str]:
     return [*lines, "END_VAR"]
 
 
-def _function(f: Function, word: str) -> list[str]:
+def _head(f: Function, word: str) -> list[str]:
     return [
         f"{word} {f.name} : {f.result.name}",
         *_section("VAR_INPUT", f.inputs),
         *_section("VAR_IN_OUT", f.in_outs),
+    ]
+
+
+def _function(f: Function, word: str) -> list[str]:
+    return [
+        *_head(f, word),
         *_section("VAR", f.locals),
         *statements(f.body),
         f"END_{word}",
     ]
 
 
+def _parents(b: Block) -> list[str]:
+    found = [f"EXTENDS {b.base.name}"] if b.base else []
+    return found + ([f"IMPLEMENTS {', '.join(i.name for i in b.interfaces)}"] if b.interfaces else [])
+
+
 def _block(b: Block) -> list[str]:
     lines = [
-        f"FUNCTION_BLOCK {b.name}",
+        " ".join([f"FUNCTION_BLOCK {b.name}", *_parents(b)]),
         *_section("VAR_INPUT", b.inputs),
         *_section("VAR_OUTPUT", b.outputs),
         *_section("VAR", b.locals),
@@ -183,6 +212,11 @@ def program(p: Program) -> str:
             lines.append(f"TYPE {t.name} : STRUCT {members} END_STRUCT END_TYPE")
     for f in p.functions:
         lines += _function(f, "FUNCTION")
+    for i in p.interfaces:
+        lines.append(f"INTERFACE {i.name}")
+        for method in i.methods:
+            lines += [*_head(method, "METHOD"), "END_METHOD"]
+        lines.append("END_INTERFACE")
     for b in p.blocks:
         lines += _block(b)
     lines += ["PROGRAM PLC_PRG", *_section("VAR", p.variables), *statements(p.body), "END_PROGRAM"]
@@ -214,5 +248,5 @@ def _paths(path: str, type_: Type, keys: list[Any], found: list[tuple[str, Type,
     elif isinstance(type_, Block):
         for v in type_.members:
             _paths(f"{path}.{v.name}", v.type, [*keys, v.name], found)
-    else:
+    elif not isinstance(type_, tree.Pointer | tree.Interface):
         found.append((path, type_, keys))
