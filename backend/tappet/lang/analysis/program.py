@@ -69,7 +69,7 @@ def _search(session: Session, start: PouSymbol, finished: set[int]) -> None:
     path: list[PouSymbol] = [start]
     on_path = {id(start): 0}
     stack = [iter(session.calls.get(id(start), ()))]
-    told: set[tuple[int, int, Span]] = set()
+    told: set[tuple[int, int]] = set()
     while stack:
         step = next(stack[-1], None)
         if step is None:
@@ -80,7 +80,7 @@ def _search(session: Session, start: PouSymbol, finished: set[int]) -> None:
             continue
         target, _, span = step
         if id(target) in on_path:
-            edge = (id(path[-1]), id(target), span)
+            edge = (id(path[-1]), id(target))
             if edge in told:
                 continue
             told.add(edge)
