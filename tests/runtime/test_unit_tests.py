@@ -95,6 +95,24 @@ def test_an_exception_says_what_and_where(isolation: SuiteOutcome) -> None:
     assert (none.expected, none.actual) == ("null reference", "no exception")
 
 
+def test_faults_of_the_processor_end_only_their_test() -> None:
+    report = run_file("native_faults.st")
+    assert (report.problem, report.diagnostics) == (None, ())
+    (suite,) = report.suites
+    codes = {test.name: [failure.code for failure in test.failures] for test in suite.tests}
+    assert codes == {
+        "Null": [3],
+        "Reads elsewhere": [4],
+        "Writes elsewhere": [4],
+        "Calls elsewhere": [4],
+        "Stack": [5],
+        "Overwrites": [4],
+        "Smallest": [],
+        "After": [],
+    }
+    assert outcomes(suite)["After"] == "passed"
+
+
 def test_ten_minutes_of_the_plc_are_simulated(isolation: SuiteOutcome) -> None:
     assert next(test.seconds for test in isolation.tests if test.name == "Waits") == 600.0
 
