@@ -24,7 +24,8 @@ test-all: $(VENV)/.ready frontend/dist/.ready system check
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
-FUZZ    ?= lexer parser checker compiler il plcopen twincat export text
+FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \
+           editor messages
 SECONDS ?= 300
 fuzz: $(VENV)/.ready
 	for name in $(FUZZ); do $(BIN)/python -m tests.fuzz $$name --seconds $(SECONDS) --to build/fuzz || exit 1; done
