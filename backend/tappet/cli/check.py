@@ -43,25 +43,9 @@ def check(
     errors = sum(diagnostic.severity == "error" for diagnostic in found)
     warnings = sum(diagnostic.severity == "warning" for diagnostic in found)
     if output is OutputFormat.JSON:
-        show_json({"ok": errors == 0, "diagnostics": [as_json(diagnostic) for diagnostic in found]})
+        show_json({"ok": errors == 0, "diagnostics": [diagnostic.record() for diagnostic in found]})
     else:
         for diagnostic in found:
             typer.echo(format_diagnostic(diagnostic))
         typer.echo(f"{errors} error(s), {warnings} warning(s)", err=bool(errors))
     raise typer.Exit(1 if errors else 0)
-
-
-def as_json(diagnostic: Diagnostic) -> dict[str, object]:
-    """A diagnostic for machines; lines and columns count from 1."""
-    span = diagnostic.span
-    return {
-        "file": diagnostic.uri,
-        "line": span.line + 1,
-        "column": span.column + 1,
-        "end_line": span.end_line + 1,
-        "end_column": span.end_column + 1,
-        "severity": diagnostic.severity,
-        "code": diagnostic.code,
-        "message": diagnostic.message,
-        "advice": diagnostic.advice,
-    }

@@ -9,7 +9,6 @@ from typing import Annotated
 
 import typer
 
-from tappet.cli.check import as_json
 from tappet.cli.inputs import one_application
 from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
 from tappet.codegen.build import build_application
@@ -39,7 +38,7 @@ def deploy(
     if result.package is None:
         if output is OutputFormat.JSON:
             show_json(
-                {"ok": False, "diagnostics": [as_json(diagnostic) for diagnostic in result.diagnostics]}
+                {"ok": False, "diagnostics": [diagnostic.record() for diagnostic in result.diagnostics]}
             )
         for diagnostic in result.diagnostics if output is OutputFormat.TEXT else []:
             typer.echo(format_diagnostic(diagnostic), err=True)

@@ -10,7 +10,6 @@ from typing import Annotated, Any
 
 import typer
 
-from tappet.cli.check import as_json
 from tappet.cli.inputs import one_application
 from tappet.cli.output import FormatOption, OutputFormat, UsageError, complain, show_json
 from tappet.codegen.build import build_application
@@ -94,7 +93,7 @@ def _build(path: Path, application: str | None, output: OutputFormat) -> CodePac
     if result.package is None:
         if output is OutputFormat.JSON:
             show_json(
-                {"ok": False, "diagnostics": [as_json(diagnostic) for diagnostic in result.diagnostics]}
+                {"ok": False, "diagnostics": [diagnostic.record() for diagnostic in result.diagnostics]}
             )
         else:
             for diagnostic in result.diagnostics:

@@ -71,6 +71,20 @@ class Diagnostic:
         text = f"{place}: {self.severity} {self.code}: {self.message}"
         return f"{text}. {self.advice}" if self.advice else text
 
+    def record(self) -> dict[str, object]:
+        """For machines: `file`, place (lines and columns from 1), `severity`, `code`, `message`, `advice`."""
+        return {
+            "file": self.uri,
+            "line": self.span.line + 1,
+            "column": self.span.column + 1,
+            "end_line": self.span.end_line + 1,
+            "end_column": self.span.end_column + 1,
+            "severity": self.severity,
+            "code": self.code,
+            "message": self.message,
+            "advice": self.advice,
+        }
+
 
 def _read_table() -> dict[str, Entry]:
     text = files("tappet.lang").joinpath("diagnostics.csv").read_text(encoding="utf-8")

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from tappet.codegen.build import BuildOptions, LibraryReference, build_application
 from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.lang.conditional import ParseOptions, parse_sources
-from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 from tappet.libraries import as_called, resolve
 from tappet.runtime.flight import FlightSettings
@@ -74,7 +73,7 @@ def run_tests(
         plain = build_application(sources, tasks, replace(options, check_only=True))
         errors = [d for d in (plain.diagnostics or result.diagnostics) if d.severity == "error"]
         errors = errors or [d for d in result.diagnostics if d.severity == "error"]
-        return Report(options.application, diagnostics=tuple(_fields(d) for d in errors))
+        return Report(options.application, diagnostics=tuple(d.record() for d in errors))
     chosen = tuple(only) if len(only) <= MOST_CHOSEN else ()
     run = _Run(options.application, result.package, marks, limits or TestLimits(), test_filter, chosen)
     return run.all(progress)
@@ -96,21 +95,6 @@ def _interval(tasks: Sequence[TaskSpec], programs: Sequence[str]) -> int:
         if task.interval_ns and wanted & {name.upper() for name in task.programs}:
             return task.interval_ns
     return DEFAULT_INTERVAL_NS
-
-
-def _fields(diagnostic: Diagnostic) -> dict[str, object]:
-    span = diagnostic.span
-    return {
-        "file": diagnostic.uri,
-        "line": span.line + 1,
-        "column": span.column + 1,
-        "end_line": span.end_line + 1,
-        "end_column": span.end_column + 1,
-        "severity": diagnostic.severity,
-        "code": diagnostic.code,
-        "message": diagnostic.message,
-        "advice": diagnostic.advice,
-    }
 
 
 class _Run:
