@@ -21,8 +21,8 @@ _OF_THE_LINKER = {"", "_GLOBAL_OFFSET_TABLE_"}
 _numbers = itertools.count(1)
 
 _MEMORY = [
-    "memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", "strcmp", "strncmp", "strtod", "gcvt",
-    "calloc", "free",
+    "memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", "strcmp", "strncmp", "strtod",
+    "gcvt", "calloc", "free",
 ]  # fmt: skip
 _DOUBLE = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
