@@ -27,11 +27,13 @@ describe('the colours of IL', () => {
   it('are there without the language server', async () => {
     const { monaco } = await import('./monaco');
     const text = 'loop: LDN xStart\nST (* c *) s\nS.Run LD\nmark:\nJMPC mark';
-    const words = monaco.editor.tokenize(text, 'iec-il').map((tokens, line) =>
-      tokens
-        .filter((token) => token.type.startsWith('keyword'))
-        .map((token) => /\w+/.exec(text.split('\n')[line]!.slice(token.offset))?.[0]),
-    );
+    const words = monaco.editor
+      .tokenize(text, 'iec-il')
+      .map((tokens, line) =>
+        tokens
+          .filter((token) => token.type.startsWith('keyword'))
+          .map((token) => /\w+/.exec(text.split('\n')[line]!.slice(token.offset))?.[0]),
+      );
     expect(words).toEqual([['LDN'], ['ST'], [], [], ['JMPC']]);
   });
 });
