@@ -20,6 +20,7 @@ from .workbench import (
     open_object,
     open_panel,
     open_project,
+    prepare,
     status_bar,
     watch,
     watch_value,
@@ -38,7 +39,7 @@ def test_an_input_is_forced_from_the_watch_list_and_released(page: Page) -> None
     expect(editor).to_contain_text("Execute")
     row = watch(page, EMERGENCY_STOP)
     expect(row).to_contain_text("FALSE")
-    row.get_by_role("gridcell").nth(3).dblclick()
+    prepare(row)
     expect(row).to_contain_text("<TRUE>")
     page.keyboard.press("F7")
     expect(row.get_by_label("forced")).to_be_visible()
@@ -55,7 +56,7 @@ def test_an_input_is_forced_from_the_watch_list_and_released(page: Page) -> None
     expect(editor.locator("[class*=forced]")).to_have_count(0)
 
     reset = watch(page, "GVL_IO.xResetButton")
-    reset.get_by_role("gridcell").nth(3).dblclick()
+    prepare(reset)
     page.keyboard.press("F7")
     expect(editor).to_contain_text("Stopped")
     page.keyboard.press("Alt+F7")
@@ -67,9 +68,7 @@ def test_a_value_clicked_in_the_editor_is_written(page: Page) -> None:
     log_in(page)
     row = watch(page, "GVL_IO.diCaps")
     expect(row).to_contain_text("DINT")
-    row.get_by_role("gridcell").nth(3).dblclick()
-    page.keyboard.type("twelve")
-    page.keyboard.press("Enter")
+    prepare(row, "twelve")
     expect(page.get_by_text(re.compile("DINT.*whole number|whole number.*DINT", re.I)).first).to_be_visible()
     page.keyboard.press("Control+A")
     page.keyboard.type("1234")
@@ -86,9 +85,7 @@ def test_resets_keep_what_they_promise(page: Page) -> None:
     log_in(page)
     total = watch(page, "PersistentVars.udiOperatingTime")
     recipe = watch(page, "GVL_Line.iRecipe")
-    recipe.get_by_role("gridcell").nth(3).dblclick()
-    page.keyboard.type("2")
-    page.keyboard.press("Enter")
+    prepare(recipe, "2")
     page.keyboard.press("Control+F7")
     expect(recipe.get_by_role("gridcell").nth(2)).to_have_text("2")
     running = int(watch_value(total, at_least=1))

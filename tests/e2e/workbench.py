@@ -98,6 +98,15 @@ def watch(page: Page, expression: str) -> Locator:
     return row
 
 
+def prepare(row: Locator, text: str | None = None) -> None:
+    """Double click on the prepared value once the row has a value: a BOOL changes, else `text` is typed."""
+    expect(row.get_by_role("gridcell").nth(2)).not_to_have_text("")
+    row.get_by_role("gridcell").nth(3).dblclick()
+    if text is not None:
+        row.page.keyboard.type(text)
+        row.page.keyboard.press("Enter")
+
+
 def watch_value(row: Locator, *, at_least: int) -> str:
     """The number in the value column, once it is that large."""
     cell = row.get_by_role("gridcell").nth(2)

@@ -20,7 +20,10 @@ interface PreparedEditorProps {
   onDone: () => void;
 }
 
-/** Types a literal; one of the wrong type or range is refused and nothing is prepared (DECL-43). Empty takes it back. */
+/**
+ * Types a literal; one of the wrong type or range is refused and nothing is prepared (DECL-43). Empty takes it back.
+ * Nothing typed is lost while the controller has not told the type yet: Enter is refused until it has.
+ */
 export function PreparedEditor({ runtimeId, row, initial, onDone }: PreparedEditorProps) {
   const t = useText();
   const live = useLiveValue(runtimeId, row.expression);
@@ -30,8 +33,9 @@ export function PreparedEditor({ runtimeId, row, initial, onDone }: PreparedEdit
   const refusal = (text: string): string | null => {
     if (text.trim() === '') return null;
     if (item?.flags?.includes('CONSTANT') === true) return t('online.constantFixed');
-    const result = checked(text);
-    return result === null || result.ok ? null : t(result.reason, result.values);
+    if (item === undefined) return t('online.typeNotKnownYet');
+    const result = checkLiteral(text, item);
+    return result.ok ? null : t(result.reason, result.values);
   };
   return (
     <CellInput
