@@ -23,10 +23,11 @@ START_LIMIT_S = 90.0
 expect.set_options(timeout=30_000)
 AS_DELIVERED = """async () => {
     const headers = {'X-Tappet-Client': '1', 'Content-Type': 'application/json'};
-    const send = (path, body) =>
-        fetch('/api/v1' + path, {method: 'POST', headers, body: JSON.stringify(body)});
+    const send = (path, body, method = 'POST') =>
+        fetch('/api/v1' + path, {method, headers, body: JSON.stringify(body)});
     const read = async (path) => (await fetch('/api/v1' + path)).json();
     for (const project of await read('/projects')) {
+        await send(`/me/settings/layout.${project.id}`, null, 'PUT');
         if (project.revision > 1) await send(`/projects/${project.id}/revert`, {revision: 1});
         const objects = await read(`/projects/${project.id}/objects`);
         const application = objects.find((object) => object.kind === 'application');
@@ -35,7 +36,7 @@ AS_DELIVERED = """async () => {
             {runtime_id: 'local', mode: 'download', start: true});
     }
 }"""
-"""Undoes what an earlier test did to the example and to the machine."""
+"""Undoes what an earlier test did to the example, the machine and the windows (a 3D view slows all others)."""
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
