@@ -36,7 +36,7 @@ AS_DELIVERED = """async () => {
             {runtime_id: 'local', mode: 'download', start: true});
     }
 }"""
-"""Undoes what an earlier test did to the example, the machine and the windows (a 3D view slows all others)."""
+"""Undoes what an earlier test did to the example, the machine and the windows: a 3D view slows all others."""
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
