@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import FilePayload, Locator, Page, expect
 
-from .workbench import choose_menu, open_project, tree_item
+from .workbench import choose_menu, implementation, open_object, open_project, tree_item
 
 pytestmark = pytest.mark.e2e
 
@@ -78,7 +78,10 @@ def uncheck(dialog: Locator, name: str) -> None:
 
 def test_chosen_objects_come_to_the_place_and_the_report_leads_to_them(page: Page) -> None:
     open_project(page)
+    open_object(page, "PLC_PRG")
+    expect(implementation(page)).to_contain_text("xSafe")
     tree_item(page, "Stations").click()
+    expect(tree_item(page, "Stations")).to_have_attribute("aria-selected", "true")
     choose_menu(page, "File", "Import")
     expect(page.get_by_role("dialog").get_by_label("Place in the tree")).to_contain_text("Stations")
     dialog = read_files(page, file("bad.xml", b"<project"), file("Pumps.st", PUMP))
