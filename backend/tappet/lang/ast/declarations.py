@@ -1,0 +1,232 @@
+"""Declarations of the syntax tree: types as written, variables, POUs and what else a text declares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from tappet.lang.ast.expressions import Argument, Expr
+from tappet.lang.ast.node import Node, Pragma
+from tappet.lang.ast.statements import Stmt
+from tappet.lang.source import NOWHERE, Source, Span
+
+if TYPE_CHECKING:
+    from tappet.lang.symbols import Symbol
+    from tappet.lang.types import Type
+
+
+@dataclass(slots=True, kw_only=True)
+class TypeRef(Node):
+    """A type as written."""
+
+    # resolved
+    type: Type | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class NamedType(TypeRef):
+    """`INT`, `Namespace.FB_Motor`, for instances with arguments of FB_Init."""
+
+    name: str
+    args: list[Argument] | None = None
+    """Written `FB(1, x := 2)`."""
+    elements: list[InitArguments] = field(default_factory=list)
+    """Written `ARRAY[1..2] OF FB[(1), (x := 2)]`: those of each element, in storage order."""
+
+
+@dataclass(slots=True, kw_only=True)
+class InitArguments(Node):
+    """FB_Init arguments of one element of an array of instances."""
+
+    args: list[Argument]
+
+
+@dataclass(slots=True, kw_only=True)
+class StringType(TypeRef):
+    """STRING, STRING(20), STRING[20], WSTRING(...)."""
+
+    wide: bool
+    length: Expr | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class SubrangeType(TypeRef):
+    """`INT(1..10)`."""
+
+    base: str
+    low: Expr
+    high: Expr
+
+
+@dataclass(slots=True, kw_only=True)
+class ArrayType(TypeRef):
+    """ARRAY[...] OF element; a bound pair of None is `*`."""
+
+    bounds: list[tuple[Expr | None, Expr | None]]
+    element: TypeRef
+
+
+@dataclass(slots=True, kw_only=True)
+class PointerType(TypeRef):
+    """POINTER TO base."""
+
+    base: TypeRef
+
+
+@dataclass(slots=True, kw_only=True)
+class ReferenceType(TypeRef):
+    """REFERENCE TO base."""
+
+    base: TypeRef
+
+
+@dataclass(slots=True, kw_only=True)
+class EnumValue(Node):
+    """One value of an enumeration."""
+
+    name: str
+    value: Expr | None = None
+    comment: str = ""
+    # resolved
+    number: int = 0
+
+
+@dataclass(slots=True, kw_only=True)
+class EnumType(TypeRef):
+    """`(a, b := 5) UINT := b`; the default is kept on the declaration."""
+
+    values: list[EnumValue]
+    base: str | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class StructType(TypeRef):
+    """STRUCT or UNION with members."""
+
+    members: list[VarDecl]
+    union: bool = False
+
+
+@dataclass(slots=True, kw_only=True)
+class VarDecl(Node):
+    """One variable; `a, b : INT` gives two with equal type and initial value."""
+
+    name: str
+    name_span: Span = NOWHERE
+    type_ref: TypeRef
+    initial: Expr | None = None
+    initial_ref: bool = False
+    """Initialised by `REF=`."""
+    address: str | None = None
+    """`%IX0.0`, `%QW*` as written after AT, upper case."""
+    attributes: list[Pragma] = field(default_factory=list)
+    comment: str = ""
+    """Comment on the same line or the lines above, without its marks."""
+    # resolved
+    symbol: Symbol | None = None
+    init: Expr | None = None
+    """What initialises the variable: `initial`, or the initial value of its alias type, else None."""
+
+
+@dataclass(slots=True, kw_only=True)
+class VarBlock(Node):
+    """VAR ... END_VAR. `section` is the keyword; `flags` of CONSTANT, RETAIN, NON_RETAIN, PERSISTENT."""
+
+    section: str
+    flags: set[str]
+    variables: list[VarDecl]
+    attributes: list[Pragma] = field(default_factory=list)
+
+
+@dataclass(slots=True, kw_only=True)
+class Declaration(Node):
+    """Base of what a source text declares."""
+
+    name: str
+    name_span: Span = NOWHERE
+    source: Source | None = None
+    attributes: list[Pragma] = field(default_factory=list)
+    comment: str = ""
+    """Documentation comment above the declaration."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Accessor(Node):
+    """GET or SET of a property."""
+
+    blocks: list[VarBlock]
+    body: list[Stmt]
+
+
+@dataclass(slots=True, kw_only=True)
+class Property(Declaration):
+    """PROPERTY name : type."""
+
+    type_ref: TypeRef | None
+    access: str = "PUBLIC"
+    modifiers: set[str] = field(default_factory=set)
+    getter: Accessor | None = None
+    setter: Accessor | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class Pou(Declaration):
+    """PROGRAM, FUNCTION, FUNCTION_BLOCK, METHOD, ACTION or TRANSITION (`kind`, the keyword itself)."""
+
+    kind: str
+    return_type: TypeRef | None = None
+    blocks: list[VarBlock] = field(default_factory=list)
+    body: list[Stmt] = field(default_factory=list)
+    language: str = "ST"
+    extends: str | None = None
+    extends_span: Span = NOWHERE
+    implements: list[str] = field(default_factory=list)
+    implements_spans: list[Span] = field(default_factory=list)
+    access: str = "PUBLIC"
+    modifiers: set[str] = field(default_factory=set)
+    """Of ABSTRACT, FINAL, OVERRIDE."""
+    methods: list[Pou] = field(default_factory=list)
+    actions: list[Pou] = field(default_factory=list)
+    properties: list[Property] = field(default_factory=list)
+    owner: Pou | None = None
+    # resolved
+    symbol: Symbol | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class Interface(Declaration):
+    """INTERFACE with its method and property heads."""
+
+    extends: list[str] = field(default_factory=list)
+    extends_spans: list[Span] = field(default_factory=list)
+    methods: list[Pou] = field(default_factory=list)
+    properties: list[Property] = field(default_factory=list)
+    # resolved
+    symbol: Symbol | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class TypeDecl(Declaration):
+    """TYPE name : ... END_TYPE; `extends` for structures."""
+
+    type_ref: TypeRef
+    initial: Expr | None = None
+    extends: str | None = None
+    extends_span: Span = NOWHERE
+    # resolved
+    type: Type | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class GlobalList(Declaration):
+    """A global variable list; its name comes from the object. Also VAR_CONFIG blocks."""
+
+    blocks: list[VarBlock]
+
+
+@dataclass(slots=True, kw_only=True)
+class Unit(Node):
+    """Everything one source text declares, in order."""
+
+    source: Source
+    declarations: list[Declaration]
