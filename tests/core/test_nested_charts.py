@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from test_charts import Run, chart
+from chart_runs import Run, chart
 
 INNER = """
 INITIAL_STEP Init: InA(N); END_STEP
