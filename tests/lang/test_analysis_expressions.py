@@ -1,38 +1,21 @@
-"""Operand types, conversions, folding, operators in functional form (spec language_operators.md)."""
+"""Operand types, implicit conversions, places and names (spec language_operators.md)."""
 
 from __future__ import annotations
 
-import math
-import struct
-
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from resolved import analysed, body_of, codes, constant, messages, program, value_of
+from every_type import ALL, TYPES, found
+from resolved import body_of, codes, messages, program
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import AnalysisOptions, carried_type, conversion, folding
+from tappet.lang.analysis import carried_type
 from tappet.lang.source import Source
-from tappet.lang.symbols import BuiltinSymbol
 
-ALL = (
-    "VAR b : BOOL; si : SINT; i : INT; di : DINT; li : LINT; us : USINT; ui : UINT; ud : UDINT; ul : ULINT; "
-    "by : BYTE; w : WORD; dw : DWORD; lw : LWORD; re : REAL; lr : LREAL; tm : TIME; ltm : LTIME; d : DATE; "
-    "td : TOD; dtm : DT; str : STRING; wstr : WSTRING; e : E; sub : INT(0..10); p : POINTER TO INT; "
-    "q : POINTER TO BYTE; arr : ARRAY[0..7] OF INT; st : S; r : REFERENCE TO INT; END_VAR"
-)
-TYPES = "TYPE E : (one, two); END_TYPE TYPE S : STRUCT x : INT; y : REAL; END_STRUCT END_TYPE"
 NAMES = {
     "SINT": "si", "INT": "i", "DINT": "di", "LINT": "li", "USINT": "us", "UINT": "ui", "UDINT": "ud",
     "ULINT": "ul", "BYTE": "by", "WORD": "w", "DWORD": "dw", "LWORD": "lw", "REAL": "re", "LREAL": "lr",
     "BOOL": "b", "TIME": "tm", "STRING": "str",
 }  # fmt: skip
-
-
-def found(body: str) -> list[str]:
-    """Codes of a body with a variable of every type."""
-    return codes(program(ALL, body, TYPES))
 
 
 def typed(expression: str) -> ast.Expr:
@@ -217,176 +200,6 @@ def test_operations_that_are_not_possible(body: str, expected: list[str]) -> Non
 
 
 @pytest.mark.parametrize(
-    ("expression", "expected"),
-    [
-        ("7 + 2 + 4 + 7", 20),
-        ("7 / 2", 3),
-        ("-7 / 2", -3),
-        ("-9 MOD 2", -1),
-        ("9 MOD -2", 1),
-        ("1 / 2", 0),
-        ("1.0 / 0.0", math.inf),
-        ("2 ** 3", 8.0),
-        ("2#1001_0011 AND 2#1000_1010", 130),
-        ("16#0F XOR 16#FF", 240),
-        ("NOT BYTE#2#1001_0011", 108),
-        ("USINT#200 + USINT#100", 300),
-        ("UDINT#4294967295 + UDINT#1", 0),
-        ("DINT#2147483647 + DINT#1", -2147483648),
-        ("ULINT#0 - ULINT#1", 18446744073709551615),
-        ("20 > 30 > 40 > 50 > 60 > 70", False),
-        ("1 < 2 = TRUE", True),
-        ("'abc' < 'abd'", True),
-        ("T#1s > T#999ms", True),
-        ("D#1996-05-06 > D#1972-03-29", True),
-        ("FALSE < TRUE", True),
-        ("TRUE XOR TRUE XOR TRUE", True),
-        ("T#45s + T#50s", 95000),
-        ("REAL#0.1 + REAL#0.2", struct.unpack("f", struct.pack("f", 0.30000001192092896))[0]),
-        ("SEL(TRUE, 3, 4)", 4),
-        ("SEL(FALSE, 3, 4)", 3),
-        ("MAX(40, MAX(90, 30))", 90),
-        ("MIN(90, 30)", 30),
-        ("MAX(T#1s, T#2s)", 2000),
-        ("MAX('abc', 'abd')", b"abd"),
-        ("LIMIT(30, 90, 80)", 80),
-        ("LIMIT(30, 10, 80)", 30),
-        ("MUX(0, 30, 40, 50)", 30),
-        ("MUX(9, 30, 40, 50)", 50),
-        ("SHL(BYTE#16#45, 2)", 0x14),
-        ("SHL(WORD#16#45, 2)", 0x114),
-        ("ROL(BYTE#16#45, 2)", 0x15),
-        ("ROR(BYTE#16#45, 2)", 0x51),
-        ("ROR(WORD#16#45, 2)", 0x4011),
-        ("SHR(BYTE#16#FF, 9)", 0),
-        ("SHR(INT#-32768, 1)", -16384),
-        ("SHR(INT#-32768, 20)", -1),
-        ("SHL(16#45, 2)", 0x14),
-        ("ABS(-2)", 2),
-        ("SQRT(16)", 4.0),
-        ("LN(0)", -math.inf),
-        ("EXPT(7, 2)", 49.0),
-        ("TRUNC(1.9)", 1),
-        ("TRUNC(-1.4)", -1),
-        ("TRUNC_INT(1.0E10)", 32767),
-        ("INT_TO_SINT(4223)", 127),
-        ("INT_TO_SINT(255)", -1),
-        ("WORD_TO_BYTE(16#1234)", 52),
-        ("DINT_TO_UINT(-1)", 65535),
-        ("REAL_TO_INT(1.5)", 2),
-        ("REAL_TO_INT(-1.5)", -2),
-        ("REAL_TO_INT(0.49999999999999994)", 1),  # rounds to 0.5 in single precision first
-        ("LREAL_TO_INT(0.49999999999999994)", 0),
-        ("LREAL_TO_DINT(-2.5)", -3),
-        ("REAL_TO_BOOL(0.4)", True),
-        ("BOOL_TO_TIME(TRUE)", 1),
-        ("TIME_TO_DWORD(T#5m)", 300000),
-        ("TOD_TO_SINT(TOD#00:00:00.012)", 12),
-        ("DATE_TO_INT(D#1970-01-15)", 29952),
-        ("DT_TO_BYTE(DT#1970-01-15-05:05:05)", 129),
-        ("LTIME_TO_ULINT(LTIME#1000d15h23m12s34ms2us44ns)", 86455392034002044),
-        ("TO_INT(2.5)", 3),
-        ("ADD(7, 2, 4, 7)", 20),
-        ("MUL(7, 2, 4, 7)", 392),
-        ("XOR(16#0F, 16#FF)", 240),
-        ("GT(30, 20)", True),
-        ("ANDN(16#FF, BYTE#16#0F)", 0xF0),
-        ("MOVE(13)", 13),
-        ("SIZEOF(LREAL)", 8),
-        ("XSIZEOF(x)", 8),
-        ("UPPER_BOUND(x, 1)", 0),
-    ],
-)
-def test_folding(expression: str, expected: ast.Constant) -> None:
-    found_value = constant(expression)
-    assert found_value == expected
-    assert isinstance(found_value, bool) == isinstance(expected, bool)
-
-
-def test_nan_folds_without_an_exception() -> None:
-    result = constant("SQRT(-1.0)")
-    assert isinstance(result, float)
-    assert math.isnan(result)
-
-
-def test_named_constants_fold_in_their_type() -> None:
-    declaration = "VAR CONSTANT a : INT := 30000; b : BYTE := 250; r : REAL := 0.1; END_VAR"
-    assert constant("a * 2", declaration) == 60000
-    assert constant("b + b", declaration) == 500
-    assert constant("r", declaration) == 0.10000000149011612
-    assert constant("a.0", declaration) is False
-    assert constant("a.4", declaration) is True
-
-
-def test_functional_form_is_the_operator() -> None:
-    analysis = program(ALL, "i := ADD(i, 1, i);", TYPES)
-    call = value_of(analysis)
-    assert isinstance(call, ast.Call)
-    assert isinstance(call.expansion, ast.Binary)
-    assert (call.type, carried_type(call)) == (t.INT, t.DINT)
-    assert call.expansion.op == "+"
-    assert isinstance(call.expansion.left, ast.Binary)
-
-
-@pytest.mark.parametrize(
-    ("body", "parameters", "result"),
-    [
-        ("i := SEL(b, i, 3);", (t.BOOL, t.INT, t.INT), t.INT),
-        ("di := MAX(i, di, si);", (t.DINT, t.DINT, t.DINT), t.DINT),
-        ("re := MIN(re, 1.5);", (t.REAL, t.REAL), t.REAL),
-        ("w := SHL(by, us);", (t.BYTE, t.ULINT), t.BYTE),
-        ("re := SIN(re);", (t.REAL,), t.REAL),
-        ("re := SQRT(i);", (t.REAL,), t.REAL),
-        ("lr := SQRT(di);", (t.LREAL,), t.LREAL),
-        ("re := ATAN2(re, 1.0);", (t.REAL, t.REAL), t.REAL),
-        ("i := REAL_TO_INT(re);", (t.REAL,), t.INT),
-        ("str := INT_TO_STRING(i);", (t.INT,), t.String(80)),
-        ("i := STRING_TO_INT(str);", (t.String(80),), t.INT),
-        ("i := ANY_TO_INT(re);", (t.REAL,), t.INT),
-        ("i := TO_INT(lr);", (t.LREAL,), t.INT),
-        ("tm := TIME();", (), t.TIME),
-        ("p := ADR(arr[2]);", (None,), t.Pointer(t.INT)),
-        ("e := SEL(b, one, two);", (t.BOOL,), None),
-        ("b := __ISVALIDREF(r);", (None,), t.BOOL),
-        ("by := MUX(i, by, 5);", (t.INT, t.BYTE, t.BYTE), t.BYTE),
-    ],
-)
-def test_operator_overloads(body: str, parameters: tuple[t.Type | None, ...], result: t.Type | None) -> None:
-    analysis = program(ALL, body, TYPES)
-    assert codes(analysis) == []
-    call = value_of(analysis)
-    assert isinstance(call, ast.Call)
-    assert isinstance(call.target, BuiltinSymbol)
-    if result is not None:
-        assert call.target.parameter_types == parameters
-        assert call.target.return_type == result
-    else:
-        assert isinstance(call.type, t.Enum)
-
-
-@pytest.mark.parametrize(
-    ("body", "code"),
-    [
-        ("i := SEL(b, i);", "E0513"),
-        ("i := SEL(i, i, i);", "E0301"),
-        ("i := SEL(b, i, str);", "E0304"),
-        ("i := LIMIT(MN := 1, IN := 2, MX := 3);", "E0514"),
-        ("i := SHL(re, 2);", "E0303"),
-        ("re := SIN(b);", "E0303"),
-        ("p := ADR(i + 1);", "E0323"),
-        ("p := ADR(i.3);", "E0323"),
-        ("b := __ISVALIDREF(i);", "E0323"),
-        ("i := BYTE_TO_INT(str);", "E0301"),
-        ("i := __FENCE();", "E0518"),
-        ("MAX := 3;", "E0201"),
-        ("i := MAX;", "E0201"),
-    ],
-)
-def test_faulty_operator_calls(body: str, code: str) -> None:
-    assert code in found(body)
-
-
-@pytest.mark.parametrize(
     ("body", "expected"),
     [
         ("arr[8] := 1;", ["E0310"]),
@@ -457,58 +270,3 @@ def test_ambiguous_and_qualified_names() -> None:
 def test_a_long_sum_does_not_exhaust_the_stack() -> None:
     terms = " + ".join(["i"] * 350)
     assert codes(program("VAR i : INT; END_VAR", f"i := {terms};")) == []
-
-
-INTEGER_TYPES = [e for e in conversion.NUMBERS if e.is_integer]
-
-
-@given(
-    st.sampled_from(["+", "-", "*", "/", "MOD"]),
-    st.sampled_from(INTEGER_TYPES),
-    st.sampled_from(INTEGER_TYPES),
-    st.data(),
-)
-def test_integer_arithmetic_is_exact_in_the_computed_type(
-    op: str, left: t.Elementary, right: t.Elementary, data: st.DataObject
-) -> None:
-    a = data.draw(st.integers(*conversion.RANGES[left.name]))
-    b = data.draw(st.integers(*conversion.RANGES[right.name]).filter(lambda n: n != 0))
-    meeting = conversion.OPERANDS[(left.name, right.name)]
-    result = folding.arithmetic(op, a, b, meeting.computed)
-    low, high = conversion.RANGES[meeting.computed.name]
-    assert isinstance(result, int)
-    assert low <= result <= high
-    exact = {
-        "+": a + b, "-": a - b, "*": a * b,
-        "/": abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1),
-        "MOD": abs(a) % abs(b) * (-1 if a < 0 else 1),
-    }[op]  # fmt: skip
-    if meeting.warnings == ("", "") and low <= exact <= high:
-        assert result == exact
-
-
-@given(st.floats(allow_nan=False))
-def test_real_rounding_agrees_with_single_precision(value: float) -> None:
-    rounded = folding.round_real(value)
-    assert math.isinf(rounded) or struct.unpack("f", struct.pack("f", rounded))[0] == rounded
-
-
-@given(st.integers(-(1 << 70), 1 << 70), st.sampled_from(INTEGER_TYPES))
-def test_wrapping_keeps_the_low_bytes(value: int, to: t.Elementary) -> None:
-    wrapped = folding.wrap(value, to)
-    assert isinstance(wrapped, int)
-    assert (wrapped - value) % (1 << (8 * to.size)) == 0
-    assert folding.fits(wrapped, to)
-
-
-def test_intrinsics_of_system_sources() -> None:
-    text = (
-        "PROGRAM P\nVAR n : LINT; a : LWORD; ok : BOOL; buf : ARRAY[0..31] OF LWORD; r : DINT; END_VAR\n"
-        "n := __CALL(a, 1, n, 2.5); r := __SETJMP(ADR(buf)); __LONGJMP(ADR(buf), 1); a := "
-        "__FRAME_ADDRESS();\n"
-        "__MEMCPY(ADR(buf), ADR(n), 8); __MEMSET(ADR(buf), 0, SIZEOF(buf)); n := __LOAD_ACQUIRE(n);\n"
-        "__STORE_RELEASE(n, 5); n := __XADD(ADR(n), 1); ok := __COMPARE_AND_SWAP(ADR(n), 1, 2); __FENCE();\n"
-        "END_PROGRAM"
-    )
-    assert codes(analysed(text, options=AnalysisOptions(system=True))) == []
-    assert set(codes(analysed(text))) == {"E0518"}
