@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, expect
 
-from .conftest import AS_DELIVERED, Server
+from .conftest import Server, start_page
 from .workbench import implementation, log_in, open_object, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
@@ -27,38 +27,30 @@ def test_workbench_and_plant(browser: Browser, server: Server, theme: str, langu
     folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
     folder.mkdir(parents=True, exist_ok=True)
     suffix = theme if language == "en" else f"{theme}-{language}"
-    locale = "en-US" if language == "en" else "zh-CN"
-    context = browser.new_context(
-        viewport={"width": 1440, "height": 900},
-        locale=locale,
-        color_scheme="dark" if theme == "dark" else "light",
-    )
-    page = context.new_page()
     errors: list[str] = []
 
     def on_console(message: ConsoleMessage) -> None:
         if message.type == "error" and not any(part in message.text for part in HARMLESS):
             errors.append(message.text)
 
-    page.on("console", on_console)
-    page.goto(server.fresh_link())
-    page.evaluate(AS_DELIVERED)
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    if language == "en":
-        log_in(page)
-        expect(implementation(page)).to_contain_text("Execute")
-    page.wait_for_timeout(1500)
-    page.screenshot(path=folder / f"workbench-{suffix}.png")
-    if language == "en":
-        open_object(page, "Plant3D")
-        frame = page.frame_locator("[data-testid=scene-view]")
-        expect(frame.locator("canvas").first).to_be_visible()
-        remark = frame.locator(".mantine-Notification-closeButton")
-        if remark.count():  # without a graphics card the 3D library says that it is slow
-            remark.first.click()
-        page.wait_for_timeout(15_000)
-        page.screenshot(path=folder / f"plant-{suffix}.png", timeout=60_000)
-        page.locator(".dv-tab").filter(has_text="Plant3D").locator("button, [role=button]").last.click()
-    context.close()
+    with start_page(browser, server, language, theme) as page:
+        page.on("console", on_console)
+        page.reload()
+        open_project(page)
+        open_object(page, "PLC_PRG")
+        if language == "en":
+            log_in(page)
+            expect(implementation(page)).to_contain_text("Execute")
+        page.wait_for_timeout(1500)
+        page.screenshot(path=folder / f"workbench-{suffix}.png")
+        if language == "en":
+            open_object(page, "Plant3D")
+            frame = page.frame_locator("[data-testid=scene-view]")
+            expect(frame.locator("canvas").first).to_be_visible()
+            remark = frame.locator(".mantine-Notification-closeButton")
+            if remark.count():  # without a graphics card the 3D library says that it is slow
+                remark.first.click()
+            page.wait_for_timeout(15_000)
+            page.screenshot(path=folder / f"plant-{suffix}.png", timeout=60_000)
+            page.locator(".dv-tab").filter(has_text="Plant3D").locator("button, [role=button]").last.click()
     assert errors == []

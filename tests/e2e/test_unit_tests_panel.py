@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from .conftest import AS_DELIVERED, Server
+from .conftest import Server, start_page
 from .workbench import choose_menu, implementation, open_project
 
 pytestmark = pytest.mark.e2e
@@ -113,22 +113,13 @@ def test_what_failed_runs_again_and_the_others_keep_their_results(tested: Page) 
 )
 def test_pictures(browser: Browser, server: Server, theme: str, language: str) -> None:
     folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
-    context = browser.new_context(
-        viewport={"width": 1440, "height": 900},
-        locale="en-US" if language == "en" else "zh-CN",
-        color_scheme="dark" if theme == "dark" else "light",
-    )
-    page = context.new_page()
-    page.goto(server.fresh_link())
-    page.evaluate(AS_DELIVERED)
-    page.evaluate(ADD_SUITE)
-    page.reload()
-    open_project(page)
-    menu, entry, title = (
-        ("Build", "Run tests", "Unit tests") if language == "en" else ("编译", "运行测试", "单元测试")
-    )
-    choose_menu(page, menu, entry)
-    tree = page.get_by_role("tree", name=title)
-    expect(tree.get_by_role("treeitem")).to_have_count(6)
-    page.screenshot(path=folder / f"unit-tests-{theme}-{language}.png")
-    context.close()
+    with start_page(browser, server, language, theme) as page:
+        page.evaluate(ADD_SUITE)
+        open_project(page)
+        menu, entry, title = (
+            ("Build", "Run tests", "Unit tests") if language == "en" else ("编译", "运行测试", "单元测试")
+        )
+        choose_menu(page, menu, entry)
+        tree = page.get_by_role("tree", name=title)
+        expect(tree.get_by_role("treeitem")).to_have_count(6)
+        page.screenshot(path=folder / f"unit-tests-{theme}-{language}.png")
