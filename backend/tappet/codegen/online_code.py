@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, DataObject, OnlineChange
 from tappet.codegen.symbol_map import SymbolMap, TypeInfo
-from tappet.core import calls, initial, ir, places
+from tappet.core import calls, initial, ir, places, templates
 from tappet.core.body import Body
 from tappet.core.life_cycle import life_cycle_methods
 from tappet.core.lower import Lowered, complete
@@ -66,9 +66,9 @@ def add_online_change(
     complete(program, lowered.data)
 
 
-def _run_new(b: Body, base: ir.Place, steps: list[initial.Step], offset: int, fresh: Fresh) -> None:
+def _run_new(b: Body, base: ir.Place, steps: list[templates.Step], offset: int, fresh: Fresh) -> None:
     """Dynamic initial values of new variables; blocks that kept values get FB_Reinit instead of FB_Init."""
-    initialiser = initial.initialiser_of(b.program)
+    initialiser = templates.initialiser_of(b.program)
     for step in steps:
         at = offset + step.offset
         extent = step.count * step.stride if step.inner else step.type.size

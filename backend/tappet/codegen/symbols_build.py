@@ -13,9 +13,9 @@ from tappet.codegen.package import DataObject, RemanentRange
 from tappet.codegen.symbol_export import FLAG as SYMBOL_FLAG
 from tappet.codegen.symbol_export import right_of
 from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
-from tappet.core.initial import VFTABLE
 from tappet.core.lower import DataObject as ProgramData
 from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
+from tappet.core.templates import VFTABLE
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.monitored import SHOWN

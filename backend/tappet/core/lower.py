@@ -20,6 +20,7 @@ from tappet.core import (
     monitored,
     places,
     properties,
+    templates,
 )
 from tappet.core.body import Body
 from tappet.core.method_tables import number_methods
@@ -56,7 +57,7 @@ class DataObject:
 
     symbol: str
     size: int
-    template: initial.Template
+    template: templates.Template
     owner: GvlSymbol | PouSymbol
 
 
@@ -122,9 +123,9 @@ def work_off(program: Program) -> None:
 def data_objects(program: Program) -> list[DataObject]:
     """All lists and programs: lists first (LDEC-43)."""
     found: list[DataObject] = []
-    initialiser = initial.initialiser_of(program)
+    initialiser = templates.initialiser_of(program)
     for gvl in program.analysis.gvls:
-        template = initial.Template(bytearray(gvl.size))
+        template = templates.Template(bytearray(gvl.size))
         for member in gvl.members.values():
             _variable(initialiser, template, member)
         found.append(DataObject(data_symbol(gvl), gvl.size, template, gvl))
@@ -139,7 +140,7 @@ def data_objects(program: Program) -> list[DataObject]:
     return found
 
 
-def _variable(initialiser: initial.Initialiser, template: initial.Template, member: VarSymbol) -> None:
+def _variable(initialiser: templates.Initialiser, template: templates.Template, member: VarSymbol) -> None:
     storage = member.home if member.storage is Storage.CONSTANT else member.storage
     if storage is Storage.GLOBAL and member.type is not None:
         initialiser.variable(template, member.offset, member.type, member.decl, member.bit)
@@ -384,8 +385,8 @@ def _initialise(
         if not text:
             b.emit(ir.Store(place, ir.Const(ir.U16 if type_.wide else ir.U8, 0)))
             return
-    template = initial.Template(bytearray(type_.size))
-    initialiser = initial.initialiser_of(b.program)
+    template = templates.Template(bytearray(type_.size))
+    initialiser = templates.initialiser_of(b.program)
     if decl is not None:
         initialiser.variable(template, 0, type_, decl)
     else:

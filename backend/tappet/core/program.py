@@ -70,7 +70,7 @@ class Program:
     queried: dict[str, t.Interface] = field(default_factory=dict)
     """Constants of `implementers`, filled at the end."""
     initialiser: object = None
-    """`initial.Initialiser`, made on first use."""
+    """`templates.Initialiser`, made on first use."""
     initial_functions: dict[int, str] = field(default_factory=dict)
     """id(FunctionBlock) to the function that runs the dynamic initial values of its members."""
     check_names: dict[str, PouSymbol | None] = field(default_factory=dict)
