@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from tappet.lang import ast
 from tappet.lang.analysis import program
-from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, DirectWrite, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis

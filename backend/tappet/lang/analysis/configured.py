@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import addresses
-from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.heads import plain_body

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tappet.lang import ast
-from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.scope import describe

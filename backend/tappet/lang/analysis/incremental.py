@@ -11,7 +11,7 @@ from dataclasses import fields, replace
 
 from tappet.lang import ast
 from tappet.lang.analysis.bodies import State, analyse_body, finish
-from tappet.lang.analysis.collect import accessor_pou
+from tappet.lang.analysis.collect_members import accessor_pou
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.program import check_fb_init

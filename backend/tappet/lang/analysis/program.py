@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.calls import bind_arguments
-from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.configured import place_incomplete
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations

@@ -20,7 +20,8 @@ from tappet.lang.analysis import (
     selection,
 )
 from tappet.lang.analysis.bodies import Record, State, analyse_body, finish, with_children
-from tappet.lang.analysis.collect import Collected, collect
+from tappet.lang.analysis.collect import collect
+from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.heads import link, plain_body

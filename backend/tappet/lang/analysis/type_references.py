@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import conversion, layout
-from tappet.lang.analysis.collect import Collected
+from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import value
 from tappet.lang.analysis.initial import initialise

@@ -1,0 +1,178 @@
+"""First pass: methods, actions and properties of blocks, and their heads in interfaces."""
+
+from __future__ import annotations
+
+from tappet.lang import ast
+from tappet.lang.analysis.collect_variables import check_name, collect_variables
+from tappet.lang.analysis.collected import Collected, OwnVariables
+from tappet.lang.analysis.context import Session
+from tappet.lang.analysis.monitored import keeping_variable
+from tappet.lang.source import Source
+from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, Storage, VarSymbol
+
+
+def attach(session: Session, found: Collected, child: ast.Pou | ast.Property, source: Source) -> None:
+    """Connects a method, action or property that has a text of its own with its owner."""
+    what = child.kind.capitalize() if isinstance(child, ast.Pou) else "Property"
+    owner = session.levels.of(source).objects.get(source.owner.upper()) if source.owner else None
+    if isinstance(owner, PouSymbol) and owner.instance is not None:
+        if isinstance(child, ast.Pou):
+            collect_child(session, found, owner, child, source)
+        else:
+            collect_property(session, found, owner, child, source)
+    elif isinstance(owner, InterfaceSymbol):
+        if isinstance(child, ast.Pou):
+            collect_head(session, found, owner, child, source)
+        else:
+            collect_property_head(session, found, owner, child, source)
+    else:
+        session.report("E0429", source.uri, child.name_span, what=f"{what} '{child.name}'")
+
+
+def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast.Pou, source: Source) -> None:
+    """A method, action or transition of a program or block."""
+    symbol = PouSymbol(
+        pou.name,
+        source,
+        pou.name_span,
+        pou.comment,
+        pou=pou,
+        kind=pou.kind,
+        qualified_name=f"{owner.qualified_name}.{pou.name}",
+        instance=owner.instance,
+        owner=owner,
+    )
+    pou.symbol = symbol
+    check_name(session, pou.name, source, pou.name_span)
+    table = owner.methods if pou.kind == "METHOD" else owner.actions
+    key = pou.name.upper()
+    if key in owner.methods or key in owner.actions or key in owner.properties:
+        session.report("E0205", source.uri, pou.name_span, what=pou.kind.lower(), name=pou.name)
+        return
+    table[key] = symbol
+    found.own[id(symbol)] = collect_variables(session, found, symbol, pou.blocks, source)
+
+
+def collect_property(
+    session: Session, found: Collected, owner: PouSymbol, property_: ast.Property, source: Source
+) -> None:
+    """A property of a program or block, with its accessors."""
+    key = property_.name.upper()
+    if key in owner.methods or key in owner.actions or key in owner.properties:
+        session.report("E0205", source.uri, property_.name_span, what="property", name=property_.name)
+        return
+    symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
+    check_name(session, property_.name, source, property_.name_span)
+    owner.properties[key] = symbol
+    kept = keeping_variable(owner, property_, source)
+    if kept is not None:
+        found.own[id(owner)].variables[kept.name.upper()] = kept
+    _add_accessors(session, found, owner, symbol, property_, source)
+
+
+def _add_accessors(
+    session: Session,
+    found: Collected,
+    owner: PouSymbol | InterfaceSymbol,
+    symbol: PropertySymbol,
+    property_: ast.Property,
+    source: Source,
+) -> None:
+    block = owner if isinstance(owner, PouSymbol) else None
+    for accessor, prefix in ((property_.getter, "__get"), (property_.setter, "__set")):
+        if accessor is None:
+            continue
+        pou = accessor_pou(property_, accessor, prefix, block.pou if block else None, source)
+        head = PouSymbol(
+            pou.name,
+            source,
+            property_.name_span,
+            pou=pou,
+            kind="METHOD",
+            qualified_name=f"{block.qualified_name if block else owner.name}.{pou.name}",
+            instance=block.instance if block else None,
+            owner=block,
+        )
+        pou.symbol = head
+        found.own[id(head)] = collect_variables(session, found, head, accessor.blocks, source)
+        _add_accessor_value(found.own[id(head)], property_, prefix, source)
+        if block is None:
+            owner.methods[pou.name.upper()] = head
+        if prefix == "__get":
+            symbol.getter = head
+        else:
+            symbol.setter = head
+
+
+def accessor_pou(
+    property_: ast.Property, accessor: ast.Accessor, prefix: str, owner: ast.Pou | None, source: Source
+) -> ast.Pou:
+    """The accessor of a property as the method `__getX` or `__setX`."""
+    return ast.Pou(
+        span=accessor.span,
+        name=f"{prefix}{property_.name}",
+        name_span=property_.name_span,
+        source=source,
+        kind="METHOD",
+        return_type=property_.type_ref if prefix == "__get" else None,
+        blocks=accessor.blocks,
+        body=accessor.body,
+        access=property_.access,
+        modifiers=property_.modifiers,
+        attributes=property_.attributes,
+        owner=owner,
+    )
+
+
+def _add_accessor_value(own: OwnVariables, property_: ast.Property, prefix: str, source: Source) -> None:
+    """The property's name inside its setter is the value that is set."""
+    if prefix != "__set" or property_.type_ref is None:
+        return
+    decl = ast.VarDecl(
+        name=property_.name,
+        name_span=property_.name_span,
+        span=property_.name_span,
+        type_ref=property_.type_ref,
+    )
+    symbol = VarSymbol(
+        property_.name,
+        source,
+        property_.name_span,
+        storage=Storage.PARAMETER,
+        home=Storage.PARAMETER,
+        section="VAR_INPUT",
+        decl=decl,
+    )
+    decl.symbol = symbol
+    own.variables[property_.name.upper()] = symbol
+
+
+def collect_head(
+    session: Session, found: Collected, owner: InterfaceSymbol, pou: ast.Pou, source: Source
+) -> None:
+    """A method of an interface."""
+    symbol = PouSymbol(
+        pou.name,
+        source,
+        pou.name_span,
+        pou.comment,
+        pou=pou,
+        kind="METHOD",
+        qualified_name=f"{owner.name}.{pou.name}",
+    )
+    pou.symbol = symbol
+    key = pou.name.upper()
+    if key in owner.methods:
+        session.report("E0205", source.uri, pou.name_span, what="method", name=pou.name)
+        return
+    owner.methods[key] = symbol
+    found.own[id(symbol)] = collect_variables(session, found, symbol, pou.blocks, source)
+
+
+def collect_property_head(
+    session: Session, found: Collected, owner: InterfaceSymbol, property_: ast.Property, source: Source
+) -> None:
+    """A property of an interface, with its accessors."""
+    symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
+    owner.properties[property_.name.upper()] = symbol
+    _add_accessors(session, found, owner, symbol, property_, source)
