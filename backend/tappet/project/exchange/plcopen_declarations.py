@@ -6,6 +6,7 @@ import base64
 import binascii
 import re
 from collections.abc import Iterator
+from itertools import groupby
 
 from tappet.project.exchange.xml_tree import Element
 
@@ -26,6 +27,9 @@ _SECTIONS = {
 }
 _QUALIFIERS = ("constant", "retain", "nonretain", "persistent", "nonpersistent")
 _TRUE = frozenset(["true", "1"])
+_CONSTANT_INPUT = "input_constant"
+_WRITTEN_OTHERWISE = frozenset([_CONSTANT_INPUT, "old_input_assignments"])
+"""Attributes by which CODESYS marks what the declaration has words for."""
 
 
 def added(element: Element | None) -> Iterator[tuple[str, Element]]:
@@ -124,13 +128,31 @@ def documentation(element: Element | None) -> str:
 def attributes(element: Element | None) -> list[str]:
     """The attribute pragmas of an element, a line each."""
     lines = []
+    for attribute in _attribute_elements(element):
+        if attribute.get("Name").lower() in _WRITTEN_OTHERWISE:
+            continue
+        value = attribute.get("Value").replace("$", "$$").replace("'", "$'")
+        assigned = f" := '{value}'" if value else ""
+        lines.append(f"{{attribute '{attribute.get('Name')}'{assigned}}}")
+    return lines
+
+
+def _attribute_elements(element: Element | None) -> Iterator[Element]:
     for name, item in added(element):
         if name == "attributes":
-            for attribute in item.children("Attribute"):
-                value = attribute.get("Value").replace("$", "$$").replace("'", "$'")
-                assigned = f" := '{value}'" if value else ""
-                lines.append(f"{{attribute '{attribute.get('Name')}'{assigned}}}")
-    return lines
+            yield from item.children("Attribute")
+
+
+def _arguments(element: Element) -> str:
+    """What a function block's FB_Init gets, in parentheses; empty for nothing."""
+    given = [
+        f"{label.text().strip()} := {value.text().strip()}"
+        for name, item in added(element)
+        if name == "inputassignments"
+        for part in item.children("InputAssignment")
+        if (label := part.child("Name")) is not None and (value := part.child("Value")) is not None
+    ]
+    return f"({', '.join(given)})" if given else ""
 
 
 def variable_lines(element: Element) -> list[str]:
@@ -139,7 +161,8 @@ def variable_lines(element: Element) -> list[str]:
     value = value_text(element.child("initialValue"))
     note = documentation(element)
     indented = type_text(element.child("type")).replace("\n", "\n    ")
-    line = f"    {element.get('name')}{address} : {indented}{f' := {value}' if value else ''};"
+    assigned = f" := {value}" if value else ""
+    line = f"    {element.get('name')}{address} : {indented}{_arguments(element)}{assigned};"
     lines = [f"    {attribute}" for attribute in attributes(element)]
     if "\n" in note.strip():
         lines += _comment_above(note, "    ")
@@ -178,10 +201,18 @@ def section_lines(element: Element) -> list[str]:
     keyword = _SECTIONS.get(element.tag, "VAR")
     flags = [flag.upper() for flag in _QUALIFIERS if element.get(flag).lower() in _TRUE]
     flags = [{"NONRETAIN": "NON_RETAIN"}.get(flag, flag) for flag in flags if flag != "NONPERSISTENT"]
-    variables = [line for item in element.children("variable") for line in variable_lines(item)]
+    variables = element.children("variable")
     if not variables and not flags and keyword == "VAR":
         return []
-    return [" ".join([keyword, *flags]), *variables, "END_VAR"]
+    lines: list[str] = []
+    for constant, part in groupby(variables, _is_constant_input):
+        words = [keyword, "CONSTANT", *flags] if constant else [keyword, *flags]
+        lines += [" ".join(words), *(line for item in part for line in variable_lines(item)), "END_VAR"]
+    return lines or [" ".join([keyword, *flags]), "END_VAR"]
+
+
+def _is_constant_input(variable: Element) -> bool:
+    return any(item.get("Name").lower() == _CONSTANT_INPUT for item in _attribute_elements(variable))
 
 
 def plain_text(element: Element) -> str | None:
@@ -232,6 +263,8 @@ def data_type_text(element: Element) -> str:
         elif item.tag in ("union", "Union"):
             inner = item
     base = element.child("baseType")
+    if element.tag in ("union", "Union"):
+        inner = element
     if inner is None and base is not None:
         inner = next((item for item in base if item.tag != "addData"), None)
         inner = inner or next((item for _, item in added(base)), None)
@@ -259,13 +292,16 @@ def head_lines(keyword: str, element: Element) -> list[str]:
     extends: list[str] = []
     implements: list[str] = []
     modifiers: list[str] = []
+    inheritance = element.children("Inheritance")
     for holder in (element, interface):
         for name, item in added(holder):
             if name.endswith("inheritance"):
-                extends += [part.text().strip() for part in item.children("Extends")]
-                implements += [part.text().strip() for part in item.children("Implements")]
+                inheritance.append(item)
             elif name == "accessmodifiers":
                 modifiers += [key.upper() for key, value in item.attributes.items() if value.lower() in _TRUE]
+    for item in inheritance:
+        extends += [part.text().strip() for part in item.children("Extends")]
+        implements += [part.text().strip() for part in item.children("Implements")]
     words = [keyword, *dict.fromkeys(modifiers), element.get("name")]
     if extends:
         words.append(f"EXTENDS {', '.join(extends)}")

@@ -32,6 +32,7 @@ from tappet.project.exchange.plcopen_declarations import (
     section_lines,
     sections,
 )
+from tappet.project.exchange.plcopen_devices import controllers_below, read_devices
 from tappet.project.exchange.plcopen_tasks import read_task, task_of_instance
 from tappet.project.exchange.plcopen_tree import arrange
 from tappet.project.exchange.report import ExchangeError, ImportReport
@@ -46,6 +47,9 @@ _CODE = frozenset(["pou", "dut", "interface", "folder"])
 _KEYWORDS = {"program": "PROGRAM", "function": "FUNCTION", "functionblock": "FUNCTION_BLOCK"}
 _CONTAINERS = frozenset(
     ["types", "dataTypes", "pous", "instances", "configurations", "globalVarsList", "Interfaces", "project"]
+)
+_OBJECTS = frozenset(
+    ["pou", "dataType", "union", "globalVars", "Interface", "configuration", "resource", "task"]
 )
 _NO_OBJECTS = frozenset(
     [
@@ -126,7 +130,7 @@ class _Reader:
         tag = item.tag
         if tag == "pou":
             self._enter(parent, self._pou(item))
-        elif tag == "dataType":
+        elif tag in ("dataType", "union"):
             self._enter(parent, self._data_type(item))
         elif tag == "globalVars":
             self._enter(parent, self._globals(item))
@@ -157,17 +161,8 @@ class _Reader:
             self._generic(item)
         elif item.tag == "Libraries":
             self._libraries(item, parent)
-        elif item.tag in ("pou", "dataType", "globalVars", "Interface", "configuration", "resource", "task"):
+        elif item.tag in _OBJECTS:
             self._element(item, parent)
-        elif name == "device" and parent.kind == "device":
-            kind = item.find("DeviceType") or item
-            self.report.add(
-                "refused",
-                self.source,
-                "the settings of the device are not read; its applications are",
-                name=parent.name,
-                line=kind.line,
-            )
         elif name not in _NO_OBJECTS:
             text = f"additional data '{name}' are not read"
             self.report.add(
@@ -224,6 +219,8 @@ class _Reader:
             for part in holder:
                 self._child(part, draft)
         for name, part in added(item):
+            if name == "sfcsettings" and not _uses_flags(part):
+                continue
             if not self._child(part, draft) and name not in _NO_OBJECTS:
                 text = f"additional data '{name}' are not read"
                 self.report.add("refused", self.source, text, name=draft.name, line=part.line)
@@ -332,7 +329,7 @@ class _Reader:
         for name, part in added(item):
             if name == "object":
                 device.data = _json(self.source, part)
-            else:
+            elif part.tag not in ("Device", "configurations"):
                 self._added(name, part, device)
         self._remember(device)
         own = Draft("application", "", source=self.source)
@@ -347,6 +344,9 @@ class _Reader:
             if not logic.children:
                 logic.children.append(Draft("application", "Application", source=self.source))
             logic.children[0].children += own.children
+        read_devices(self.source, item, logic.children[0] if logic and logic.children else None, self.report)
+        for below in controllers_below(item):
+            self._configuration(below)
 
     def _resource(self, item: Element, parent: Draft) -> None:
         application = self._draft("application", item)
@@ -385,6 +385,11 @@ class _Reader:
         draft = self._draft(item.get("kind"), item, _json(self.source, item))
         self.generic.append(draft)
         self._remember(draft)
+
+
+def _uses_flags(settings: Element) -> bool:
+    """Whether settings of SFC switch a flag on: without one they are what every chart has."""
+    return any(item.get("Use").lower() == "true" for item in settings.walk())
 
 
 def _json(source: str, item: Element) -> dict[str, Any]:
