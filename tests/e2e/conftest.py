@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import APIRequestContext, Browser, Page, expect, sync_playwright
+from playwright.sync_api import APIRequestContext, Browser, BrowserContext, Page, expect, sync_playwright
 from playwright.sync_api import Error as PlaywrightError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -153,29 +153,44 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
 
 
 @contextmanager
-def start_page(
-    browser: Browser, server: Server, language: str = "en", theme: str = "light"
-) -> Iterator[Page]:
-    """The start page in a profile of its own, logged in by a one-time link, everything as delivered."""
+def new_profile(browser: Browser, language: str = "en", theme: str = "light") -> Iterator[BrowserContext]:
+    """Storage and cache of their own, and the language and colours that a browser tells the workbench."""
     profile = browser.new_context(
         viewport={"width": 1440, "height": 900},
         locale={"en": "en-US", "zh": "zh-CN"}[language],
         color_scheme="dark" if theme == "dark" else "light",
     )
     profile.set_default_timeout(30_000)
+    yield profile
+    profile.close()
+
+
+@contextmanager
+def start_page(profile: BrowserContext, server: Server) -> Iterator[Page]:
+    """The start page as a new user sees it, everything as delivered, logged in by a one-time link."""
+    profile.clear_cookies()
     profile.request.get(server.fresh_link())
     as_delivered(profile.request, server.address)
     server.forget_settings()
     opened = profile.new_page()
     opened.goto(server.address)
     yield opened
-    profile.close()
+    with suppress(PlaywrightError):
+        opened.evaluate("() => localStorage.clear()")
+    opened.close()
+
+
+@pytest.fixture(scope="module")
+def profile(browser: Browser) -> Iterator[BrowserContext]:
+    """One for all tests of a module: what is kept of it is the cache of the workbench's code."""
+    with new_profile(browser) as fresh:
+        yield fresh
 
 
 @pytest.fixture
-def page(browser: Browser, server: Server, request: pytest.FixtureRequest) -> Iterator[Page]:
+def page(profile: BrowserContext, server: Server, request: pytest.FixtureRequest) -> Iterator[Page]:
     """The workbench; its last picture is kept for whoever mends a failure."""
-    with start_page(browser, server) as opened:
+    with start_page(profile, server) as opened:
         yield opened
         with suppress(PlaywrightError):
             opened.screenshot(path=server.data / f"{request.node.name}.png", timeout=5_000)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, expect
 
-from .conftest import Server, start_page
+from .conftest import Server, new_profile, start_page
 from .workbench import implementation, log_in, open_object, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
@@ -33,7 +33,7 @@ def test_workbench_and_plant(browser: Browser, server: Server, theme: str, langu
         if message.type == "error" and not any(part in message.text for part in HARMLESS):
             errors.append(message.text)
 
-    with start_page(browser, server, language, theme) as page:
+    with new_profile(browser, language, theme) as profile, start_page(profile, server) as page:
         page.on("console", on_console)
         page.reload()
         open_project(page)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from .conftest import Server, start_page
+from .conftest import Server, new_profile, start_page
 from .workbench import choose_menu, implementation, open_project
 
 pytestmark = pytest.mark.e2e
@@ -113,7 +113,7 @@ def test_what_failed_runs_again_and_the_others_keep_their_results(tested: Page) 
 )
 def test_pictures(browser: Browser, server: Server, theme: str, language: str) -> None:
     folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
-    with start_page(browser, server, language, theme) as page:
+    with new_profile(browser, language, theme) as profile, start_page(profile, server) as page:
         page.evaluate(ADD_SUITE)
         open_project(page)
         menu, entry, title = (
