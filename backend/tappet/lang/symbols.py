@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -105,6 +106,18 @@ class PouSymbol(Symbol):
     methods, actions, `__GETX`, `__SETX`; inherited ones first, a derived block keeps the slots of its base.
     Empty when nothing of the block is virtual; then its instances have no `__VFTABLE`."""
 
+    def children(self) -> Iterator[PouSymbol]:
+        """Methods, actions and accessors, as far as the POU has them itself."""
+        yield from self.methods.values()
+        yield from self.actions.values()
+        for property_ in self.properties.values():
+            yield from property_.accessors()
+
+    def with_children(self) -> Iterator[PouSymbol]:
+        """The POU and its methods, actions and accessors."""
+        yield self
+        yield from self.children()
+
 
 @dataclass(eq=False, slots=True)
 class PropertySymbol(Symbol):
@@ -113,6 +126,13 @@ class PropertySymbol(Symbol):
     type: Type | None = None
     getter: PouSymbol | None = None
     setter: PouSymbol | None = None
+
+    def accessors(self) -> Iterator[PouSymbol]:
+        """Getter and setter, where there are."""
+        if self.getter is not None:
+            yield self.getter
+        if self.setter is not None:
+            yield self.setter
 
 
 @dataclass(eq=False, slots=True)

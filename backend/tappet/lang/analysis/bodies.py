@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from tappet.lang import ast
@@ -44,18 +43,6 @@ class State:
     """Of all declarations together."""
     records: dict[int, Record] = field(default_factory=dict)
     """Of each body, by id() of its symbol."""
-
-
-def with_children(pou: PouSymbol) -> Iterable[PouSymbol]:
-    """A POU and its methods, actions and accessors."""
-    yield pou
-    yield from pou.methods.values()
-    yield from pou.actions.values()
-    for property_ in pou.properties.values():
-        if property_.getter is not None:
-            yield property_.getter
-        if property_.setter is not None:
-            yield property_.setter
 
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:

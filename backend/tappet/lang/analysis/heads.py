@@ -20,6 +20,8 @@ from tappet.lang.symbols import (
 
 _PASSED = frozenset({"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"})
 _DEPTH_LIMIT = 200
+_WITHOUT_RESULT = ("tappet_external", "no_return_type")
+"""Attributes of functions that may be without a return type."""
 
 
 def link(session: Session, found: Collected, declarations: Declarations) -> None:
@@ -165,9 +167,8 @@ class _Views:
         for child in (*pou.methods.values(), *pou.actions.values()):
             self.method(child, pou, child.source or source)
         for property_ in pou.properties.values():
-            for accessor in (property_.getter, property_.setter):
-                if accessor is not None:
-                    self.method(accessor, pou, accessor.source or source, property_.name)
+            for accessor in property_.accessors():
+                self.method(accessor, pou, accessor.source or source, property_.name)
 
     def method(
         self, pou: PouSymbol, owner: PouSymbol | None, source: Source, result_name: str | None = None
@@ -233,12 +234,15 @@ class _Views:
         pou.locals.setdefault(name.upper(), result)
 
     def _check_return_type(self, pou: PouSymbol) -> None:
-        """A function yields one data element (POU-03); C functions and system sources may yield none."""
+        """A function yields one data element (POU-03); C functions and system sources may yield none.
+
+        Functions of other systems may do so, too: their imports mark them.
+        """
         node, source = pou.pou, pou.source
         if node is None or node.return_type is not None or source is None:
             return
-        external = attribute(node.attributes, "tappet_external") is not None
-        if source.scope is not Scope.LIBRARY and not external and not self.session.options.system:
+        marked = any(attribute(node.attributes, name) is not None for name in _WITHOUT_RESULT)
+        if source.scope is not Scope.LIBRARY and not marked and not self.session.options.system:
             self.session.report("E0432", source.uri, node.name_span, name=pou.name)
 
     def _vtable(self, pou: PouSymbol, base: PouSymbol | None) -> None:
@@ -250,9 +254,8 @@ class _Views:
         fixed = attribute(pragmas, "no_virtual_actions") is not None  # LSFC-26
         entries: dict[str, PouSymbol] = {**pou.methods, **({} if fixed else pou.actions)}
         for property_ in pou.properties.values():
-            for accessor in (property_.getter, property_.setter):
-                if accessor is not None:
-                    entries[accessor.name.upper()] = accessor
+            for accessor in property_.accessors():
+                entries[accessor.name.upper()] = accessor
         if base is not None or id(pou) in self.extended or pou.interfaces or entries:
             pou.vtable.setdefault("__BODY", pou)
             pou.vtable["__BODY"] = pou

@@ -112,17 +112,20 @@ def binary(b: Body, e: ast.Binary) -> None:
         _fold(b, e, left, right)
 
 
+def _adapt(left: ast.Expr, right: ast.Expr, lt: Elementary, rt: Elementary) -> tuple[Elementary, Elementary]:
+    """Types of two values of which one is an untyped constant: it takes the type of the other if it can."""
+    if left.untyped:
+        return (rt, rt) if retype(left, rt) else (lt, rt)
+    return (lt, lt) if retype(right, lt) else (lt, rt)
+
+
 def _meet(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> conversion.Operands | None:
     """Common type of two numbers; literals adapt to the other side first. None when one is no number."""
     lt, rt = t.value_type(left.type), t.value_type(right.type)  # type: ignore[arg-type]
     if lt.__class__ is not Elementary or rt.__class__ is not Elementary:
         return None
     if left.untyped != right.untyped:
-        if left.untyped:
-            if retype(left, rt):
-                lt = rt
-        elif retype(right, lt):
-            rt = lt
+        lt, rt = _adapt(left, right, lt, rt)
     elif lt is not rt:
         if left.__class__ is ast.Call and adapt_choice(left, rt):
             lt = rt
@@ -231,11 +234,7 @@ def _bits(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
     lt, rt = t.value_type(left.type), t.value_type(right.type)  # type: ignore[arg-type]
     if lt.__class__ is Elementary and rt.__class__ is Elementary:
         if left.untyped != right.untyped:
-            if left.untyped:
-                if retype(left, rt):
-                    lt = rt
-            elif retype(right, lt):
-                rt = lt
+            lt, rt = _adapt(left, right, lt, rt)
         result = conversion.BIT_OPERANDS.get((lt.name, rt.name))
         if result is not None:
             e.type = e.operand_type = result
@@ -297,11 +296,7 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
     lt, rt = t.value_type(left.type), t.value_type(right.type)  # type: ignore[arg-type]
     if lt.__class__ is Elementary and rt.__class__ is Elementary:
         if left.untyped != right.untyped:
-            if left.untyped:
-                if retype(left, rt):
-                    lt = rt
-            elif retype(right, lt):
-                rt = lt
+            lt, rt = _adapt(left, right, lt, rt)
         if lt == rt:
             # a narrow result of arithmetic is held in DINT and not stored here (LOPR-03)
             e.operand_type = t.DINT if lt.is_integer and lt.size < 4 else lt

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.calls import bind_arguments
@@ -49,20 +47,9 @@ def _recursion(session: Session, found: Collected) -> None:
     """Reports every cycle of calls once, with the chain (POU-02)."""
     finished: set[int] = set()
     for pou, _ in found.pous:
-        for start in _callers(pou):
+        for start in pou.with_children():
             if id(start) not in finished:
                 _search(session, start, finished)
-
-
-def _callers(pou: PouSymbol) -> Iterable[PouSymbol]:
-    yield pou
-    yield from pou.methods.values()
-    yield from pou.actions.values()
-    for property_ in pou.properties.values():
-        if property_.getter is not None:
-            yield property_.getter
-        if property_.setter is not None:
-            yield property_.setter
 
 
 def _search(session: Session, start: PouSymbol, finished: set[int]) -> None:
@@ -245,7 +232,7 @@ def _bind_fb_init(
 def _external_types(session: Session, found: Collected, declarations: Declarations) -> None:
     """VAR_EXTERNAL must repeat the type of the global variable (LDEC-27)."""
     for pou, _ in found.pous:
-        for entry in _callers(pou):
+        for entry in pou.with_children():
             body = declarations.bodies[id(entry)]
             for variable in found.own[id(entry)].externals:
                 target = entry.locals.get(variable.name.upper())

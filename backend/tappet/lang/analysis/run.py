@@ -19,7 +19,7 @@ from tappet.lang.analysis import (
     program,
     selection,
 )
-from tappet.lang.analysis.bodies import Record, State, analyse_body, finish, with_children
+from tappet.lang.analysis.bodies import Record, State, analyse_body, finish
 from tappet.lang.analysis.collect import collect
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
@@ -153,7 +153,7 @@ def _property_type(property_: object) -> None:
 
 def _all_pous(found: Collected) -> Iterable[PouSymbol]:
     for pou, _ in found.pous:
-        yield from with_children(pou)
+        yield from pou.with_children()
 
 
 def _lay_out_lists(session: Session, found: Collected) -> None:
@@ -226,7 +226,7 @@ def _make_unique(found: Collected) -> None:
                 member.owner = unique
             symbol.name = unique
         else:
-            for child in with_children(symbol):
+            for child in symbol.with_children():
                 child.qualified_name = unique if child is symbol else f"{unique}.{child.name}"
                 for variable in child.locals.values():
                     if variable.owner is not None and variable.owner.upper() == key:

@@ -120,12 +120,8 @@ class Snapshot:
         found: dict[str, PouSymbol] = {}
         for pou in self.analysis.pous:
             found.setdefault(pou.qualified_name.upper(), pou)
-            for child in (*pou.methods.values(), *pou.actions.values()):
+            for child in pou.children():
                 found.setdefault(f"{pou.name}.{child.name}".upper(), child)
-            for property_ in pou.properties.values():
-                for accessor in (property_.getter, property_.setter):
-                    if accessor is not None:
-                        found.setdefault(f"{pou.name}.{accessor.name}".upper(), accessor)
         for interface in self.analysis.interfaces.values():
             for method in interface.methods.values():
                 found.setdefault(f"{interface.name}.{method.name}".upper(), method)
