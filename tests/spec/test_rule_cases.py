@@ -6,6 +6,8 @@ what must come out, as in the conformance tests (CYCLES, EXPECT, FAULT, ERROR, W
 // CASE LDEC-07: two underscores in a row are refused
 // MESSAGE: two consecutive          some message says this
 // ABSENT: W1001                     no message has this code
+// SET 3: Globals.go = TRUE          written before the third cycle, as a write from outside
+// OVER: PLC_PRG.x = 0 1 1           the values at the end of each cycle; FALSE is 0, TRUE is 1
 // SOURCE: Globals                   what follows is a text of this name
 """
 
@@ -16,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from tests.conformance.test_conformance import Expectation, read, run
+from tests.conformance.test_conformance import CYCLE_NS, Expectation, read, run
 from tests.spec.language_cases import Outcome, guarded
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
@@ -29,6 +31,10 @@ _CASE = re.compile(r"^// CASE (?P<ids>[A-Z]+-\d+(?:,? [A-Z]+-\d+)*): (?P<title>.
 _SOURCE = re.compile(r"^// SOURCE: (\w+)$", re.MULTILINE)
 _MESSAGE = re.compile(r"^// MESSAGE: (.+)$", re.MULTILINE)
 _ABSENT = re.compile(r"^// ABSENT: (\w+)$", re.MULTILINE)
+_SET = re.compile(r"^// SET (\d+): (\S+) = (.+)$", re.MULTILINE)
+_OVER = re.compile(r"^// OVER: (\S+) = (.+)$", re.MULTILINE)
+_VALUES = re.compile(r"'[^']*'|\S+")
+_BIT = {"FALSE": "0", "TRUE": "1"}
 LIBRARIES = (LibraryReference("Standard"),)
 SESSION = BuildSession()
 
@@ -61,6 +67,35 @@ def load(path: Path) -> list[Case]:
     return cases
 
 
+@dataclass
+class Course:
+    """What is written before single cycles, and the values that must stand at the end of each."""
+
+    writes: dict[int, list[tuple[str, str]]]
+    rows: dict[str, list[str]]
+
+    @classmethod
+    def read(cls, text: str) -> Course:
+        writes: dict[int, list[tuple[str, str]]] = {}
+        for cycle, path, literal in _SET.findall(text):
+            writes.setdefault(int(cycle), []).append((path, literal))
+        return cls(writes, {path: _VALUES.findall(values) for path, values in _OVER.findall(text)})
+
+    def run(self, application: LoadedApplication) -> dict[str, list[str]]:
+        """Cycles as many as the rows have values; what came out, row by row."""
+        found: dict[str, list[str]] = {path: [] for path in self.rows}
+        application.start()
+        for cycle in range(1, max(map(len, self.rows.values())) + 1):
+            for path, literal in self.writes.get(cycle, []):
+                application.write(path, literal)
+            application.cycle()
+            application.clock_ns += CYCLE_NS
+            for path, values in found.items():
+                value = application.literal(path)
+                values.append(_BIT.get(value, value))
+        return found
+
+
 CASES = [case for path in sorted(FOLDER.glob("*.st")) for case in load(path)]
 
 
@@ -68,9 +103,11 @@ CASES = [case for path in sorted(FOLDER.glob("*.st")) for case in load(path)]
 def test_case(case: Case) -> None:
     expected = case.expectation
     wanted, absent = _MESSAGE.findall(case.text), _ABSENT.findall(case.text)
-    assert expected.values or expected.fault or expected.errors or expected.warnings or wanted, (
-        "expects nothing"
-    )
+    course = Course.read(case.text)
+    assert (
+        expected.values or course.rows or expected.fault or expected.errors or expected.warnings or wanted
+    ), "expects nothing"
+    assert not (course.rows and expected.values), "rows of values, or values at the end"
     options = BuildOptions(level=1, libraries=LIBRARIES)
     result = build_application(case.sources(), session=SESSION, options=options)
     texts = [str(d) for d in result.diagnostics]
@@ -81,7 +118,7 @@ def test_case(case: Case) -> None:
     assert not set(absent) & set(codes), texts
     for text in wanted:
         assert any(text in found for found in texts), texts
-    if errors or not (expected.values or expected.fault):
+    if errors or not (expected.values or expected.fault or course.rows):
         return
     package = result.package
     assert package is not None
@@ -93,7 +130,10 @@ def test_case(case: Case) -> None:
         return
     application = LoadedApplication(package)
     try:
-        run(application, expected)
+        if course.rows:
+            assert course.run(application) == course.rows
+        else:
+            run(application, expected)
     finally:
         application.close()
 

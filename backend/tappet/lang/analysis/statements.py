@@ -302,9 +302,28 @@ def _when_declared(b: Body, s: ast.WhenDeclared) -> None:
     found = [b.lookup(entry) for entry in s.names]
     s.chosen = s.body if all(isinstance(symbol, VarSymbol) for symbol in found) else s.otherwise
     if s.step is not None and None in found:
-        b.report("E0826", s.span, step=s.step, name=s.names[0], hint=b.suggest(s.names[0]))
+        if s.step:
+            b.report("E0826", s.span, step=s.step, name=s.names[0], hint=b.suggest(s.names[0]))
         s.chosen = []
+    elif s.role is not None and isinstance(found[0], VarSymbol):
+        b.report("E0830", s.span, step=s.step, name=s.names[0], role=s.role)
+        s.chosen = []
+    if s.described is not None:
+        _describe(b, s.described)
     statements(b, s.chosen)
+
+
+def _describe(b: Body, s: ast.Described) -> None:
+    """Address and comment of a variable, where the expression names one."""
+    value(b, s.of)
+    symbol = getattr(s.of, "symbol", None)
+    if not isinstance(symbol, VarSymbol):
+        return
+    decl = symbol.decl
+    address = symbol.name if decl is None and symbol.area is not None else decl and decl.address
+    for literal, text in ((s.address, address), (s.comment, (decl and decl.comment) or symbol.comment)):
+        literal.value = (text or "").encode("latin-1", "replace")
+        literal.text = f"'{text or ''}'"
 
 
 def _held(b: Body, e: ast.Held) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tappet.lang.ast.expressions import Call, Expr
+from tappet.lang.ast.expressions import Call, Expr, Literal
 from tappet.lang.ast.node import Node, Pragma
 from tappet.lang.source import NOWHERE, Span
 
@@ -148,6 +148,15 @@ class PragmaStmt(Stmt):
 
 
 @dataclass(slots=True, kw_only=True)
+class Described:
+    """Literals of a statement that take what is declared about a variable."""
+
+    of: Expr
+    address: Literal
+    comment: Literal
+
+
+@dataclass(slots=True, kw_only=True)
 class WhenDeclared(Stmt):
     """`body` where every one of `names` is a variable here, else `otherwise`: what a chart becomes depends on
     the flags that are declared, and on whether an association names an action or a BOOL variable."""
@@ -156,7 +165,11 @@ class WhenDeclared(Stmt):
     body: list[Stmt]
     otherwise: list[Stmt]
     step: str | None = None
-    """The step that names an action: an unknown name is an error then."""
+    """The step that names an action: an unknown name is an error then, told once: empty in a second place."""
+    role: str | None = None
+    """STEP, ENTRY or EXIT where only an action may stand."""
+    described: Described | None = None
+    """What `body` tells about a variable."""
     # resolved
     chosen: list[Stmt] = field(default_factory=list)
 

@@ -31,8 +31,31 @@ def read_body(parser: StatementParser) -> list[ast.Stmt]:
     return _Reader(parser).body()
 
 
+def read_value(parser: StatementParser) -> tuple[list[ast.Stmt], ast.Expr]:
+    """The rows of a transition: statements that compute parts of it, and what the accumulator holds then."""
+    return _Reader(parser).value()
+
+
 class _Reader(RowReader):
     def body(self) -> list[ast.Stmt]:
+        """The statements of all rows."""
+        self.rows()
+        self.end_network()
+        self.net.flush_label()
+        return self.net.out
+
+    def value(self) -> tuple[list[ast.Stmt], ast.Expr]:
+        """What the rows compute, and its value; without one there is a message (E0122)."""
+        start = self.p.i
+        self.rows()
+        self.close_levels()
+        if not self.has_value("END_TRANSITION", start):
+            return self.net.out, ast.ErrorExpr(span=self.p.span_at(start))
+        self.net.flush_label()
+        return self.net.out, self.net.use(False, self.p.span_at(start))
+
+    def rows(self) -> None:
+        """All rows up to the end of the body."""
         p, net = self.p, self.net
         while True:
             start = p.i
@@ -43,9 +66,6 @@ class _Reader(RowReader):
             if p.kinds[start] in BODY_ENDS:
                 break
             self.row(start)
-        self.end_network()
-        net.flush_label()
-        return net.out
 
     # -- rows
 
@@ -90,6 +110,11 @@ class _Reader(RowReader):
 
     def end_network(self) -> None:
         """Close what is open and give the accumulator up."""
+        self.close_levels()
+        self.drop()
+
+    def close_levels(self) -> None:
+        """Report the parentheses that are open and close them."""
         net = self.net
         while len(net.levels) > 1:
             level = net.level
@@ -101,7 +126,6 @@ class _Reader(RowReader):
             level.value = ast.ErrorExpr(span=level.opener)
             self.close_level(level.opener)
             net.level.used = True
-        self.drop()
 
     def drop(self) -> None:
         """Give the accumulator up, with a warning when nothing has used its value."""

@@ -15,7 +15,7 @@ def name(text: str, span: Span = NOWHERE) -> ast.Expr:
     return found
 
 
-def text(content: str) -> ast.Expr:
+def literal(content: str) -> ast.Literal:
     """A STRING literal."""
     return ast.Literal(text=f"'{content}'", kind="string", value=content.encode("latin-1", "replace"))
 

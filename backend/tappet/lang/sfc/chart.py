@@ -51,6 +51,8 @@ class Transition:
     condition: ast.Expr
     span: Span
     priority: int | None = None
+    rows: list[ast.Stmt] = field(default_factory=list)
+    """Of a condition in IL what its rows compute before it."""
 
 
 @dataclass(slots=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import report
+from tappet.lang.il.reader import read_value
 from tappet.lang.lexer import END, ID, INT
 from tappet.lang.parser_core import BODY_END, OBJECT_HEADS
 from tappet.lang.sfc.chart import QUALIFIERS, ROLES, TIMED, Association, Chart, Step, Transition
@@ -131,7 +132,7 @@ def _checked_time(
 
 
 def read_transition(parser: StatementParser, chart: Chart) -> None:
-    """`TRANSITION name (PRIORITY := n) FROM step TO step := condition; END_TRANSITION`."""
+    """`TRANSITION name (PRIORITY := n) FROM step TO step := condition; END_TRANSITION`, or `:` and IL."""
     p = parser
     start = p.i
     p.i += 1
@@ -154,7 +155,11 @@ def read_transition(parser: StatementParser, chart: Chart) -> None:
     targets = _steps(p)
     messages = len(p.diagnostics)
     condition: ast.Expr
-    if p.take(":=", hint="Write ':=' and the condition behind the steps."):
+    rows: list[ast.Stmt] = []
+    if p.kinds[p.i] == ":":
+        p.i += 1
+        rows, condition = read_value(p)
+    elif p.take(":=", hint="Write ':=' and the condition behind the steps."):
         condition = p.expression()
         p.end_of_statement(messages)
     else:
@@ -164,7 +169,7 @@ def read_transition(parser: StatementParser, chart: Chart) -> None:
         p.optional_semicolon()
     else:
         _missing_end(p, "END_TRANSITION", "TRANSITION", start)
-    chart.transitions.append(Transition(sources, targets, condition, p.span_from(start), priority))
+    chart.transitions.append(Transition(sources, targets, condition, p.span_from(start), priority, rows))
 
 
 def _steps(p: StatementParser) -> list[tuple[str, Span]]:

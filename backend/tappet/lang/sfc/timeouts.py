@@ -6,24 +6,22 @@ import copy
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.sfc.build import both, declared, name, negated, number, put, text, when
+from tappet.lang.sfc.build import both, declared, literal, name, negated, number, put, when
 from tappet.lang.sfc.chart import Step
 from tappet.lang.source import Span
 
 if TYPE_CHECKING:
     from tappet.lang.sfc.translate import Context
 
-MAX_ENTRIES = 16
-"""Entries of SFCErrorAnalyzationTable (LSFC-71)."""
 _TABLE = "SFCErrorAnalyzationTable"
 
 
-def checks(c: Context, chart: str) -> list[ast.Stmt]:
+def checks(c: Context) -> list[ast.Stmt]:
     """The time checks of all steps with a maximum time; nothing where SFCError is not declared."""
     timed = [step for step in c.chart.steps if step.maximum is not None]
     if not timed:
         return []
-    limit = f"{chart}.Limit"
+    limit = f"{c.kept}.Limit"
     body = [
         put(limit, negated(name("SFCError")), c.head),
         declared(
@@ -32,11 +30,11 @@ def checks(c: Context, chart: str) -> list[ast.Stmt]:
             c.head,
         ),
     ]
-    body += [_check(c, step, chart, limit) for step in timed]
+    body += [_check(c, step, limit) for step in timed]
     return [declared(["SFCError"], body, c.head)]
 
 
-def _check(c: Context, step: Step, chart: str, limit: str) -> ast.Stmt:
+def _check(c: Context, step: Step, limit: str) -> ast.Stmt:
     assert step.maximum is not None
     span = step.name_span
     late = ast.Binary(
@@ -45,10 +43,10 @@ def _check(c: Context, step: Step, chart: str, limit: str) -> ast.Stmt:
     body = [
         put("SFCError", True, span),
         put(limit, False, span),
-        declared(["SFCErrorStep"], [put("SFCErrorStep", text(step.name), span)], span),
-        declared(["SFCErrorPOU"], [put("SFCErrorPOU", text(c.pou), span)], span),
+        declared(["SFCErrorStep"], [put("SFCErrorStep", literal(step.name), span)], span),
+        declared(["SFCErrorPOU"], [put("SFCErrorPOU", literal(c.pou), span)], span),
         declared(["SFCErrorAnalyzation"], _listed(c, step), span),
-        declared([_TABLE], _table(c, step, chart), span),
+        declared([_TABLE], _table(c, step), span),
     ]
     return when(both(name(f"{step.name}.x"), name(limit), late), body, span)
 
@@ -80,7 +78,7 @@ def _blocks(e: ast.Expr, blocking: bool) -> ast.Expr:
 def _listed(c: Context, step: Step) -> list[ast.Stmt]:
     """LSFC-70: the operands in one text, separated by commas."""
     target = "SFCErrorAnalyzation"
-    found = [put(target, text(""), step.name_span)]
+    found = [put(target, literal(""), step.name_span)]
     for e, blocking in _blockers(c, step):
         found.append(when(_blocks(e, blocking), _append(target, c.slice(e.span), e.span), e.span))
     return found
@@ -88,35 +86,35 @@ def _listed(c: Context, step: Step) -> list[ast.Stmt]:
 
 def _append(target: str, shown: str, span: Span) -> list[ast.Stmt]:
     """Appends without a library: the text is put behind the last character."""
-    empty = ast.Binary(op="=", left=name(target), right=text(""))
-    first = put(target, text(shown), span)
+    empty = ast.Binary(op="=", left=name(target), right=literal(""))
+    first = put(target, literal(shown), span)
     joined = ast.Call(
         callee=name("_SFCAppend"),
-        args=[ast.Argument(name=None, value=name(target)), ast.Argument(name=None, value=text(shown))],
+        args=[ast.Argument(name=None, value=name(target)), ast.Argument(name=None, value=literal(shown))],
     )
     return [ast.If(branches=[(empty, [first])], otherwise=[put(target, joined, span)], span=span)]
 
 
-def _table(c: Context, step: Step, chart: str) -> list[ast.Stmt]:
+def clear_table(c: Context) -> ast.Stmt:
+    """Empties the table, where there is one."""
+    cleared = ast.Call(callee=name("_SFCClear"), args=[ast.Argument(name=None, value=name(_TABLE))])
+    return declared([_TABLE], [ast.CallStmt(call=cleared, span=c.head)], c.head)
+
+
+def _table(c: Context, step: Step) -> list[ast.Stmt]:
     """LSFC-71: one entry for each operand that keeps the step active."""
-    span = step.name_span
-    count = f"{chart}.Entries"
-    found = [put(count, number(0), span)]
+    count = f"{c.kept}.Entries"
+    found = [clear_table(c), put(count, number(0), step.name_span)]
     for e, blocking in _blockers(c, step):
-        entry = ast.Index(base=name(_TABLE), indices=[name(count)])
-        more = ast.Binary(op="+", left=name(count), right=number(1))
-        address = e.name if isinstance(e, ast.Name) and e.name.startswith("%") else ""
-        write: list[ast.Stmt] = [
-            _set(entry, "name", text(c.slice(e.span)), e.span),
-            _set(entry, "address", text(address), e.span),
-            _set(entry, "value", copy.deepcopy(e), e.span),
-            put(count, more, e.span),
-        ]
-        fits = ast.Binary(op="<", left=name(count), right=number(MAX_ENTRIES))
-        found.append(when(both(fits, _blocks(e, blocking)), write, e.span))
+        address, comment = literal(""), literal("")
+        values = [name(_TABLE), name(count), literal(c.slice(e.span)), copy.deepcopy(e), address, comment]
+        enter = ast.Call(callee=name("_SFCEnter"), args=[ast.Argument(name=None, value=v) for v in values])
+        described = ast.WhenDeclared(
+            names=[],
+            body=[ast.CallStmt(call=enter, span=e.span)],
+            otherwise=[],
+            span=e.span,
+            described=ast.Described(of=copy.deepcopy(e), address=address, comment=comment),
+        )
+        found.append(when(_blocks(e, blocking), [described], e.span))
     return found
-
-
-def _set(entry: ast.Index, member: str, value: ast.Expr, span: Span) -> ast.Stmt:
-    target = ast.Member(base=copy.deepcopy(entry), name=member)
-    return ast.Assign(op=":=", target=target, value=value, span=span)

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 
 from tappet.lang import ast
 from tappet.lang.sfc import timeouts
-from tappet.lang.sfc.build import both, call, declared, flag, name, negated, put, text, when
+from tappet.lang.sfc.build import both, call, declared, flag, literal, name, negated, put, when
 from tappet.lang.sfc.chart import Association, Chart, Step, Transition
 from tappet.lang.source import NOWHERE, Span
+from tappet.lang.walk import expressions
 
-CHART = "_SFC"
-"""The implicit variable with what the chart keeps besides steps and actions."""
 _RESET = ("SFCInit", "SFCReset")
 _BOOL_FLAGS = ("SFCError", "SFCQuitError", "SFCPause", "SFCTrans", "SFCTipMode", "SFCTip")
 _TEXT_FLAGS = ("SFCErrorStep", "SFCErrorPOU", "SFCErrorAnalyzation")
@@ -36,6 +35,8 @@ class Context:
     """Actions and BOOL variables by upper-case name, with their spelling and first place."""
     mentions: list[tuple[str, Span]] = field(default_factory=list)
     """Further places that name one of them."""
+    kept: str = "_SFC"
+    """The implicit variable with what the chart keeps besides steps and actions."""
 
 
 def translate(
@@ -44,6 +45,8 @@ def translate(
     """Implicit variables and body of a POU with a chart."""
     head = chart.steps[0].name_span if chart.steps else pou.name_span
     c = Context(pou.name, chart, report, text_of, head)
+    if pou.extends is not None:
+        c.kept += pou.name  # the base may have a chart of its own (LSFC-26)
     initial = _check(c)
     if pou.kind == "ACTION":
         _check_recursion(c)
@@ -55,8 +58,10 @@ def translate(
                 c.actions[item.action.upper()] = (item.action, item.action_span)
     # a chart of an action or method has variables of its own in each instance
     section = "VAR_INST" if pou.kind in ("ACTION", "METHOD") else "VAR"
-    block = ast.VarBlock(section=section, flags=set(), variables=_variables(c), span=head)
-    if initial is None:
+    implicit = _variables(c)
+    free = _without_own_names(c, pou, implicit)
+    block = ast.VarBlock(section=section, flags=set(), variables=free, span=head)
+    if initial is None or len(free) < len(implicit):
         return [block], []
     return [block], [
         *_begin(c, initial),
@@ -64,7 +69,7 @@ def translate(
         *_update_steps(c),
         *_own_actions(c, "EXIT", "Left"),
         *_own_actions(c, "ENTRY", "Entered"),
-        *timeouts.checks(c, CHART),
+        *timeouts.checks(c),
         *_own_actions(c, "STEP", "x"),
         *_associations(c),
         *_run_actions(c),
@@ -86,7 +91,9 @@ def _check(c: Context) -> Step | None:
     for step in c.chart.steps:
         if step.name.upper() in steps:
             c.report("E0823", step.name_span, name=step.name)
-        steps[step.name.upper()] = step
+        else:
+            steps[step.name.upper()] = step
+    c.chart.steps = list(steps.values())
     initial = [step for step in c.chart.steps if step.initial]
     if len(initial) != 1:
         place = initial[1].name_span if initial else c.head
@@ -98,7 +105,7 @@ def _check(c: Context) -> Step | None:
             if step_name and step_name.upper() not in steps:
                 c.report("E0822", span, name=step_name, known=", ".join(s.name for s in c.chart.steps))
         left |= {step_name.upper() for step_name, _ in transition.sources}
-        _check_condition(c, transition.condition)
+        _check_condition(c, transition)
     c.chart.transitions = [
         t
         for t in c.chart.transitions
@@ -122,18 +129,17 @@ def _check_recursion(c: Context) -> None:
         step.roles = {role: entry for role, entry in step.roles.items() if entry[0].upper() != own}
 
 
-def _check_condition(c: Context, condition: ast.Expr) -> None:
+def _check_condition(c: Context, transition: Transition) -> None:
     """LSFC-13, LSFC-14: no assignment inside a condition; what it calls must have a value."""
-    stack = [condition]
-    while stack:
-        node = stack.pop()
+    held = [row for row in transition.rows if isinstance(row, ast.Hold)]
+    for row in transition.rows:
+        if not isinstance(row, ast.Hold):
+            c.report("E0828", row.span)
+    transition.rows = [*held]
+    for node in expressions(*(row.value for row in held), transition.condition):
         if isinstance(node, ast.AssignExpr):
             c.report("E0828", node.span)
             return
-        if isinstance(node, (ast.Unary, ast.Binary)):
-            stack += [node.operand] if isinstance(node, ast.Unary) else [node.left, node.right]
-        elif isinstance(node, ast.Call):
-            stack += [arg.value for arg in node.args if arg.value is not None]
 
 
 # -- declarations -----------------------------------------------------------------------------------
@@ -143,7 +149,18 @@ def _variables(c: Context) -> list[ast.VarDecl]:
     """LSFC-57: steps and actions are instances of their types."""
     found = [_variable(step.name, "SFCStepType", step.name_span) for step in c.chart.steps]
     found += [_variable(control_of(spelling), "SFCActionType", NOWHERE) for spelling, _ in c.actions.values()]
-    return [*found, _variable(CHART, "SFCChartType", NOWHERE)]
+    return [*found, _variable(c.kept, "SFCChartType", NOWHERE)]
+
+
+def _without_own_names(c: Context, pou: ast.Pou, implicit: list[ast.VarDecl]) -> list[ast.VarDecl]:
+    """LSFC-57: reports own variables with such a name; the implicit ones that remain."""
+    taken = {own.name.upper() for block in pou.blocks for own in block.variables}
+    places = {control_of(spelling).upper(): span for spelling, span in c.actions.values()}
+    for variable in implicit:
+        if variable.name.upper() in taken:
+            place = places.get(variable.name.upper(), variable.name_span)
+            c.report("E0205", place, what="variable", name=variable.name)
+    return [variable for variable in implicit if variable.name.upper() not in taken]
 
 
 def _variable(variable: str, type_: str, span: Span) -> ast.VarDecl:
@@ -155,10 +172,10 @@ def _variable(variable: str, type_: str, span: Span) -> ast.VarDecl:
 
 def _begin(c: Context, initial: Step) -> list[ast.Stmt]:
     time = ast.Call(callee=name("TIME"), args=[])
-    first = [put(f"{CHART}.Started", True, c.head), *_activate(initial.name, c.head)]
+    first = [put(f"{c.kept}.Started", True, c.head), *_activate(initial.name, c.head)]
     return [
-        put(f"{CHART}.Now", time, c.head),
-        when(negated(name(f"{CHART}.Started")), first, c.head),
+        put(f"{c.kept}.Now", time, c.head),
+        when(negated(name(f"{c.kept}.Started")), first, c.head),
     ]
 
 
@@ -168,24 +185,24 @@ def _activate(step: str, span: Span, at: Span = NOWHERE) -> list[ast.Stmt]:
 
 def _flags(c: Context, initial: Step) -> list[ast.Stmt]:
     head = c.head
-    quit_ = f"{CHART}.Quit"
+    quit_ = f"{c.kept}.Quit"
     acknowledge = [
         put("SFCError", False, head),
-        *(declared([f], [put(f, text(""), head)], head) for f in _TEXT_FLAGS),
+        *_without_timeout(c),
         put(quit_, True, head),
         ast.Return(span=head),
     ]
-    restart = [put(f"{step.name}._t", f"{CHART}.Now", head) for step in c.chart.steps]
-    tip_edge = both(name("SFCTip"), negated(name(f"{CHART}.TipOld")))
-    tip = [put(f"{CHART}.Tip", tip_edge, head), put(f"{CHART}.TipOld", "SFCTip", head)]
+    restart = [put(f"{step.name}._t", f"{c.kept}.Now", head) for step in c.chart.steps]
+    tip_edge = both(name("SFCTip"), negated(name(f"{c.kept}.TipOld")))
+    tip = [put(f"{c.kept}.Tip", tip_edge, head), put(f"{c.kept}.TipOld", "SFCTip", head)]
     stop = [*_initialise(c, initial, "SFCInit"), *_wait(c, initial)]
     return [
+        declared(["SFCTrans"], [put("SFCTrans", False, head)], head),
         declared(["SFCInit"], [when("SFCInit", stop, head)], head),
         declared(["SFCReset"], [when("SFCReset", _initialise(c, initial, "SFCReset"), head)], head),
         declared(["SFCError", "SFCQuitError"], [when("SFCQuitError", acknowledge, head)], head),
         when(quit_, [put(quit_, False, head), *restart], head),
         declared(["SFCPause"], [when("SFCPause", [ast.Return(span=head)], head)], head),
-        declared(["SFCTrans"], [put("SFCTrans", False, head)], head),
         declared(["SFCTip"], tip, head),
     ]
 
@@ -201,15 +218,22 @@ def _initialise(c: Context, initial: Step, reason: str) -> list[ast.Stmt]:
         )
     flags = [f for f in (*_RESET, *_BOOL_FLAGS) if f != reason]
     found += [declared([f], [put(f, False, head)], head) for f in flags]
-    found += [declared([f], [put(f, text(""), head)], head) for f in _TEXT_FLAGS]
+    found += _without_timeout(c)
+    found.append(put(f"{c.kept}.TipOld", False, head))
     return [*found, *_activate(initial.name, head)]
+
+
+def _without_timeout(c: Context) -> list[ast.Stmt]:
+    """What was written of a timeout is taken back."""
+    found = [declared([f], [put(f, literal(""), c.head)], c.head) for f in _TEXT_FLAGS]
+    return [*found, timeouts.clear_table(c)]
 
 
 def _wait(c: Context, initial: Step) -> list[ast.Stmt]:
     """The initial step is shown as active but not executed while SFCInit is TRUE."""
     head = c.head
     return [
-        call(initial.name, head, Now=f"{CHART}.Now"),
+        call(initial.name, head, Now=f"{c.kept}.Now"),
         put(f"{initial.name}.Enter", True, head),
         *_current_step(c),
         ast.Return(span=head),
@@ -220,14 +244,14 @@ def _wait(c: Context, initial: Step) -> list[ast.Stmt]:
 
 
 def _update_steps(c: Context) -> list[ast.Stmt]:
-    found = [call(step.name, step.name_span, Now=f"{CHART}.Now") for step in c.chart.steps]
+    found = [call(step.name, step.name_span, Now=f"{c.kept}.Now") for step in c.chart.steps]
     return [*found, *_current_step(c)]
 
 
 def _current_step(c: Context) -> list[ast.Stmt]:
     """LSFC-69: the name of the active step, of the rightmost line where several are active."""
     body = [
-        when(f"{step.name}.x", [put("SFCCurrentStep", text(step.name), c.head)], c.head)
+        when(f"{step.name}.x", [put("SFCCurrentStep", literal(step.name), c.head)], c.head)
         for step in c.chart.steps
     ]
     return [declared(["SFCCurrentStep"], body, c.head)]
@@ -241,7 +265,9 @@ def _own_actions(c: Context, role: str, member: str) -> list[ast.Stmt]:
             action, span = step.roles[role]
             run = when(f"{step.name}.{member}", [call(action, span, span)], span)
             found.append(
-                ast.WhenDeclared(names=[action], step=step.name, body=[], otherwise=[run], span=span)
+                ast.WhenDeclared(
+                    names=[action], step=step.name, role=role, body=[], otherwise=[run], span=span
+                )
             )
     return found
 
@@ -266,7 +292,7 @@ def _run_actions(c: Context) -> list[ast.Stmt]:
     """In alphabetical order: last executions, then what is active; BOOL variables are set (LSFC-40, -41)."""
     ordered = [c.actions[key] for key in sorted(c.actions)]
     owner = {item.action.upper(): s.name for s in reversed(c.chart.steps) for item in s.associations}
-    found = [call(control_of(spelling), span, Now=f"{CHART}.Now") for spelling, span in ordered]
+    found = [call(control_of(spelling), span, Now=f"{c.kept}.Now") for spelling, span in ordered]
     for member in ("Last", "Run"):
         for spelling, span in ordered:
             control = control_of(spelling)
@@ -275,7 +301,11 @@ def _run_actions(c: Context) -> list[ast.Stmt]:
             write = [put(spelling, f"{control}.Run", span, span)] if member == "Run" else []
             found.append(
                 ast.WhenDeclared(
-                    names=[spelling], step=owner[spelling.upper()], body=write, otherwise=[run], span=span
+                    names=[spelling],
+                    step=owner[spelling.upper()] if member == "Last" else "",
+                    body=write,
+                    otherwise=[run],
+                    span=span,
                 )
             )
     for spelling, span in c.mentions:  # so that every place is found; `Clear` is never TRUE here
@@ -306,14 +336,15 @@ def _transition(c: Context, item: Transition) -> ast.Stmt:
                 op=">=", left=name(f"{step_name}.t"), right=copy.deepcopy(minimum), span=minimum.span
             )
             ready.append(elapsed)
-    go = f"{CHART}.Go"
-    tip = when("SFCTipMode", [put(go, f"{CHART}.Tip", span)], span)
+    go = f"{c.kept}.Go"
+    tip = when("SFCTipMode", [put(go, f"{c.kept}.Tip", span)], span)
     fire: list[ast.Stmt] = []
     for step_name, _ in item.sources:
-        fire += [put(f"{step_name}._x", False, span), put(f"{step_name}.Done", True, span)]
+        # another transition of this call may have activated it anew
+        fire += [put(f"{step_name}._x", f"{step_name}.Enter", span), put(f"{step_name}.Done", True, span)]
     for step_name, place in item.targets:
         fire += _activate(step_name, span, place)
     fire.append(declared(["SFCTrans"], [put("SFCTrans", flag(True), span)], span))
     condition = ast.Assign(op=":=", target=name(go), value=item.condition, span=item.condition.span)
-    body = [condition, declared(["SFCTipMode", "SFCTip"], [tip], span), when(go, fire, span)]
+    body = [*item.rows, condition, declared(["SFCTipMode"], [tip], span), when(go, fire, span)]
     return when(both(*ready), body, span)
