@@ -1,6 +1,6 @@
 """Text to syntax tree: a recursive-descent parser that takes any text and never raises.
 
-The parts build on each other: `parser_core` (tokens, errors, recovery), `parser_expressions`,
+The parts build on each other: `parser_core` (tokens, errors), `parser_expressions`, `parser_recovery`,
 `parser_statements`, `parser_types`, `parser_variables`, `parser_type_blocks`, and `parser_declarations` for
 whole objects.
 A body in another textual language is one more reader of `Parser`, chosen where `_members` reads statements.

@@ -349,13 +349,7 @@ class Parser(TypeBlockParser):
                 break
         if self.kinds[self.i] not in BODY_END or self.kinds[self.i] == "END_VAR":
             self.expected("GET, SET or END_PROPERTY", "Statements belong between GET and END_GET.")
-            kinds = self.kinds
-            while (
-                kinds[self.i] is not END
-                and kinds[self.i] not in OBJECT_HEADS
-                and kinds[self.i] != "END_PROPERTY"
-            ):
-                self.i += 1
+            self._skip_to("END_PROPERTY")
         self.open.pop()
         self.close(opener)
         node.span = self.span_from(start)
@@ -423,17 +417,17 @@ class Parser(TypeBlockParser):
             else:
                 hint = "An interface has heads of methods and properties only."
                 self.error("E0114", what=self.found(), where="an INTERFACE", hint=hint)
-                kinds = self.kinds
-                while (
-                    kinds[self.i] is not END
-                    and kinds[self.i] not in OBJECT_HEADS
-                    and kinds[self.i] != "END_INTERFACE"
-                ):
-                    self.i += 1
+                self._skip_to("END_INTERFACE")
         self.open.pop()
         self.close(opener)
         node.span = self.span_from(start)
         return node
+
+    def _skip_to(self, end: str) -> None:
+        """Go to `end`, or to where the next object begins."""
+        kinds = self.kinds
+        while kinds[self.i] is not END and kinds[self.i] not in OBJECT_HEADS and kinds[self.i] != end:
+            self.i += 1
 
 
 def _adopt(pou: ast.Pou, child: ast.Pou | ast.Property) -> None:
