@@ -385,3 +385,23 @@ def test_values_of_enumerations_are_constant_expressions() -> None:
     assert a.types["E"].values == {"a": 4, "b": 12, "c": 512, "d": 2, "e": 3}
     function = "FUNCTION F : INT\nVAR_INPUT n : INT; END_VAR\nF := n;\nEND_FUNCTION"
     assert "E0317" in codes(analysed("TYPE E : (a := F(3)); END_TYPE\n" + function))
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("F(1);", []),
+        ("F(a := 1);", []),
+        ("x := F(1);", ["E0325"]),
+        ("x := 2 + F(1);", ["E0325"]),
+        ("F(F(1));", ["E0325"]),
+    ],
+)
+def test_a_marked_function_without_a_return_type_is_no_operand(body: str, expected: list[str]) -> None:
+    head = "{attribute 'no_return_type'}\nFUNCTION F\nVAR_INPUT a : INT; END_VAR\nEND_FUNCTION\n"
+    found = codes(analysed(f"{head}PROGRAM P\nVAR x : INT; END_VAR\n{body}\nEND_PROGRAM"))
+    assert [code for code in found if code.startswith("E")] == expected
+
+
+def test_a_function_without_a_return_type_has_no_result_to_assign() -> None:
+    assert "E0305" in codes(analysed("{attribute 'no_return_type'}\nFUNCTION F\nF := 1;\nEND_FUNCTION"))

@@ -252,3 +252,21 @@ def test_into_a_project_nothing_is_overwritten() -> None:
     assert at(done.project, f"{app}/FB_Lamp").id == at(project, f"{app}/FB_Lamp").id
     assert {item.id for item in project.walk()} < {item.id for item in done.project.walk()}
     assert ("FB_Lamp", "changed") in said(done.report)
+
+
+def test_a_function_without_a_return_type_is_marked() -> None:
+    head = "// Logs.\nFUNCTION F_Log\nVAR_INPUT\n    sText : STRING;\nEND_VAR\n"
+    xml = (
+        '<TcPlcObject Version="1.1.0.1"><POU Name="F_Log" Id="{0}" SpecialFunc="None">'
+        f"<Declaration><![CDATA[{head}]]></Declaration><Implementation><ST><![CDATA[;]]></ST></Implementation>"
+        "</POU></TcPlcObject>"
+    )
+    marked = head.replace("FUNCTION", "{attribute 'no_return_type'}\nFUNCTION", 1).rstrip("\n")
+    for name, content in (("F_Log.TcPOU", xml), ("log.st", f"{head};\nEND_FUNCTION\n")):
+        done = import_files({name: content.encode()})
+        path = "Tappet Soft PLC/PLC Logic/Application/F_Log"
+        assert text(done.project, path).rstrip("\n") == marked
+        assert said(done.report) == {("F_Log", "changed")}
+        again = import_files({"x.xml": write_plcopen(done.project)})
+        assert text(again.project, path) == text(done.project, path)
+    assert said(import_files({"f.st": b"FUNCTION F : INT\nF := 1;\nEND_FUNCTION\n"}).report) == set()

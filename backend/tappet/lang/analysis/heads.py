@@ -152,8 +152,7 @@ class _Views:
             pou.parameters += base.parameters
         self._own(pou)
         if pou.kind == "FUNCTION":
-            self._result(pou, pou.name)
-            self._check_return_type(pou)
+            self._function_result(pou)
         self._vtable(pou, base)
         visible: dict[str, Symbol] = {}
         self._members(visible, pou)
@@ -233,17 +232,18 @@ class _Views:
         pou.result = result
         pou.locals.setdefault(name.upper(), result)
 
-    def _check_return_type(self, pou: PouSymbol) -> None:
+    def _function_result(self, pou: PouSymbol) -> None:
         """A function yields one data element (POU-03); C functions and system sources may yield none.
 
         Functions of other systems may do so, too: their imports mark them.
         """
         node, source = pou.pou, pou.source
-        if node is None or node.return_type is not None or source is None:
-            return
-        marked = any(attribute(node.attributes, name) is not None for name in _WITHOUT_RESULT)
-        if source.scope is not Scope.LIBRARY and not marked and not self.session.options.system:
+        if node is not None and node.return_type is None and source is not None:
+            marked = any(attribute(node.attributes, name) is not None for name in _WITHOUT_RESULT)
+            if marked or source.scope is Scope.LIBRARY or self.session.options.system:
+                return
             self.session.report("E0432", source.uri, node.name_span, name=pou.name)
+        self._result(pou, pou.name)
 
     def _vtable(self, pou: PouSymbol, base: PouSymbol | None) -> None:
         if pou.kind != "FUNCTION_BLOCK":

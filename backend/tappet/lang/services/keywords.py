@@ -51,6 +51,7 @@ ATTRIBUTES: Final = (
     ("no_check", "POU: without the implicit check functions"),
     ("no_copy", "variable: not copied at an online change"),
     ("no_init", "variable: keeps its value over a reset"),
+    ("no_return_type", "function: may be without a return type, as in other systems"),
     ("obsolete", "every use gives a warning with the text of the value"),
     ("pack_mode", "structure: largest gap between members, '0', '1', '2', '4' or '8'"),
     ("qualified_only", "list or enumeration: members only with its name in front"),

@@ -19,6 +19,7 @@ from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.split_text import split_text
 from tappet.project.exchange.standard_tasks import read_configurations
 from tappet.project.exchange.twincat_project import read_project
+from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.model import Project
 
 ENDINGS = (".xml", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS)
@@ -132,7 +133,10 @@ def _read(path: str, content: bytes, pages: tuple[str, ...], batch: Batch, repor
         else:
             stem = posixpath.basename(path).rsplit(".", 1)[0]
             split = split_text(path, text, report, list_name=stem)
-            batch.loose.children += split.drafts()
+            drafts = split.drafts()
+            for draft in drafts:
+                mark_without_result(draft, report)
+            batch.loose.children += drafts
             read_configurations(split, batch.loose, report)
     else:
         raise ExchangeError(path, f"files of this kind are not read; possible are {', '.join(ENDINGS)}")

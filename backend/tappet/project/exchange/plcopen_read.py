@@ -36,6 +36,7 @@ from tappet.project.exchange.plcopen_devices import controllers_below, read_devi
 from tappet.project.exchange.plcopen_tasks import read_task, task_of_instance
 from tappet.project.exchange.plcopen_tree import arrange
 from tappet.project.exchange.report import ExchangeError, ImportReport
+from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
 
 TAPPET = "https://github.com/tappet/plcopen/"
@@ -208,6 +209,8 @@ class _Reader:
         keyword = _KEYWORDS.get(item.get("pouType").lower(), "PROGRAM")
         draft = self._draft("pou", item, {"declaration": self._declaration(keyword, item)})
         draft.data |= self._body(item, draft.name)
+        if not self.batch.complete:
+            mark_without_result(draft, self.report)
         self._children(item, draft)
         return draft
 

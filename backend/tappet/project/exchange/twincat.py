@@ -9,6 +9,7 @@ from __future__ import annotations
 from tappet.project.exchange.drafts import Draft, body, hex_id
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.standard_tasks import cycle, priority
+from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
 
 ENDINGS = (".tcpou", ".tcdut", ".tcgvl", ".tcio", ".tctto")
@@ -42,6 +43,7 @@ def _object(source: str, item: Element, report: ImportReport) -> Draft:
     draft.data = {"declaration": _text(item, "Declaration")}
     if draft.kind == "pou":
         _implementation(draft, item, report, draft.name)
+        mark_without_result(draft, report)
     _folders(draft, item)
     for child in item:
         if child.tag in _CHILD_KINDS:
