@@ -10,6 +10,7 @@ from tappet.lang.conditional.condition import ConditionError, View, evaluate
 from tappet.lang.conditional.facts import Facts
 from tappet.lang.diagnostics import report
 from tappet.lang.lexer import END, ID, PRAGMA, Lexed, Trivia, lex
+from tappet.lang.parser_core import ENDS
 from tappet.lang.source import Source, Span
 
 Include = Callable[[str], str | None]
@@ -21,11 +22,23 @@ _DIRECTIVE = re.compile(
 _ANY = re.compile(r"\{\s*(IF|ELSIF|ELSE|END_IF|define|undefine|include)\b", re.IGNORECASE)
 _DEFINE = re.compile(r"([^\W\d]\w*)\s*(.*)$", re.DOTALL)
 _MAX_INCLUDES = 20
+_HEADS = ("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "INTERFACE", "TYPE", "METHOD", "ACTION", "PROPERTY")
+_OBJECTS = {head: ENDS[head] for head in _HEADS}
+_ENDS = frozenset(_OBJECTS.values())
 
 
 def has_directives(text: str) -> bool:
     """Whether a text may hold conditional pragmas at all; most do not."""
     return _ANY.search(text) is not None
+
+
+@dataclass(slots=True)
+class _Object:
+    """An open object: what is defined behind its end is what was defined at its beginning (LPRG-50)."""
+
+    end: str
+    defines: dict[str, str]
+    replacements: dict[str, Lexed]
 
 
 @dataclass(slots=True)
@@ -55,6 +68,7 @@ class Selection:
         self.include = include
         self.includes = 0
         self.branches: list[_Branch] = []
+        self.objects: list[_Object] = []
         self.out = Lexed()
         self.inactive: list[Span] = []
         for name, value in defines.items():
@@ -94,6 +108,10 @@ class Selection:
                 continue
             if index in lexed.damaged:
                 out.damaged.add(len(out.kinds))
+            if kind in _OBJECTS:
+                self.objects.append(_Object(_OBJECTS[kind], dict(self.defines), dict(self.replacements)))
+            elif kind in _ENDS:
+                self._leave(kind)
             text, line, column = lexed.texts[index], lexed.lines[index], lexed.columns[index]
             replacement = self.replacements.get(text.upper()) if kind is ID and self.replacements else None
             if replacement is None:
@@ -102,6 +120,16 @@ class Selection:
                 for new_kind, new_text in zip(replacement.kinds, replacement.texts, strict=True):
                     if new_kind is not END:
                         self._append(new_kind, new_text, line, column)
+
+    def _leave(self, end: str) -> None:
+        """Forget what an object has defined; objects inside it whose end is missing end with it."""
+        if all(opened.end != end for opened in self.objects):
+            return
+        while True:
+            opened = self.objects.pop()
+            self.defines, self.replacements = opened.defines, opened.replacements
+            if opened.end == end:
+                return
 
     def _append(self, kind: str, text: str, line: int, column: int) -> None:
         out = self.out
