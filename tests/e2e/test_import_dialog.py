@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import io
-import zipfile
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import FilePayload, Locator, Page, expect
+from tests.project.archives import archive
+from tests.project.exchange.twincat_project import FILES
 
 from .workbench import choose_menu, implementation, open_object, open_project, tree_item
 
@@ -17,29 +17,10 @@ PUMP = (
     b"FUNCTION_BLOCK FB_Pump\nVAR_INPUT\n  bOn : BOOL;\nEND_VAR\nMETHOD Start : BOOL\nEND_METHOD\n"
     b"METHOD Halt : BOOL\nEND_METHOD\nEND_FUNCTION_BLOCK\nTYPE E_Pump : (Idle, Busy); END_TYPE\n"
 )
-PLCPROJ = b"""<Project><PropertyGroup><Name>Imported line</Name></PropertyGroup><ItemGroup>
-<Compile Include="FB_Used.TcPOU"/>
-<Compile Include="FB_Old.TcPOU"><ExcludeFromBuild>true</ExcludeFromBuild></Compile>
-</ItemGroup></Project>"""
-
-
-def tcpou(name: str) -> bytes:
-    return (
-        f'<TcPlcObject><POU Name="{name}"><Declaration><![CDATA[FUNCTION_BLOCK {name}]]></Declaration>'
-        "<Implementation><ST><![CDATA[]]></ST></Implementation></POU></TcPlcObject>"
-    ).encode()
 
 
 def file(name: str, content: bytes) -> FilePayload:
     return {"name": name, "mimeType": "application/octet-stream", "buffer": content}
-
-
-def zipped(**files: bytes) -> bytes:
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as target:
-        for name, content in files.items():
-            target.writestr(name.replace("__", "."), content)
-    return out.getvalue()
 
 
 def read_files(page: Page, *files: FilePayload) -> Locator:
@@ -97,8 +78,7 @@ def test_chosen_objects_come_to_the_place_and_the_report_leads_to_them(page: Pag
 
 def test_a_solution_becomes_a_project_from_the_start_page(page: Page) -> None:
     page.get_by_role("button", name="Import…").first.click()
-    content = zipped(Line__plcproj=PLCPROJ, FB_Used__TcPOU=tcpou("FB_Used"), FB_Old__TcPOU=tcpou("FB_Old"))
-    dialog = read_files(page, file("solution.zip", content))
+    dialog = read_files(page, file("solution.zip", archive(*FILES.items())))
     expect(node(dialog, "FB_Old").get_by_text("FB_Old")).to_have_attribute("data-excluded", "")
     dialog.get_by_role("button", name="Import", exact=True).click()
     report = page.get_by_role("dialog", name="Import into Imported line")

@@ -5,6 +5,7 @@ import struct
 import zipfile
 
 import pytest
+from archives import archive
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from project_strategies import projects
@@ -14,14 +15,6 @@ from tappet.project.folder import encode, read_zip, write_zip
 from tappet.project.folder.archive import Limits, unpack
 from tappet.project.model import Project
 from tappet.project.templates import new_project
-
-
-def archive(*entries: tuple[str | zipfile.ZipInfo, bytes], method: int = zipfile.ZIP_DEFLATED) -> bytes:
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", method) as made:
-        for name, content in entries:
-            made.writestr(name, content)
-    return buffer.getvalue()
 
 
 def folder_archive(project: Project, prefix: str = "") -> bytes:

@@ -194,6 +194,18 @@ def test_memory_does_not_grow_over_downloads(plc: SoftPlc) -> None:
     assert resident() - before < 8 << 20
 
 
+def left_by_exit(text: str) -> object:
+    """The persistent variable `left` after the FB_Exit methods of a program."""
+    plc = SoftPlc(None)
+    plc.load(build(text, gvls={"Persistent": "VAR_GLOBAL PERSISTENT left : DINT; END_VAR"}))
+    application = plc.application
+    assert application is not None
+    assert application.run_exit() is None
+    (left,) = get(plc, ("Persistent.left",))
+    plc.close()
+    return left
+
+
 def test_fb_exit_runs_before_a_download() -> None:
     text = """
     FUNCTION_BLOCK FB_Exiting
@@ -208,14 +220,7 @@ def test_fb_exit_runs_before_a_download() -> None:
     fb();
     END_PROGRAM
     """
-    lists = {"Persistent": "VAR_GLOBAL PERSISTENT left : DINT; END_VAR"}
-    plc = SoftPlc(None)
-    plc.load(build(text, gvls=lists))
-    application = plc.application
-    assert application is not None
-    assert application.run_exit() is None
-    assert get(plc, ("Persistent.left",)) == [1]
-    plc.close()
+    assert left_by_exit(text) == 1
 
 
 def test_instances_can_be_left_out_of_fb_exit() -> None:
@@ -245,11 +250,4 @@ def test_instances_can_be_left_out_of_fb_exit() -> None:
     POU1(); POU2(); inner();
     END_PROGRAM
     """
-    lists = {"Persistent": "VAR_GLOBAL PERSISTENT left : DINT; END_VAR"}
-    plc = SoftPlc(None)
-    plc.load(build(text, gvls=lists))
-    application = plc.application
-    assert application is not None
-    assert application.run_exit() is None
-    assert get(plc, ("Persistent.left",)) == [13]
-    plc.close()
+    assert left_by_exit(text) == 13

@@ -7,17 +7,10 @@ import json
 import zipfile
 
 from fastapi.testclient import TestClient
+from tests.project.archives import archive
 
 API = "/api/v1"
 SOURCE = b"FUNCTION_BLOCK FB_Pump\nVAR_INPUT\n  bOn : BOOL;\nEND_VAR\nEND_FUNCTION_BLOCK\n"
-
-
-def archive(**files: bytes) -> bytes:
-    packed = io.BytesIO()
-    with zipfile.ZipFile(packed, "w") as target:
-        for name, content in files.items():
-            target.writestr(name.replace("__", "/").replace("_dot_", "."), content)
-    return packed.getvalue()
 
 
 def test_files_become_a_project_and_go_out_as_plcopen_xml(admin: TestClient) -> None:
@@ -40,7 +33,7 @@ def test_files_become_a_project_and_go_out_as_plcopen_xml(admin: TestClient) -> 
 def test_files_go_into_a_project_and_overwrite_nothing(admin: TestClient) -> None:
     project = f"{API}/projects/{admin.post(f'{API}/projects', json={'name': 'Press'}).json()['id']}"
     for expected in ("FB_Pump", "FB_Pump_1"):
-        uploads = {"files": ("all.zip", archive(Lib__Pump_dot_st=SOURCE))}
+        uploads = {"files": ("all.zip", archive(("Lib/Pump.st", SOURCE)))}
         answer = admin.post(f"{project}/import-files", files=uploads)
         assert answer.status_code == 200, answer.text
         objects = {item["name"]: item for item in admin.get(f"{project}/objects").json()}
@@ -63,7 +56,7 @@ def test_what_cannot_be_read_is_said_and_changes_nothing(admin: TestClient) -> N
     answer = admin.post(f"{API}/projects/import-files", files=uploads)
     assert answer.status_code == 422
     assert answer.json()["detail"].startswith("x.xml:1: holds a document type declaration")
-    empty = admin.post(f"{API}/projects/import-files", files={"files": ("x.zip", archive(a=b"b"))})
+    empty = admin.post(f"{API}/projects/import-files", files={"files": ("x.zip", archive(("a", b"b")))})
     assert (empty.status_code, empty.json()["type"]) == (422, "urn:tappet:problem:folder-format")
     assert admin.get(f"{API}/projects").json() == []
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from twincat_project import FILES
 
 from tappet.project import edit
 from tappet.project.errors import UnknownObjectError
@@ -21,17 +22,6 @@ PUMP = (
     b"CONFIGURATION c RESOURCE r ON PLC TASK T(INTERVAL := T#10ms, PRIORITY := 1);\n"
     b"PROGRAM Main WITH T : MAIN; END_RESOURCE END_CONFIGURATION\n"
 )
-PLCPROJ = b"""<Project><PropertyGroup><Name>Line</Name></PropertyGroup><ItemGroup>
-<Compile Include="FB_Used.TcPOU"/>
-<Compile Include="FB_Old.TcPOU"><ExcludeFromBuild>true</ExcludeFromBuild></Compile>
-</ItemGroup></Project>"""
-
-
-def tcpou(name: str) -> bytes:
-    return (
-        f'<TcPlcObject><POU Name="{name}"><Declaration><![CDATA[FUNCTION_BLOCK {name}]]></Declaration>'
-        "<Implementation><ST><![CDATA[]]></ST></Implementation></POU></TcPlcObject>"
-    ).encode()
 
 
 def at(project: Project, name: str) -> str:
@@ -93,8 +83,7 @@ def test_the_report_knows_the_objects() -> None:
 
 
 def test_what_is_excluded_from_the_build_stays_so() -> None:
-    files = {"Line.plcproj": PLCPROJ, "FB_Used.TcPOU": tcpou("FB_Used"), "FB_Old.TcPOU": tcpou("FB_Old")}
-    imported = import_files(files)
+    imported = import_files(FILES)
     assert {node.name: node.excluded for node in imported.nodes} == {"FB_Used": False, "FB_Old": True}
     project = imported.project
     assert project.get(at(project, "FB_Old")).excluded
