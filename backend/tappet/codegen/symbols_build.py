@@ -38,7 +38,9 @@ def elementary_kind(type_: t.Elementary) -> str:
 class TypeTable:
     """Numbers types and describes them."""
 
-    def __init__(self) -> None:
+    def __init__(self, areas: Mapping[str, tuple[int, int]]) -> None:
+        self.areas = areas
+        """I, Q and M to (offset, size) in the image."""
         self.types: list[TypeInfo] = []
         self.numbers: dict[object, int] = {}
         self.keep: list[t.Type] = []
@@ -102,6 +104,8 @@ class TypeTable:
         found = [self.member(m, locals_hidden and m.section == "VAR") for m in type_.members.values()]
         # a derived block watches its own property, not that of the base
         members = tuple({m.name.upper(): m for m in found}.values())
+        if pou is not None and kind == "fb" and isinstance(pou.symbol, PouSymbol):
+            members += tuple(addressed(self, pou.symbol))
         return TypeInfo(str(type_), kind, type_.size, members=members)
 
     def member(self, m: t.Member, out_of_sight: bool = False) -> MemberInfo:
@@ -167,17 +171,19 @@ def build_symbol_map(
     configured: Iterable[ConfiguredAddress] = (),
 ) -> SymbolMap:
     """Symbol map of placed data objects, and of the variables that are copied from and to an address."""
-    table = TypeTable()
+    areas = {
+        area: (place.offset, place.size)
+        for area in "IQM"
+        if (place := objects.get(AREA_PREFIX + area)) is not None
+    }
+    table = TypeTable(areas)
     symbols = SymbolMap(table.types, byte_addressing=byte_addressing)
-    for area in "IQM":
-        place = objects.get(AREA_PREFIX + area)
-        if place is not None:
-            symbols.areas[area] = (place.offset, place.size)
+    symbols.areas.update(areas)
     for item in data:
         name = item.symbol.removeprefix(DATA_PREFIX)
         shown = item.owner.name if "." not in name else f"{name.rpartition('.')[0].title()}.{item.owner.name}"
         offset = objects[item.symbol].offset
-        extra = tuple(_addressed(table, item.owner, symbols.areas))
+        extra = tuple(addressed(table, item.owner))
         if isinstance(item.owner, PouSymbol):
             assert item.owner.instance is not None
             number = table.number(item.owner.instance)
@@ -212,13 +218,11 @@ def _home(variable: VarSymbol) -> Storage:
     return variable.home if variable.storage is Storage.CONSTANT else variable.storage
 
 
-def _addressed(
-    table: TypeTable, owner: GvlSymbol | PouSymbol, areas: Mapping[str, tuple[int, int]]
-) -> Iterator[MemberInfo]:
-    """Variables AT an address: members with an absolute offset."""
+def addressed(table: TypeTable, owner: GvlSymbol | PouSymbol) -> Iterator[MemberInfo]:
+    """Variables AT an address: members with an absolute offset, the same in all instances (LDEC-55)."""
     variables = owner.members if isinstance(owner, GvlSymbol) else owner.locals
     for variable in variables.values():
-        area = areas.get(variable.area or "")
+        area = table.areas.get(variable.area or "")
         if variable.storage is Storage.DIRECT and variable.type is not None and area is not None:
             offset = area[0] + variable.offset
             flags = " ".join(sorted(set(variable.flags) | marks(variable.decl)))
