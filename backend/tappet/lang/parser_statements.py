@@ -311,10 +311,20 @@ class StatementParser(StatementRecovery):
     # -- simple statements
 
     def word_statement(self, start: int) -> ast.Stmt:
-        """EXIT, CONTINUE or RETURN."""
+        """EXIT, CONTINUE or RETURN; `RETURN(condition)` returns when the condition holds."""
         self.i = start + 1
+        if self.kinds[start] == "RETURN" and self.kinds[self.i] == "(":
+            return self.conditional_return(start)
         self.end_of_statement(len(self.diagnostics))
         return _WORD_NODES[self.kinds[start]](span=self.span_from(start))
+
+    def conditional_return(self, start: int) -> ast.Stmt:
+        """`RETURN(condition);` is `IF condition THEN RETURN; END_IF`."""
+        messages = len(self.diagnostics)
+        condition = self.expression()
+        leave = ast.Return(span=self.span_at(start))
+        self.end_of_statement(messages)
+        return ast.If(span=self.span_from(start), branches=[(condition, [leave])])
 
     def jump_statement(self, start: int) -> ast.Stmt:
         """JMP label."""

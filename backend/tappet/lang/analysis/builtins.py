@@ -93,12 +93,13 @@ def _expand(op: str, most: int, negate: bool = False) -> Resolve:
                 operators.unary(b, right)
             result = ast.Binary(op=op, left=result, right=right, span=e.span)
             operators.binary(b, result)
-        _take(e, result, name)
+        take(e, result, name)
 
     return resolve
 
 
-def _take(e: ast.Call, result: ast.Expr, name: str) -> None:
+def take(e: ast.Call, result: ast.Expr, name: str) -> None:
+    """Makes a call of the operator `name` mean the resolved expression `result`."""
     e.expansion = result
     e.type, e.constant, e.is_constant = result.type, result.constant, result.is_constant
     e.untyped = result.untyped
@@ -114,13 +115,13 @@ def _not(b: Body, e: ast.Call, name: str) -> None:
     if found is not None:
         result = ast.Unary(op="NOT", operand=found[0], span=e.span)
         operators.unary(b, result)
-        _take(e, result, name)
+        take(e, result, name)
 
 
 def _move(b: Body, e: ast.Call, name: str) -> None:
     found = operands(b, e, name, 1, 1)
     if found is not None:
-        _take(e, found[0], name)
+        take(e, found[0], name)
 
 
 # -- shifts -----------------------------------------------------------------------------------------

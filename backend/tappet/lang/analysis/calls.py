@@ -127,7 +127,11 @@ def bind_arguments(
     span: Span,
     kind: str,
 ) -> None:
-    """Checks arguments against parameters and sets `Argument.parameter`."""
+    """Checks arguments against parameters and sets `Argument.parameter`.
+
+    An argument without a name is for the input at its place, also behind named ones: other systems allow
+    that, and real programs use it.
+    """
     given: set[int] = set()
     positional = 0
     named = False
@@ -137,12 +141,13 @@ def bind_arguments(
         arg.parameter = None
         name = arg.name
         if name is None:
-            if named:
-                b.report("E0512", arg.span)
-                _evaluate_arguments(b, [arg])
-                continue
             if inputs is None:
                 inputs = [p for p in parameters if p.section in _PASSED]
+            if named and positional < len(inputs) and id(inputs[positional]) in given:
+                b.report("E0512", arg.span)
+                positional += 1
+                _evaluate_arguments(b, [arg])
+                continue
             if positional >= len(inputs):
                 if positional == len(inputs):
                     count = sum(1 for a in args if a.name is None)
@@ -158,7 +163,9 @@ def bind_arguments(
             parameter = inputs[positional]
             positional += 1
         else:
-            named = named or not arg.output
+            if not arg.output:
+                named = True
+                positional += 1
             if by_name is None:
                 by_name = {p.name.upper(): p for p in parameters}
             found = by_name.get(name.upper())

@@ -94,7 +94,8 @@ def _adr(b: Body, e: ast.Call, name: str) -> None:
         elif symbol is not None and not isinstance(symbol, VarSymbol):  # else its type has been reported
             b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
         return
-    if isinstance(operand, ast.Literal) and isinstance(type_, t.String):
+    meant = operand.expansion if isinstance(operand, ast.Call) else operand
+    if isinstance(meant, ast.Literal) and isinstance(type_, t.String):
         finish(e, name, [None], t.Pointer(type_))
         return
     if not is_place(operand):

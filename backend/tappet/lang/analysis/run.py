@@ -18,6 +18,7 @@ from tappet.lang.analysis import (
     members,
     program,
     selection,
+    whereabouts,
 )
 from tappet.lang.analysis.bodies import Record, State, analyse_body, finish
 from tappet.lang.analysis.collect import collect
@@ -33,7 +34,7 @@ from tappet.lang.sfc.library import with_types
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
-REGISTERED = (calls, conditional_calls, members, intrinsics, selection)
+REGISTERED = (calls, conditional_calls, members, intrinsics, selection, whereabouts)
 """Modules that enter their handlers into the tables when they are imported."""
 _DEFAULT_SLOT = 50000
 
