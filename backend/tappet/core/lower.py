@@ -203,7 +203,7 @@ def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
 def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
     function = ir.Function(task.symbol, exported=True, uri="", inline="never")
     program.taken.add(task.symbol)
-    before, after = addressed.transfers(program, task, tasks)
+    before, after = addressed.transfers(program, task, tasks, function)
     function.body += before
     for name in task.programs:
         pou = program.analysis.programs.get(name.upper())

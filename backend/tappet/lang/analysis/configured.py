@@ -6,19 +6,19 @@ addresses of its area, in the order of the declarations, as TwinCAT does (`Analy
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import addresses
+from tappet.lang.analysis import addresses, layout
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.heads import plain_body
-from tappet.lang.analysis.result import ConfiguredAddress
+from tappet.lang.analysis.result import AGREED, ConfiguredAddress
 from tappet.lang.diagnostics import Related
 from tappet.lang.source import Scope
-from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
+from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Type
 
 _LISTED = 20
@@ -38,6 +38,38 @@ class _Incomplete:
 
 def place_incomplete(session: Session, found: Collected, declarations: Declarations) -> None:
     """Gives every variable with an incomplete address its place: see `Analysis.configured`."""
+    _place_all(session, found, declarations)
+    _remember_markers(session)
+
+
+def _remember_markers(session: Session) -> None:
+    """Room for the values that markers and their variables have agreed on (LDEC-58)."""
+    analysis = session.analysis
+    agreed = GvlSymbol(AGREED, qualified_only=True)
+    placement = layout.Placement()
+    for number, item in enumerate(analysis.configured):
+        if item.area != "M":
+            continue
+        bytes_ = t.Array(t.BYTE, ((0, max(item.type.size, 1) - 1),))
+        offset = placement.place(bytes_.size, max(item.type.align, 1))
+        variable = VarSymbol(
+            item.path,
+            type=bytes_,
+            storage=Storage.GLOBAL,
+            home=Storage.GLOBAL,
+            section="VAR_GLOBAL",
+            owner=AGREED,
+            offset=offset,
+        )
+        agreed.members[item.path.upper()] = variable
+        analysis.configured[number] = replace(item, agreed=offset)
+    agreed.size = placement.size
+    analysis.gvls = [gvl for gvl in analysis.gvls if gvl.name != AGREED]
+    if agreed.members:
+        analysis.gvls.append(agreed)
+
+
+def _place_all(session: Session, found: Collected, declarations: Declarations) -> None:
     incomplete = _instances(session, found)
     session.analysis.configured = []
     seen: set[str] = set()

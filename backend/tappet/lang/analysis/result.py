@@ -80,6 +80,7 @@ Statements
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Final
 
 from tappet.lang import ast
 from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
@@ -116,10 +117,14 @@ class AnalysisOptions:
     """The optional coding rules (S1xxx) that are switched on."""
 
 
+AGREED: Final = "__AGREED"
+"""The hidden list that tells which of a marker and its variable has changed."""
+
+
 @dataclass(frozen=True, slots=True)
 class ConfiguredAddress:
-    """One line of VAR_CONFIG: the instance variable is copied from (I) or to (Q, M) the address once per
-    cycle."""
+    """One line of VAR_CONFIG: the instance variable is copied from (I) or to (Q) the address once per cycle;
+    a marker (M) and its variable are the same memory at the ends of each cycle."""
 
     path: str
     """`PLC_PRG.inst.x` as written."""
@@ -132,6 +137,8 @@ class ConfiguredAddress:
     address: int
     """Bytes inside the area."""
     bit: int | None
+    agreed: int = 0
+    """Of a marker: offset in the list `AGREED` of the value that it and the variable had last."""
 
 
 @dataclass(slots=True)
