@@ -146,11 +146,11 @@ def _frames_left(frames: int | None) -> Iterator[None]:
 def diagnose(text: str) -> list[Diagnostic]:
     """What parsing, analysis and the checks of tasks report about a sample."""
     made = stage(text)
+    static = StaticAnalysis(ALL_CODING_RULES if made.static else frozenset())
     if made.build or made.references:
         libraries = tuple(LibraryReference(name) for name in made.references)
-        return check_application(made.sources, made.tasks, BuildOptions(libraries=libraries))
+        return check_application(made.sources, made.tasks, BuildOptions(libraries=libraries, static=static))
     results = parse_sources(made.sources, ParseOptions())
-    static = StaticAnalysis(ALL_CODING_RULES if made.static else frozenset())
     options = AnalysisOptions(static=static, free_addresses=not made.configured)
     with _frames_left(made.frames):
         analysis = analyse([r.unit for r in results], options)

@@ -9,6 +9,7 @@ from string import Formatter
 import pytest
 
 from tappet.lang import diagnostic_pages
+from tappet.lang.diagnostic_translations import texts, translated_codes
 from tappet.lang.diagnostics import TABLE, Related, report
 from tappet.lang.rules import ALL_RULES
 from tappet.lang.source import Span
@@ -33,13 +34,33 @@ def test_entry_is_well_formed(entry: object) -> None:
     assert re.fullmatch(r"[EWS]\d{4}", entry.code)
     assert re.fullmatch(r"[a-z0-9_]+", entry.name)
     assert (entry.severity == "error") == (entry.code[0] == "E")
-    assert entry.alias == "" or re.fullmatch(r"C\d{4}|SA\d{4}", entry.alias)
+    assert all(re.fullmatch(r"C\d{4}|SA\d{4}", alias) for alias in entry.aliases)
     assert entry.message
     assert not entry.message.endswith(".")
     assert entry.advice.endswith((".", "}"))
     assert "{hint}" not in entry.advice
     for template in (entry.message, entry.advice):
         assert all(name is None or name.isidentifier() for _, name, _, _ in Formatter().parse(template))
+
+
+@pytest.mark.parametrize("code", sorted(translated_codes("zh")))
+def test_a_translation_says_the_same(code: str) -> None:
+    """With the same fields: what a template does not name is lost for its reader."""
+    entry = TABLE[code]
+    chinese = texts(code, "zh")
+    for english, translated in ((entry.message, chinese.message), (entry.advice, chinese.advice)):
+        assert translated.strip()
+        assert _fields(english) == _fields(translated)
+        assert english.count("{{") == translated.count("{{")
+
+
+def _fields(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name is not None}
+
+
+def test_every_coding_rule_is_described_in_chinese() -> None:
+    assert {code for code in TABLE if code[0] == "S"} == translated_codes("zh")
+    assert texts("E0201", "zh") == texts("E0201", "en")
 
 
 def test_names_are_unique() -> None:

@@ -39,6 +39,19 @@ def test_rules_with_their_settings(admin: TestClient) -> None:
     assert rules["S1001"]["prefixes"]["FUNCTION_BLOCK"] == "FB_"
     assert rules["S1301"]["limits"] == {"nesting": 4}
     assert rules["S1211"]["prefixes"] == rules["S1211"]["limits"] == {}
+    assert rules["S1244"]["numbers"] == ["SA0041"]
+
+
+def test_rules_are_described_in_the_language_of_the_reader(admin: TestClient) -> None:
+    url = "/api/v1/static-analysis/rules"
+    english, chinese = (
+        {rule["code"]: rule["message"] for rule in admin.get(url, params={"language": language}).json()}
+        for language in ("en", "zh")
+    )
+    assert set(english) == set(chinese)
+    assert not [code for code, text in chinese.items() if text.isascii()]
+    assert english["S1208"] == "The number of turns of a WHILE loop is not bounded"
+    assert admin.get(url, params={"language": "xx"}).status_code == 422
 
 
 def test_rules_run_with_the_build_or_on_demand(admin: TestClient) -> None:

@@ -40,6 +40,8 @@ class CodingSettings:
     """Levels of IF, CASE and loops inside each other."""
     complexity: int = 15
     """McCabe's number of a body: decisions + 1."""
+    cognitive: int = 20
+    """Cognitive complexity of a body: see `rules.coding.cognitive_complexity`."""
     statements: int = 100
     """Statements of a body."""
     parameters: int = 10
@@ -71,6 +73,7 @@ OF_RULE: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "S1302": ("complexity",),
         "S1303": ("parameters",),
         "S1304": ("statements",),
+        "S1306": ("cognitive",),
     }
 )
 """Which prefixes and limits a rule looks at."""

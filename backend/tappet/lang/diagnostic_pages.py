@@ -39,6 +39,7 @@ _GROUPS = {
     "S13": "Coding rules: size and structure",
     "S14": "Coding rules: use of data and blocks",
     "S15": "Coding rules: tasks",
+    "S16": "Coding rules: portability",
 }
 
 
@@ -48,6 +49,7 @@ def pages() -> dict[str, str]:
     found = samples()
     made = {f"{code}.md": _page(entry, rules.get(code), found.get(code, ())) for code, entry in TABLE.items()}
     made["README.md"] = _index()
+    made["codesys.md"] = _numbers()
     return made
 
 
@@ -59,8 +61,8 @@ def _page(entry: Entry, rule: RuleText | None, shown: Sequence[Sample]) -> str:
     lines = [f"# {entry.code}: {entry.name.replace('_', ' ')}", ""]
     lines += [f"**{entry.severity.capitalize()}**: {_plain(entry.message)}", ""]
     lines += [f"**What to do**: {_plain(entry.advice)}", ""]
-    if entry.alias:
-        lines += [f"CODESYS V3 reports the same as {entry.alias}.", ""]
+    if entry.aliases:
+        lines += [f"CODESYS V3 reports the same as {', '.join(entry.aliases)}.", ""]
     if rule is not None:
         lines += [rule.explanation, ""]
     for sample in shown:
@@ -79,7 +81,8 @@ def _index() -> str:
     lines = [
         "# Messages of the compiler",
         "",
-        "Words in braces stand for the names and types of the place.",
+        "Words in braces stand for the names and types of the place. A page of its own tells",
+        "[what the rules of CODESYS Static Analysis are called here](codesys.md).",
         "",
     ]
     group = ""
@@ -90,8 +93,45 @@ def _index() -> str:
             lines += ["", f"## {heading}", "", "| Code | Severity | CODESYS | Message |", "|---|---|---|---|"]
             group = heading
         message = _plain(entry.message).replace("|", r"\|")
-        lines.append(f"| [{code}]({code}.md) | {entry.severity} | {entry.alias} | {message} |")
+        numbers = ", ".join(entry.aliases)
+        lines.append(f"| [{code}]({code}.md) | {entry.severity} | {numbers} | {message} |")
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)) + "\n"
+
+
+_NOT_CHECKED = {
+    "SA0005": "Invalid addresses and data types: errors of the compiler (E0601 and those behind it).",
+    "SA0063": "Operations that a 16-bit controller cuts: every target here computes narrow integers in 32"
+    " bits or more; W1010 and S1241 tell where that is seen.",
+    "SA0077": "Types that do not fit the CASE: errors of the compiler (E0301, E0805, E0806).",
+    "SA0179": "Coupling between objects: a number of the whole design that no place of the text answers for;"
+    " the cross references show who uses an object.",
+}
+"""Rules of CODESYS Static Analysis that are none here, and why."""
+
+
+def _numbers() -> str:
+    """What the numbers of CODESYS Static Analysis are here, for those who know them and for their pragmas."""
+    found: dict[str, list[str]] = {number: [] for number in _NOT_CHECKED}
+    for entry in TABLE.values():
+        for alias in entry.aliases:
+            if alias.startswith("SA"):
+                found.setdefault(alias, []).append(entry.code)
+    lines = [
+        "# Rules of CODESYS Static Analysis",
+        "",
+        "A pragma `{analysis -33}` or `{attribute 'analysis' := '-33'}` switches off what has the number",
+        "SA0033. W codes are always on, S codes when the application has chosen them, E codes are errors.",
+        "",
+        "| CODESYS | Here | What it says |",
+        "|---|---|---|",
+    ]
+    for number, codes in sorted(found.items()):
+        for code in sorted(codes):
+            message = _plain(TABLE[code].message).replace("|", r"\|")
+            lines.append(f"| {number} | [{code}]({code}.md) | {message} |")
+        if not codes:
+            lines.append(f"| {number} | none | {_NOT_CHECKED[number]} |")
+    return "\n".join(lines) + "\n"
 
 
 def write(directory: Path) -> None:

@@ -2,7 +2,8 @@
 
 `diagnostics.csv` is the only list of codes, severities and texts. E00xx lexer, E01xx parser, E02xx names,
 E03xx types, E04xx declarations, E05xx calls, E06xx layout and addresses, E07xx tasks, E08xx statements;
-W1xxx warnings and notes. `alias` is the number CODESYS V3 gives the same message, where there is one.
+W1xxx warnings and notes; S1xxx coding rules. `alias` names the numbers that CODESYS V3 and its static
+analysis give the same message, separated by spaces.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ class Entry:
     code: str
     severity: Severity
     name: str
-    alias: str
+    aliases: tuple[str, ...]
     message: str
     advice: str
 
@@ -57,8 +58,8 @@ class Diagnostic:
 
     @property
     def alias(self) -> str:
-        """The number of the same message in CODESYS V3 (`C0032`), or ''."""
-        return TABLE[self.code].alias
+        """The number of the same message in CODESYS V3 (`C0032`), the first one, or ''."""
+        return next(iter(TABLE[self.code].aliases), "")
 
     @property
     def name(self) -> str:
@@ -94,7 +95,12 @@ def _read_table() -> dict[str, Entry]:
         if code in table:
             raise ValueError(f"diagnostics.csv lists {code} twice")
         table[code] = Entry(
-            code, _SEVERITIES[row["severity"]], row["name"], row["alias"], row["message"], row["advice"]
+            code,
+            _SEVERITIES[row["severity"]],
+            row["name"],
+            tuple(row["alias"].split()),
+            row["message"],
+            row["advice"],
         )
     return table
 

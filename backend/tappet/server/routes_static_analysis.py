@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from tappet.lang.coding_settings import LIMITS, OF_RULE, PREFIXES
+from tappet.lang.diagnostic_translations import Language, texts
 from tappet.lang.diagnostics import TABLE
 from tappet.lang.rules import chosen_codes
 from tappet.server.dependencies import CommissioningDep, Engineer, Viewer
@@ -15,14 +16,15 @@ router = APIRouter(tags=["build"])
 
 
 @router.get("/static-analysis/rules")
-def list_coding_rules(who: Viewer) -> list[CodingRule]:
-    """All coding rules, by code."""
+def list_coding_rules(who: Viewer, language: Language = "en") -> list[CodingRule]:
+    """All coding rules, by code, described in a language."""
     return [
         CodingRule(
             code=code,
             name=TABLE[code].name,
-            message=TABLE[code].message,
-            advice=TABLE[code].advice,
+            numbers=TABLE[code].aliases,
+            message=texts(code, language).message,
+            advice=texts(code, language).advice,
             prefixes={key: PREFIXES[key] for key in OF_RULE.get(code, ()) if key in PREFIXES},
             limits={key: LIMITS[key] for key in OF_RULE.get(code, ()) if key in LIMITS},
         )

@@ -1390,7 +1390,7 @@ export interface paths {
         };
         /**
          * List Coding Rules
-         * @description All coding rules, by code.
+         * @description All coding rules, by code, described in a language.
          */
         get: operations["list_coding_rules"];
         put?: never;
@@ -1838,6 +1838,11 @@ export interface components {
             message: string;
             /** Name */
             name: string;
+            /**
+             * Numbers
+             * @description Its numbers in CODESYS Static Analysis, such as SA0041.
+             */
+            numbers: string[];
             /**
              * Prefixes
              * @description Prefixes that it asks for, with those that are usual.
@@ -8006,7 +8011,9 @@ export interface operations {
     };
     list_coding_rules: {
         parameters: {
-            query?: never;
+            query?: {
+                language?: "en" | "zh";
+            };
             header?: never;
             path?: never;
             cookie?: never;

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from tappet.lang import ast
-from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.diagnostics import TABLE, Diagnostic
 from tappet.lang.source import split_lines
 
 _PRAGMA = re.compile(r"\{\s*warning\s+(disable|restore)\s+([\w ,]+?)\s*\}", re.IGNORECASE)
@@ -41,7 +41,7 @@ def kept(found: Sequence[Diagnostic], units: Iterable[ast.Unit]) -> list[Diagnos
 
 
 def _is_off(d: Diagnostic, ranges: Iterable[tuple[str, int, int]]) -> bool:
-    names = (d.code, d.alias or d.code)
+    names = (d.code, *TABLE[d.code].aliases)
     return any(code in names and first <= d.span.line <= last for code, first, last in ranges)
 
 

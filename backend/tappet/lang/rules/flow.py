@@ -59,12 +59,16 @@ class Reaching:
         """Read where no way has assigned the variable."""
         self.sometimes: dict[int, ast.Name] = {}
         """Read where some way has assigned it and another has not."""
+        self.ends: list[_Assigned] = []
+        """What has been assigned where the body returns and where it ends."""
         self.exits: list[list[_Assigned]] = []
         self.turns: list[list[_Assigned]] = []
 
     def run(self, body: list[ast.Stmt]) -> None:
         """Follows a whole body."""
-        self._body(body, _Assigned(set(), set()))
+        end = self._body(body, _Assigned(set(), set()))
+        if end is not None:
+            self.ends.append(end)
 
     def _body(self, body: list[ast.Stmt], state: _Assigned | None) -> _Assigned | None:
         for s in body:
@@ -89,6 +93,7 @@ class Reaching:
         elif isinstance(s, (ast.For, ast.While, ast.RepeatUntil)):
             return self._loop(s, state)
         elif isinstance(s, ast.Return):
+            self.ends.append(state.copy())
             return None
         elif isinstance(s, ast.Exit):
             if self.exits:

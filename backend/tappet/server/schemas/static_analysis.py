@@ -12,6 +12,7 @@ class CodingRule(Reply):
 
     code: str = Field(description="Such as S1211; the first three characters are its group.")
     name: str
+    numbers: tuple[str, ...] = Field(description="Its numbers in CODESYS Static Analysis, such as SA0041.")
     message: str = Field(description="What it says; fields in braces are filled in.")
     advice: str
     prefixes: dict[str, str] = Field(description="Prefixes that it asks for, with those that are usual.")

@@ -18,11 +18,18 @@ export function RuleRow({ rule, chosen, readOnly, change }: RuleRowProps) {
   const title = t(titleKey(rule.code));
   return (
     <div className={styles.rule} data-level={level} role="group" aria-label={`${rule.code} ${title}`}>
-      <span className={styles.code}>{rule.code}</span>
+      <div className={styles.code}>
+        {rule.code}
+        {rule.numbers.map((number) => (
+          <div key={number} className={styles.muted} title={t('analysis.number', { number })}>
+            {number}
+          </div>
+        ))}
+      </div>
       <div className={styles.text}>
         <div>{title}</div>
         <div className={styles.muted}>
-          {messageText(rule.message)}. {messageText(rule.advice)}
+          {t('analysis.ruleText', { message: messageText(rule.message), advice: messageText(rule.advice) })}
         </div>
         {level !== 'off' && (
           <div className={styles.settings}>

@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { api } from '@/api/client';
 import { saveObject, useObject } from '@/api/queries';
 import type { ApplicationData, CodingRule, ObjectSummary, ProjectObject, StaticAnalysisData } from '@/api/types';
-import { useText } from '@/i18n';
+import { useLanguage, useText } from '@/i18n';
 import { guard } from '../notices';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';
@@ -28,11 +28,12 @@ interface StaticAnalysisDialogProps {
 export function StaticAnalysisDialog(props: StaticAnalysisDialogProps) {
   const { projectId, applications, close } = props;
   const t = useText();
+  const language = useLanguage();
   const [applicationId, setApplicationId] = useState(props.applicationId);
   const application = useObject<ApplicationData>(projectId, applicationId);
   const rules = useQuery({
-    queryKey: ['static-analysis', 'rules'],
-    queryFn: () => api.get<CodingRule[]>('/static-analysis/rules'),
+    queryKey: ['static-analysis', 'rules', language],
+    queryFn: () => api.get<CodingRule[]>(`/static-analysis/rules?language=${language}`),
     staleTime: Infinity,
   });
   const error = application.error ?? rules.error;

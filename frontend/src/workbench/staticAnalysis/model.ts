@@ -45,7 +45,7 @@ export function isPrefix(text: string): boolean {
   return /^[A-Za-z0-9_]{0,20}$/.test(text);
 }
 
-/** Rules that match a search by code, title or message, in groups. */
+/** Rules that match a search by code, number in CODESYS, title or message, in groups. */
 export function groupsOf(
   rules: readonly CodingRule[],
   search: string,
@@ -54,7 +54,7 @@ export function groupsOf(
   const words = search.trim().toLowerCase().split(/\s+/).filter(Boolean);
   const groups = new Map<string, CodingRule[]>();
   for (const rule of rules) {
-    const text = `${rule.code} ${titleOf(rule.code)} ${rule.message}`.toLowerCase();
+    const text = [rule.code, ...rule.numbers, titleOf(rule.code), rule.message].join(' ').toLowerCase();
     if (!words.every((word) => text.includes(word))) continue;
     const id = rule.code.slice(0, 3);
     groups.set(id, [...(groups.get(id) ?? []), rule]);
@@ -67,9 +67,9 @@ export function onIn(chosen: StaticAnalysisData, rules: readonly CodingRule[]): 
   return rules.filter((rule) => levelOf(chosen, rule.code) !== 'off').length;
 }
 
-/** A message of the table for people: what is filled in later is a name in angle marks. */
+/** A message of the table for people: what is filled in later is a name in angle marks, braces stand once. */
 export function messageText(message: string): string {
-  return message.replace(/'?\{(\w+)\}'?/g, '‹$1›');
+  return message.replace(/['“]?\{(\w+)\}['”]?/g, '‹$1›').replace(/([{}])\1/g, '$1');
 }
 
 /** Keys of texts; the codes come from the server, and each has its two texts. */

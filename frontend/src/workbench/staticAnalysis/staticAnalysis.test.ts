@@ -9,6 +9,7 @@ import { groupsOf, isPrefix, levelOf, messageText, NO_RULES, onIn, withLevel, wi
 const rule = (code: string, message: string): CodingRule => ({
   code,
   name: '',
+  numbers: code === 'S1211' ? ['SA0999'] : [],
   message,
   advice: '',
   prefixes: {},
@@ -38,8 +39,14 @@ describe('static analysis settings', () => {
     expect(groupsOf(rules, '', title).map((group) => group.id)).toEqual(['S10', 'S12']);
     expect(groupsOf(rules, 'magic', title)[0]?.rules.map((found) => found.code)).toEqual(['S1211']);
     expect(groupsOf(rules, 's1004', title)[0]?.rules).toHaveLength(1);
+    expect(groupsOf(rules, 'sa0999', title)[0]?.rules[0]?.code).toBe('S1211');
     expect(groupsOf(rules, 'prefix nothing', title)).toEqual([]);
+  });
+
+  it('are described without the marks of the template', () => {
     expect(messageText("The name of {what} '{name}' is wrong")).toBe('The name of ‹what› ‹name› is wrong');
+    expect(messageText('“{name}”有 {count} 个参数')).toBe('‹name›有 ‹count› 个参数');
+    expect(messageText("Write {{attribute 'strict'}} above")).toBe("Write {attribute 'strict'} above");
   });
 
   it('have a title in both languages for every rule of the compiler', () => {

@@ -1,6 +1,7 @@
-"""Statements that are not wanted are removed, not put into a comment.
+"""Statements that are not wanted are removed, not put into a comment; comments end with their line.
 
-Source: coding guidelines of PLCopen, C4 (no code in comments); CODESYS Static Analysis SA0140, SA0163.
+Source: coding guidelines of PLCopen, C3 (no nested comments), C4 (no code in comments), C5 (single lines);
+CODESYS Static Analysis SA0140, SA0163, SA0164.
 
 Passes:
     @static
@@ -17,6 +18,10 @@ Fails:
     @static
     VAR n1 : INT; END_VAR
     n1 := n1 + 1; (* up (* S1115: a comment in a comment *) *)
+Fails:
+    @static
+    VAR n1 : INT; END_VAR
+    n1 := n1 + 1; (* up, S1120: does not end with its line *)
 """
 
 from __future__ import annotations
@@ -30,7 +35,7 @@ from tappet.lang.lexer import COMMENT, tokenize
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
 
-CODES = ("S1114", "S1115")
+CODES = ("S1114", "S1115", "S1120")
 _STATEMENT = re.compile(
     r"^\s*(?:[A-Za-z_][\w.\[\]^]*\s*(?::=[^;]+|\([^;]*\))\s*;|(?:IF|WHILE|FOR|CASE)\b.+\b(?:THEN|DO|OF)\s*$"
     r"|END_(?:IF|WHILE|FOR|CASE|REPEAT)\s*;?\s*$)",
@@ -48,6 +53,8 @@ def check_unit(session: Session, unit: ast.Unit) -> None:
             inner = token.text[2:]
         else:
             inner = token.text[2:-2]
+            if "S1120" in chosen:
+                session.report("S1120", unit.source.uri, token.span)
             if "S1115" in chosen and token.text.startswith("(*") and "(*" in inner:
                 session.report("S1115", unit.source.uri, token.span)
         if "S1114" in chosen and _STATEMENT.search(inner):

@@ -51,8 +51,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.source import Scope, Source
-from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Symbol, TypeSymbol
+from tappet.lang.rules.coding.project_parts import is_own, with_parts
+from tappet.lang.symbols import EnumValueSymbol, Symbol, TypeSymbol
 from tappet.lang.types import Array, Enum, Pointer, Reference, Struct
 from tappet.lang.walk import all_expressions, expressions, statements
 
@@ -73,7 +73,7 @@ def check_program(session: Session, chosen: frozenset[str]) -> None:
     for scope_symbol in session.analysis.types.values():
         decl = scope_symbol.decl if isinstance(scope_symbol, (Enum, Struct)) else None
         source = decl.source if decl is not None else None
-        if decl is None or not _own(source):
+        if decl is None or not is_own(source):
             continue
         assert source is not None
         if "S1412" in chosen and id(scope_symbol) not in used.types:
@@ -82,10 +82,6 @@ def check_program(session: Session, chosen: frozenset[str]) -> None:
             for entry in decl.type_ref.values:
                 if (id(scope_symbol), entry.name.upper()) not in used.values:
                     session.report("S1411", source.uri, entry.span, name=entry.name, type=decl.name)
-
-
-def _own(source: Source | None) -> bool:
-    return source is not None and source.scope is not Scope.LIBRARY
 
 
 def _methods(session: Session) -> None:
@@ -97,7 +93,7 @@ def _methods(session: Session) -> None:
         if target.kind == "METHOD"
     }
     for pou in session.analysis.pous:
-        if not _own(pou.source):
+        if not is_own(pou.source):
             continue
         for method in pou.methods.values():
             node, source = method.pou, method.source
@@ -114,7 +110,7 @@ class _Used:
     def __init__(self, session: Session) -> None:
         self.types: set[int] = set()
         self.values: set[tuple[int, str]] = set()
-        for pou in _all_pous(session):
+        for pou in with_parts(session):
             if pou.return_type is not None:
                 self.type(pou.return_type)
             for variable in pou.locals.values():
@@ -166,15 +162,3 @@ class _Used:
                 self.types.add(id(symbol.type))
             elif isinstance(symbol, TypeSymbol):
                 self.type(symbol.type)
-
-
-def _all_pous(session: Session) -> Iterator[PouSymbol]:
-    for pou in session.analysis.pous:
-        yield pou
-        yield from pou.methods.values()
-        yield from pou.actions.values()
-        for property_ in pou.properties.values():
-            if property_.getter is not None:
-                yield property_.getter
-            if property_.setter is not None:
-                yield property_.setter

@@ -1,0 +1,41 @@
+"""Messages in other languages than the English of `diagnostics.csv`: `diagnostics_<language>.csv`."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Literal, NamedTuple
+
+from tappet.lang.diagnostics import TABLE
+
+Language = Literal["en", "zh"]
+
+
+class Texts(NamedTuple):
+    """Templates of a message and its advice; both have the fields of the English ones, or fewer."""
+
+    message: str
+    advice: str
+
+
+@cache
+def _translated(language: Language) -> Mapping[str, Texts]:
+    if language == "en":
+        return MappingProxyType({})
+    table = files("tappet.lang").joinpath(f"diagnostics_{language}.csv").read_text(encoding="utf-8")
+    rows = csv.DictReader(table.splitlines())
+    return MappingProxyType({row["code"]: Texts(row["message"], row["advice"]) for row in rows})
+
+
+def translated_codes(language: Language) -> frozenset[str]:
+    """The codes that have texts in a language."""
+    return frozenset(TABLE) if language == "en" else frozenset(_translated(language))
+
+
+def texts(code: str, language: Language) -> Texts:
+    """The templates of a code, the English ones where the language has none."""
+    entry = TABLE[code]
+    return _translated(language).get(code) or Texts(entry.message, entry.advice)

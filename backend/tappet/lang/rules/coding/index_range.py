@@ -1,0 +1,134 @@
+"""The indices of a loop stay inside its array, and reach all of it.
+
+What an index can be is known from constant bounds of the loop, subranges, MOD, AND, LIMIT; below a condition
+inside the loop nothing is said, as the condition may keep the index inside. W1125 tells of the plain loop
+variable.
+
+Source: spec LTYP-150; coding guidelines of PLCopen, L10; CODESYS Static Analysis SA0172, SA0180.
+
+Passes:
+    @static
+    VAR i : INT; nPlace : INT(0..9); aA, aB : ARRAY[0..9] OF INT; END_VAR
+    FOR i := 0 TO 9 DO aA[i] := aB[9 - i]; END_FOR
+    FOR i := 1 TO 9 DO aA[i - 1] := aA[i]; END_FOR
+    aA[nPlace] := aB[i MOD 10];
+Fails:
+    @static
+    VAR i : INT; aA : ARRAY[0..9] OF INT; END_VAR
+    FOR i := 0 TO 9 DO
+        aA[i] := aA[i + 1];        (* S1246: i + 1 becomes 10 *)
+    END_FOR
+Fails:
+    @static
+    VAR nPlace : INT(1..10); aA : ARRAY[0..9] OF INT; END_VAR
+    aA[nPlace] := 2;               (* S1246: 10 is no index *)
+Fails:
+    @static
+    VAR i : INT; aA : ARRAY[0..9] OF INT; END_VAR
+    FOR i := 1 TO 9 DO
+        aA[i] := 0;                (* S1247: aA[0] is left out *)
+    END_FOR
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from tappet.lang import ast
+from tappet.lang.rules.intervals import Interval, interval
+from tappet.lang.types import Array
+from tappet.lang.walk import bodies, own_expressions, same, statements
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.context import Body
+
+CODES = ("S1246", "S1247")
+_LEAVING = (ast.Exit, ast.Continue, ast.Return, ast.Jump)
+
+
+def check_pou(b: Body, chosen: frozenset[str]) -> None:
+    """Reports the indices of a body."""
+    if b.pou is not None and b.pou.pou is not None:
+        _body(b, chosen, b.pou.pou.body, {})
+
+
+def _body(b: Body, chosen: frozenset[str], body: list[ast.Stmt], known: Mapping[int, Interval]) -> None:
+    for s in body:
+        if "S1246" in chosen:
+            for e in own_expressions(s):
+                if isinstance(e, ast.Index) and isinstance(e.base.type, Array):
+                    _check(b, e, e.base.type, known)
+        if isinstance(s, ast.For):
+            turns = _turns(s)
+            if turns is not None and "S1247" in chosen:
+                _left_out(b, s, turns)
+            leaves = any(isinstance(inner, _LEAVING) for inner in statements(s.body))
+            inside = {} if leaves or turns is None else {**known, id(_counter(s)): turns}
+            _body(b, chosen, s.body, inside)
+        else:
+            for part in bodies(s):
+                _body(b, chosen, part, {})
+
+
+def _counter(s: ast.For) -> object:
+    return s.variable.symbol if isinstance(s.variable, ast.Name) else None
+
+
+def _turns(s: ast.For) -> Interval | None:
+    """First and last value of the counter, smaller one first; None when they are not constant."""
+    start, stop = s.start.constant, s.stop.constant
+    step = 1 if s.step is None else s.step.constant
+    numbers = all(isinstance(n, int) and not isinstance(n, bool) for n in (start, stop, step))
+    if not numbers or _counter(s) is None or _is_written(s):
+        return None
+    assert isinstance(start, int)
+    assert isinstance(stop, int)
+    assert isinstance(step, int)
+    if step == 0 or (stop - start) * step < 0:
+        return None
+    last = start + (stop - start) // step * step
+    return min(start, last), max(start, last)
+
+
+def _is_written(s: ast.For) -> bool:
+    """Whether the body assigns the counter itself."""
+    counter = _counter(s)
+    targets = (inner.target for inner in statements(s.body) if isinstance(inner, ast.Assign))
+    return any(isinstance(target, ast.Name) and target.symbol is counter for target in targets)
+
+
+def _check(b: Body, e: ast.Index, array: Array, known: Mapping[int, Interval]) -> None:
+    for index, (first, last) in zip(e.indices, array.bounds, strict=False):
+        told_elsewhere = isinstance(index, ast.Name) and id(index.symbol) in known
+        found = None if index.is_constant or told_elsewhere else interval(index, known)
+        if found is not None and (found[0] < first or found[1] > last):
+            b.report("S1246", index.span, low=found[0], high=found[1], first=first, last=last)
+
+
+def _left_out(b: Body, s: ast.For, turns: Interval) -> None:
+    """Arrays of which the loop uses some elements by its counter, and no others."""
+    counter = _counter(s)
+    if s.step is not None and s.step.constant not in (1, -1):
+        return
+    if any(isinstance(inner, _LEAVING) for inner in statements(s.body)):
+        return
+    used = [
+        e
+        for inner in statements(s.body)
+        for e in own_expressions(inner)
+        if isinstance(e, ast.Index) and isinstance(e.base.type, Array)
+    ]
+    told: list[ast.Index] = []
+    for e in used:
+        index, array = e.indices[0], e.base.type
+        assert isinstance(array, Array)
+        plain = len(e.indices) == 1 and isinstance(index, ast.Name) and index.symbol is counter
+        if not plain or len(array.bounds) != 1 or any(same(e.base, other.base) for other in told):
+            continue
+        first, last = array.bounds[0]
+        inside = first <= turns[0] and turns[1] <= last and turns != (first, last)
+        alone = all(same(e, other) for other in used if same(e.base, other.base))
+        if inside and alone:
+            told.append(e)
+            b.report("S1247", e.span, low=turns[0], high=turns[1], first=first, last=last)

@@ -1,0 +1,142 @@
+"""A name means one thing, and a thing is reached by one name.
+
+Source: coding guidelines of PLCopen, N4, N5, N9; CODESYS Static Analysis SA0027, SA0042.
+
+Passes:
+    @static
+    @source GVL_Data
+    VAR_GLOBAL nTotal : INT; END_VAR
+    @source Main
+    TYPE E_Mode : (eOff, eOn); END_TYPE
+    PROGRAM Main
+    VAR nA : INT; END_VAR
+    nA := GVL_Data.nTotal;
+    GVL_Data.nTotal := nA + 1;
+    END_PROGRAM
+Fails:
+    @static
+    @source GVL_Data
+    VAR_GLOBAL nTotal : INT; END_VAR
+    @source Main
+    PROGRAM Main
+    VAR nA : INT; END_VAR
+    nA := GVL_Data.nTotal;
+    nTotal := nA + 1;              (* S1423: the same variable by another path *)
+    END_PROGRAM
+Fails:
+    @static
+    TYPE E_Mode : (eOff, eOn); END_TYPE
+    TYPE E_Valve : (eShut, eOn); END_TYPE   (* S1010: eOn is a value of E_Mode as well *)
+Fails:
+    @static
+    FUNCTION_BLOCK Motor
+    VAR nA : INT; END_VAR
+    nA := nA + 1;
+    END_FUNCTION_BLOCK
+    PROGRAM Main
+    VAR Motor : Motor; END_VAR     (* S1010: the name of its type *)
+    Motor();
+    END_PROGRAM
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tappet.lang import ast
+from tappet.lang.diagnostics import Related
+from tappet.lang.rules.coding.project_parts import is_own, with_parts
+from tappet.lang.source import Scope
+from tappet.lang.symbols import (
+    GvlSymbol,
+    InterfaceSymbol,
+    NamespaceSymbol,
+    PouSymbol,
+    Storage,
+    TypeSymbol,
+    VarSymbol,
+)
+from tappet.lang.types import Enum
+from tappet.lang.walk import all_expressions
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.context import Body, Session
+
+CODES = ("S1010", "S1423")
+_OBJECTS = (PouSymbol, TypeSymbol, GvlSymbol, InterfaceSymbol)
+
+
+def check_pou(b: Body, chosen: frozenset[str]) -> None:
+    """Reports variables that have the name of an object of the project."""
+    if "S1010" not in chosen or b.pou is None or b.pou.pou is None:
+        return
+    for block in b.pou.pou.blocks:
+        if block.section == "VAR_EXTERNAL":
+            continue
+        for decl in block.variables:
+            other = b.names.get(decl.name.upper())
+            if isinstance(other, _OBJECTS) and is_own(other.source):
+                b.report("S1010", decl.name_span, name=decl.name, other=_what(other))
+
+
+def check_program(session: Session, chosen: frozenset[str]) -> None:
+    """Reports values of several enumerations with one name, and variables with several paths."""
+    if "S1010" in chosen:
+        _values(session)
+    if "S1423" in chosen:
+        _paths(session)
+
+
+def _what(symbol: object) -> str:
+    if isinstance(symbol, PouSymbol):
+        return f"a {symbol.kind}"
+    return {GvlSymbol: "a variable list", InterfaceSymbol: "an interface"}.get(type(symbol), "a type")
+
+
+def _values(session: Session) -> None:
+    first: dict[str, Enum] = {}
+    for enum in session.analysis.types.values():
+        decl = enum.decl if isinstance(enum, Enum) else None
+        ref = decl.type_ref if decl is not None else None
+        if not isinstance(enum, Enum) or decl is None or enum.qualified_only or not is_own(decl.source):
+            continue
+        for entry in ref.values if isinstance(ref, ast.EnumType) else ():
+            other = first.setdefault(entry.name.upper(), enum)
+            if other is not enum and decl.source is not None:
+                name = f"a value of '{other.name}'"
+                session.report("S1010", decl.source.uri, entry.span, name=entry.name, other=name)
+
+
+def _paths(session: Session) -> None:
+    plain: dict[int, tuple[ast.Expr, str]] = {}
+    qualified: dict[int, tuple[ast.Expr, str]] = {}
+    order: dict[int, str] = {}
+    for body in with_parts(session):
+        if not is_own(body.source):
+            continue
+        uri = body.source.uri if body.source is not None else ""
+        for e in all_expressions(body.pou.body if body.pou is not None else []):
+            symbol = e.symbol if isinstance(e, (ast.Name, ast.Member)) else None
+            if not isinstance(symbol, (VarSymbol, PouSymbol)):
+                continue
+            if isinstance(e, ast.Name) and _is_shared(symbol) and not e.leading_dot:
+                plain.setdefault(id(symbol), (e, uri))
+                order.setdefault(id(symbol), symbol.name)
+            elif isinstance(e, ast.Member) and _is_list(e.base):
+                qualified.setdefault(id(symbol), (e, uri))
+    for key, name in order.items():
+        if key in qualified:
+            (e, uri), (other, other_uri) = plain[key], qualified[key]
+            related = [Related("by its list or library here", other_uri, other.span)]
+            session.report("S1423", uri, e.span, related, name=name)
+
+
+def _is_shared(symbol: VarSymbol | PouSymbol) -> bool:
+    """Whether a plain name can also be written with a list or a library before it."""
+    if isinstance(symbol, VarSymbol):
+        return symbol.home is Storage.GLOBAL and symbol.section == "VAR_GLOBAL"
+    return symbol.source is not None and symbol.source.scope is Scope.LIBRARY
+
+
+def _is_list(e: ast.Expr) -> bool:
+    return isinstance(e, (ast.Name, ast.Member)) and isinstance(e.symbol, (GvlSymbol, NamespaceSymbol))

@@ -1,0 +1,53 @@
+"""What a project consists of: the bodies of a program, the variables of a text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tappet.lang import ast
+from tappet.lang.source import Scope, Source
+from tappet.lang.symbols import PouSymbol
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.context import Session
+
+
+def is_own(source: Source | None) -> bool:
+    """Whether a text belongs to the project and not to a library."""
+    return source is not None and source.scope is not Scope.LIBRARY
+
+
+def with_parts(session: Session) -> Iterator[PouSymbol]:
+    """Every POU, library or own, with its methods, actions and accessors."""
+    for pou in session.analysis.pous:
+        yield from pou.with_children()
+
+
+def variables(unit: ast.Unit) -> Iterator[ast.VarDecl]:
+    """Every variable, parameter and member of a text, in order; methods, actions and accessors included."""
+    for declaration in unit.declarations:
+        yield from _of(declaration)
+
+
+def _of(declaration: ast.Declaration) -> Iterator[ast.VarDecl]:
+    if isinstance(declaration, ast.TypeDecl):
+        if isinstance(declaration.type_ref, ast.StructType):
+            yield from declaration.type_ref.members
+        return
+    if isinstance(declaration, ast.Property):
+        for accessor in (declaration.getter, declaration.setter):
+            if accessor is not None:
+                yield from _in_blocks(accessor.blocks)
+        return
+    if isinstance(declaration, (ast.Pou, ast.GlobalList)):
+        yield from _in_blocks(declaration.blocks)
+    if isinstance(declaration, (ast.Pou, ast.Interface)):
+        parts = [*declaration.methods, *declaration.properties]
+        for part in [*parts, *declaration.actions] if isinstance(declaration, ast.Pou) else parts:
+            yield from _of(part)
+
+
+def _in_blocks(blocks: list[ast.VarBlock]) -> Iterator[ast.VarDecl]:
+    for block in blocks:
+        yield from block.variables
