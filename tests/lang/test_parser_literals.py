@@ -117,6 +117,7 @@ def test_value(text: str, kind: str, prefix: str | None, value: object) -> None:
         ("USINT#-1", "E0014", "0..255"),
         ("INT#16#FFFF", "E0014", "-32768..32767"),
         ("REAL#1e39", "E0014", "REAL"),
+        ("REAL#3.4028235677973366E38", "E0014", "REAL"),
         ("INT#1.5", "E0015", "whole numbers"),
         ("BOOL#2", "E0015", "TRUE, FALSE, 1 and 0"),
         ("INT#", "E0015", "Write a number after INT#"),

@@ -24,6 +24,8 @@ _CLOCK_TEXT = {
     "TIME": "TIME", "LTIME": "LTIME", "DATE": "DATE", "LDATE": "DATE", "TIME_OF_DAY": "TOD",
     "LTIME_OF_DAY": "TOD", "DATE_AND_TIME": "DT", "LDATE_AND_TIME": "DT",
 }  # fmt: skip
+_LARGEST = {32: 3.4028235677973362e38, 64: 1.7976931348623157e308}
+"""The largest text of a REAL and LREAL: what follows is rounded to infinity."""
 _LONG_PREFIX = {"LDATE", "LTIME_OF_DAY", "LDATE_AND_TIME"}
 
 
@@ -159,10 +161,13 @@ def _from_text(b: Body, e: ast.Call, source: t.String, target: t.Type) -> ir.Exp
     clock = _CLOCK_TEXT.get(str(target))
     if clock is not None:
         name = "TEXT_AS_TIME" if clock in ("TIME", "LTIME") else f"TEXT_AS_{clock}"
-        value = calls.as_value(b, _call(b, name, [text], e))
-        return convert(rescale(convert(value, ir.U64), 1, unit_ns(target)), scalar)
+        unit = unit_ns(target)
+        limit = ir.Const(ir.U64, min((1 << scalar.bits) * unit, 1 << 64) - 1)
+        value = calls.as_value(b, _call(b, name, [text, limit], e))
+        return convert(rescale(convert(value, ir.U64), 1, unit), scalar)
     assert isinstance(target, t.Elementary)
-    return convert(calls.as_value(b, _call(b, _FROM_TEXT[target.kind], [text], e)), scalar)
+    args = [text, ir.Const(ir.F64, _LARGEST[scalar.bits])] if target.kind is Kind.REAL else [text]
+    return convert(calls.as_value(b, _call(b, _FROM_TEXT[target.kind], args, e)), scalar)
 
 
 BUILTIN_VALUES["CONVERT"] = conversion_value

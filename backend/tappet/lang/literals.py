@@ -152,13 +152,13 @@ def _typed(text: str, prefix: str, body: str) -> Decoded:
     return Decoded("int", prefix, magnitude)
 
 
-_HALF_STEP_OF_REAL = 1.0141204801825834e31
-"""What is less than this beyond the largest REAL is rounded to it."""
+_LARGEST_OF_REAL = 3.4028235677973362e38
+"""The last number that is rounded to the largest REAL; what follows is rounded to infinity."""
 
 
 def _real(text: str, prefix: str, value: float, size: int) -> Decoded:
     limit = 3.4028234663852886e38 if size == 4 else 1.7976931348623157e308
-    if abs(value) > limit + (_HALF_STEP_OF_REAL if size == 4 else 0.0):
+    if abs(value) > (_LARGEST_OF_REAL if size == 4 else limit):
         fields = {"text": text, "type": prefix, "low": -limit, "high": limit}
         return Decoded("real", prefix, None, "E0014", fields)
     if size == 4:
