@@ -221,7 +221,8 @@ def _new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     body: list[ir.Stmt] = [ir.Store(ir.Place(pointer), memory)]
     if scalar_of(type_) is None and len(operands) == 1:
         with b.block_of() as fill:
-            initial.initialise_place(b, ir.Place(ir.Indirect(read)), type_, None)
+            made = operands[0] if isinstance(operands[0], ast.Call) else None
+            initial.initialise_place(b, ir.Place(ir.Indirect(read)), type_, made)
         body.append(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), fill, []))
     b.program.expose(ir.Place(ir.Data("")), type_)
     return ir.Sequence(ir.PTR, body, read)

@@ -16,9 +16,12 @@ _UNROLL = 4
 
 
 def initialise_place(b: Body, place: ir.Place, type_: t.Type, init: ast.Expr | None) -> None:
-    """Code that gives memory on the stack its initial value."""
+    """Code that gives memory its initial value; a call `FB(...)` is what FB_Init gets."""
     template = Template(bytearray(type_.size))
-    initialiser_of(b.program).fill(template, 0, type_, init)
+    if isinstance(init, ast.Call) and isinstance(type_, t.FunctionBlock):
+        initialiser_of(b.program).fill(template, 0, type_, None, [init.args])
+    else:
+        initialiser_of(b.program).fill(template, 0, type_, init)
     write_template(b, place, template, type_.align)
 
 

@@ -20,6 +20,8 @@ from tappet.lang.source import Span, split_lines
 _ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
 _GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
+_BEHIND_VARIABLE: Final = frozenset([":=", "(", ".", "[", "^"])
+"""What follows a name that begins a statement."""
 _HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
 _CHARTED: Final = _HOLDERS | {"ACTION", "METHOD"}
 _TYPED: Final = frozenset(["FUNCTION", "METHOD"])
@@ -359,12 +361,13 @@ class Parser(TypeBlockParser):
         start = self.i
         opener = (word, self.lines[start])
         self.i = start + 1
-        self._access()
+        while self.word() in _ACCESS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
+            self.i += 1  # the property says who may use it
         blocks: list[ast.VarBlock] = []
         while self.kinds[self.i] in SECTIONS:
             blocks.append(self.variable_block())
         body: list[ast.Stmt] = []
-        if self.word() in ("GET", "SET") and self.kinds[self.i + 1] not in (":=", "(", ".", "["):
+        if self.word() in ("GET", "SET") and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
             return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)  # a bare head
         if self.kinds[self.i] == "END_PROPERTY":
             return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)

@@ -9,6 +9,7 @@ from tappet.lang.analysis.adaptation import require, retype
 from tappet.lang.analysis.builtins import OPERATORS, Resolve, count_fits, finish, operands
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import evaluate, text_of, value
+from tappet.lang.analysis.fb_init import bind_fb_init
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope
@@ -165,13 +166,10 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
         return
     operand = e.args[0].value
     assert operand is not None
-    type_ = named_type(b, operand)
+    type_ = _made_type(b, operand)
     if type_ is None:
-        evaluate(b, operand)
-        type_ = named_type(b, operand)
-        if type_ is None:
-            b.report("E0202", operand.span, name=text_of(operand), hint="__NEW needs a type.")
-            return
+        b.report("E0202", operand.span, name=text_of(operand), hint="__NEW needs a type.")
+        return
     length = e.args[1].value if len(e.args) > 1 else None
     count = t.UDINT if length is None else _count(b, length)
     b.session.complete(type_)
@@ -182,6 +180,25 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
     elif not isinstance(type_, (t.Struct, t.Array)) and length is None:
         b.report("E0520", e.span, type=type_)
     finish(e, name, [None, count][: len(e.args)], t.Pointer(type_))
+
+
+def _made_type(b: Body, operand: ast.Expr) -> Type | None:
+    """The type that `__NEW` makes a value of; of `FB(...)` the block, whose FB_Init gets the arguments."""
+    named = operand.callee if isinstance(operand, ast.Call) else operand
+    type_ = named_type(b, named)
+    if type_ is None:
+        evaluate(b, named)
+        type_ = named_type(b, named)
+    block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou is not None else None
+    if not isinstance(operand, ast.Call):
+        return type_
+    operand.type = operand.constant = operand.target = operand.expansion = None
+    operand.is_constant = operand.untyped = False
+    if not isinstance(block, PouSymbol):
+        return None
+    for parameter in bind_fb_init(b, operand.args, block, operand.span):
+        b.report("E0504", operand.span, name=parameter.name, callee=f"{block.name}.FB_Init")
+    return type_
 
 
 def _count(b: Body, length: ast.Expr) -> Elementary:

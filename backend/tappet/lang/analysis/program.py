@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.calls import bind_arguments
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.configured import place_incomplete
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
+from tappet.lang.analysis.fb_init import bind_fb_init
 from tappet.lang.analysis.members import find_member
 from tappet.lang.rules import PROGRAM_RULES
 from tappet.lang.source import Source, Span
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, VarSymbol
 from tappet.lang.types import Type
-
-_FB_INIT_FIXED = 2
-"""FB_Init begins with bInitRetains and bInCopyCode; the rest comes from the declaration (LDEC-102)."""
 
 
 def check(session: Session, found: Collected, declarations: Declarations) -> None:
@@ -200,33 +197,20 @@ def check_fb_init(body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Typ
         if given:
             body.report("E0503", ref.span, callee=str(type_), expected=0, actual=len(given), hint="")
         return
-    init = find_member(block, "FB_INIT")
-    extra = init.parameters[_FB_INIT_FIXED:] if isinstance(init, PouSymbol) else []
     if not elements:
-        _bind_fb_init(body, args or [], extra, block, variable, ref.span if args else decl.span)
+        _bind_fb_init(body, args or [], block, variable, ref.span if args else decl.span)
         return
     if len(elements) != count:
         body.report("E0441", ref.span, actual=len(elements), type=variable.type, expected=count)
     for element in elements:
-        _bind_fb_init(body, element.args, extra, block, variable, element.span)
+        _bind_fb_init(body, element.args, block, variable, element.span)
 
 
 def _bind_fb_init(
-    body: Body,
-    args: list[ast.Argument],
-    extra: list[VarSymbol],
-    block: PouSymbol,
-    variable: VarSymbol,
-    span: Span,
+    body: Body, args: list[ast.Argument], block: PouSymbol, variable: VarSymbol, span: Span
 ) -> None:
-    """Arguments of one instance, or of all elements of an array."""
-    if args:
-        bind_arguments(body, args, extra, f"{block.name}.FB_Init", span, "FB_INIT")
-    given = {id(a.parameter) for a in args}
-    for parameter in extra:
-        optional = parameter.decl is not None and parameter.decl.initial is not None
-        if parameter.section == "VAR_INPUT" and id(parameter) not in given and not optional:
-            body.report("E0421", span, name=parameter.name, variable=variable.name, type=block.name)
+    for parameter in bind_fb_init(body, args, block, span):
+        body.report("E0421", span, name=parameter.name, variable=variable.name, type=block.name)
 
 
 def _external_types(session: Session, found: Collected, declarations: Declarations) -> None:
