@@ -96,6 +96,21 @@ def test_errors_of_the_program_are_diagnostics(admin: TestClient, project: dict[
     assert found == [("E0201", "implementation", 1, 12)]
 
 
+def test_a_test_that_kills_its_process_leads_to_its_place(admin: TestClient, project: dict[str, str]) -> None:
+    head = "FUNCTION_BLOCK FB_Kill_Test EXTENDS TcUnit.FB_TestSuite\nVAR\n    place : POINTER TO DINT;\n"
+    head += "    nowhere : DINT;\nEND_VAR"
+    body = "TEST('Kills');\nplace := ADR(nowhere);\n__DELETE(place);\nTEST_FINISHED();"
+    suite_id = _add(admin, project["project"], project["application"], "pou", "FB_Kill_Test", head, body)
+    report = run(admin, project)
+    assert (report["problem"], report["diagnostics"]) == (None, [])
+    killing = next(suite for suite in report["suites"] if suite["name"] == "FB_Kill_Test")
+    (test,) = killing["tests"]
+    (failure,) = test["failures"]
+    assert (test["outcome"], failure["message"].split("(")[0]) == ("error", "the process was killed ")
+    assert (failure["object_id"], failure["part"], failure["line"]) == (suite_id, "implementation", 1)
+    assert (report["passed"], report["failed"], report["error"]) == (1, 1, 2)
+
+
 def test_tests_that_do_not_run_cannot_be_cancelled(admin: TestClient, project: dict[str, str]) -> None:
     url = f"{PROJECTS}/{project['project']}/applications/{project['application']}/tests"
     assert admin.delete(url).status_code == 404

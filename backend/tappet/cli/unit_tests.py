@@ -35,11 +35,14 @@ def run_unit_tests(
     cycle_limit: Annotated[
         float, typer.Option(min=0.01, help="seconds after which a cycle counts as endless")
     ] = 2.0,
+    memory_limit: Annotated[
+        int, typer.Option(min=16, metavar="MIB", help="MiB that all tests together may take with __NEW")
+    ] = 1024,
     application: Annotated[str | None, typer.Option(help="which application of the project")] = None,
     output: FormatOption = OutputFormat.TEXT,
 ) -> None:
     """Run the test suites (blocks that extend FB_TestSuite); exit code 1 when a test is not good."""
-    limits = TestLimits(cycle_s=cycle_limit, simulated_s=_seconds(simulated))
+    limits = TestLimits(cycle_s=cycle_limit, simulated_s=_seconds(simulated), memory_mib=memory_limit)
     chosen = applications(paths, application)
     if not chosen:
         raise UsageError("the project has no application to test")

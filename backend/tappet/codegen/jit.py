@@ -34,6 +34,16 @@ define void @tappet_fault(i32 %code, i64 %a, i64 %b, i64 %c) noreturn {
   call void @longjmp(ptr @tappet.jump, i32 1)
   unreachable
 }
+declare ptr @calloc(i64, i64)
+declare void @free(ptr)
+define ptr @tappet_allocate(i64 %count, i64 %size) {
+  %memory = call ptr @calloc(i64 %count, i64 %size)
+  ret ptr %memory
+}
+define void @tappet_release(ptr %memory) {
+  call void @free(ptr %memory)
+  ret void
+}
 define i64 @tappet_now_ns() {
   %now = load i64, ptr @tappet.clock
   ret i64 %now

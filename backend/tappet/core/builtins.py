@@ -214,10 +214,12 @@ def _new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     count: ir.Expr = ir.Const(ir.U64, 1)
     if len(operands) > 1:
         count = convert(b.value(operands[1]), ir.U64)
-    b.program.module.externals.setdefault("calloc", ir.External("calloc", [ir.U64, ir.U64], ir.PTR))
+    b.program.module.externals.setdefault(
+        "tappet_allocate", ir.External("tappet_allocate", [ir.U64, ir.U64], ir.PTR)
+    )
     pointer = b.temp(ir.PTR)
     read = ir.Load(ir.PTR, ir.Place(pointer))
-    memory = ir.Call(ir.PTR, "calloc", [count, ir.Const(ir.U64, max(type_.size, 1))])
+    memory = ir.Call(ir.PTR, "tappet_allocate", [count, ir.Const(ir.U64, max(type_.size, 1))])
     body: list[ir.Stmt] = [ir.Store(ir.Place(pointer), memory)]
     if scalar_of(type_) is None and len(operands) == 1:
         with b.block_of() as fill:
@@ -233,12 +235,12 @@ def _delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
     assert isinstance(operand.type, t.Pointer)
     place = places.freeze(b, b.place(operand), b.out)
     b.touch(place)
-    b.program.module.externals.setdefault("free", ir.External("free", [ir.PTR]))
+    b.program.module.externals.setdefault("tappet_release", ir.External("tappet_release", [ir.PTR]))
     read = ir.Load(ir.PTR, place)
     with b.block_of() as then:
         if isinstance(operand.type.base, t.FunctionBlock):
             initial.destruct(b, ir.Place(ir.Indirect(read)), operand.type.base)
-        b.emit(ir.Evaluate(ir.Call(ir.VOID, "free", [read])))
+        b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
         b.emit(ir.Store(place, NULL))
     b.emit(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), then, []))
 

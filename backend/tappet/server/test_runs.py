@@ -9,12 +9,15 @@ from contextlib import suppress
 from tappet.codegen.build import BuildOptions, LibraryReference, as_source
 from tappet.codegen.package import TaskSpec
 from tappet.runtime.unit_tests import process
+from tappet.runtime.unit_tests.attempts import Attempts
 from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome, TestOutcome
 from tappet.server.builder import Application
 from tappet.server.problems import Problem
 from tappet.server.schemas.build import Diagnostic, Part, Severity
 from tappet.server.schemas.tests import TestFailure, TestReport, TestResult, TestSuite
 from tappet.server.source_places import SourcePlaces
+
+CANCELLED = "the run was cancelled"
 
 
 class TestRuns:
@@ -23,46 +26,71 @@ class TestRuns:
     __test__ = False  # no test class of pytest
 
     def __init__(self) -> None:
-        self._running: dict[tuple[str, str], asyncio.subprocess.Process | None] = {}
+        self._running: dict[tuple[str, str], _Runner] = {}
 
     async def run(self, application: Application, test_filter: str, only: Sequence[str] = ()) -> TestReport:
         """Run and wait; the process is killed when the caller goes away. 409 while a run is going on."""
         key = (application.project_id, application.application_id)
         if key in self._running:
             raise Problem(409, "tests-running", "Tests of this application are running; wait for their end.")
-        self._running[key] = None
+        runner = self._running[key] = _Runner()
         try:
             order = await asyncio.to_thread(_order, application, test_filter, only)
-            child = await asyncio.create_subprocess_exec(
-                *process.COMMAND, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
-            )
-            self._running[key] = child
-            report = await _result(child, order)
+            report = await runner.run(order)
         finally:
             del self._running[key]
         return _reply(report, application)
 
     def cancel(self, project_id: str, application_id: str) -> bool:
         """Ends the tests of an application; False when none are running."""
-        child = self._running.get((project_id, application_id))
-        if child is None:
+        runner = self._running.get((project_id, application_id))
+        if runner is None:
             return False
-        with suppress(ProcessLookupError):
-            child.kill()
+        runner.cancel()
         return True
 
 
-async def _result(child: asyncio.subprocess.Process, order: bytes) -> Report:
-    try:
-        output, _ = await asyncio.wait_for(child.communicate(order), process.WALL_LIMIT_S)
-        return process.report_of(output, child.returncode)
-    except TimeoutError:
-        return process.report_of(b"", None)
-    finally:
-        if child.returncode is None:
+class _Runner:
+    """The processes of one run."""
+
+    def __init__(self) -> None:
+        self._child: asyncio.subprocess.Process | None = None
+        self._cancelled = False
+
+    async def run(self, order: bytes) -> Report:
+        with Attempts(order) as attempts:
+            report = None
+            while report is None:
+                report = await self._attempt(attempts)
+            return report
+
+    def cancel(self) -> None:
+        self._cancelled = True
+        if self._child is not None:
             with suppress(ProcessLookupError):
-                child.kill()
-            await child.wait()
+                self._child.kill()
+
+    async def _attempt(self, attempts: Attempts) -> Report | None:
+        if self._cancelled:
+            return attempts.ended(b"", CANCELLED)
+        child = self._child = await asyncio.create_subprocess_exec(
+            *attempts.command,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            pass_fds=attempts.pass_fds,
+        )
+        try:
+            output, _ = await asyncio.wait_for(child.communicate(attempts.order), attempts.seconds_left)
+        except TimeoutError:
+            return attempts.take(b"", None)
+        finally:
+            if child.returncode is None:
+                with suppress(ProcessLookupError):
+                    child.kill()
+                await child.wait()
+        if self._cancelled:
+            return attempts.ended(output, CANCELLED)
+        return attempts.take(output, child.returncode)
 
 
 def _order(application: Application, test_filter: str, only: Sequence[str]) -> bytes:

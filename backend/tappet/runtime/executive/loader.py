@@ -36,14 +36,14 @@ ENTRIES = (
 
 SERVICES = (
     "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
-    "tappet_watchdog_disable", "tappet_watchdog_enable",
+    "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_allocate", "tappet_release",
 )  # fmt: skip
 """What compiled applications and libraries may call."""
 
 HOST_FUNCTIONS = (
     "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self",
     "pthread_getspecific", "pthread_setspecific", "pthread_sigmask", "sigaltstack", "signal", "prctl",
-    "sem_post", "sem_wait", "abort", "_setjmp", "longjmp", "_longjmp",
+    "sem_post", "sem_wait", "abort", "calloc", "free", "_setjmp", "longjmp", "_longjmp",
 )  # fmt: skip
 """What the executive itself takes from the C library."""
 

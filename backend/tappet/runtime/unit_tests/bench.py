@@ -12,10 +12,18 @@ from tappet.runtime.faults import ExceptionReport
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY
 from tappet.runtime.unit_tests.instrument import Mark
+from tappet.runtime.unit_tests.known import (
+    BROKEN,
+    FAILED,
+    NOTHING,
+    PASSED,
+    SKIPPED,
+    WAITING,
+    Known,
+    KnownTest,
+)
 from tappet.runtime.unit_tests.results import Failure, Outcome, SuiteOutcome, TestOutcome
 
-WAITING, RUNNING, PASSED, FAILED, SKIPPED, BROKEN = range(6)
-"""TEST_STATE of the library."""
 _OUTCOMES: dict[int, Outcome] = {PASSED: "passed", FAILED: "failed", SKIPPED: "skipped", BROKEN: "error"}
 NS_PER_S = 1_000_000_000
 LONGEST_NAME = 255
@@ -44,26 +52,37 @@ class _Test:
     record: dict[str, Any] = field(default_factory=dict)
     outcome: TestOutcome | None = None
     """Known for good."""
+    order: int = 0
+    """Its place in the order of the calls of the last start that called it."""
 
 
 class Bench:
     """Suites and tests of one application, over all its starts."""
 
-    def __init__(self, symbols: SymbolMap, marks: Sequence[Mark]) -> None:
+    def __init__(self, symbols: SymbolMap, marks: Sequence[Mark], known: Known = NOTHING) -> None:
         self._symbols = symbols
         self._marks = marks
+        self._known = known
         self._root = _root(symbols)
         self._suites: list[_Suite] = []
-        self._tests: list[_Test] = []
+        self._tests = [
+            _Test(k.suite, k.outcome.name, k.state, {"xOrdered": k.ordered}, k.outcome) for k in known.tests
+        ]
         self.complete = False
         """Every test has its outcome."""
 
     # -- before a start --------------------------------------------------------------------------------
 
-    def prepare(self, runtime: LocalRuntime, test_filter: str, only: Sequence[str] = ()) -> None:
-        """Hands the library what is to run, and the outcomes of earlier starts."""
+    def prepare(
+        self, runtime: LocalRuntime, test_filter: str, only: Sequence[str] = (), place: int = 0
+    ) -> None:
+        """Hands the library what is to run, the outcomes of earlier starts, and the address where it keeps
+        which test runs.
+        """
         if not self._suites:
             self._read_suites(runtime)
+        if place:
+            runtime.write(f"{self._root}.pPlace", place)
         values: dict[str, Any] = {f"{self._root}.sFilter": test_filter, f"{self._root}.diOnly": len(only)}
         values |= {f"{self._root}.asOnly[{n}]": name[:LONGEST_NAME] for n, name in enumerate(only, 1)}
         known = [test for test in self._tests if test.outcome is not None]
@@ -90,7 +109,9 @@ class Bench:
             path = str(runtime.read(f"{self._root}.asPath[{number}]")).split(".", 2)[-1]
             block = self._symbols.resolve(path).type.name
             made = path.upper().startswith(f"{PROGRAM}.".upper())
-            self._suites.append(_Suite(block if made else path, block))
+            failures = [failure for suite, failure in self._known.suites if suite == number]
+            suite = _Suite(block if made else path, block, bool(failures), failures)
+            self._suites.append(suite)
 
     # -- afterwards ------------------------------------------------------------------------------------
 
@@ -115,17 +136,20 @@ class Bench:
             else:
                 test = _Test(record["diSuite"], record["sName"])
                 self._tests.append(test)
+            test.order = record["diOrder"] or test.order
             if test.outcome is None:
                 test.state, test.record = record["eState"], record
                 if test.state in _OUTCOMES:
                     test.outcome = self._outcome(test, failures.get(number, []), lines.get(number, []))
 
-    def broken(self, runtime: LocalRuntime, report: ExceptionReport) -> str | None:
-        """Gives the exception to the test, or else the suite, that it happened in."""
+    def broken(self, runtime: LocalRuntime, report: ExceptionReport, note: str = "") -> str | None:
+        """Gives the exception to the test, or else the suite, that it happened in; `note` goes on with its
+        message.
+        """
         number = self._number(runtime, "diTest")
         test = self._tests[number - 1] if 0 < number <= len(self._tests) else None
         suite = self._number(runtime, "diSuite")
-        failure = _exception(report)
+        failure = _exception(report, note)
         if test is not None and test.outcome is None:
             expected = test.record.get("iExpected", 0)
             failures = self._failures(runtime).get(number, [])
@@ -163,16 +187,32 @@ class Bench:
                 )
 
     def suites(self) -> tuple[SuiteOutcome, ...]:
-        """The results so far."""
+        """The results so far, in the order in which the tests are called."""
+        ordered = sorted(self._tests, key=lambda test: test.order or len(self._tests))
         return tuple(
             SuiteOutcome(
                 suite.path,
                 suite.block,
-                tuple(t.outcome for t in self._tests if t.suite == number and t.outcome is not None),
+                tuple(t.outcome for t in ordered if t.suite == number and t.outcome is not None),
                 tuple(suite.failures),
             )
             for number, suite in enumerate(self._suites, 1)
         )
+
+    def known(self) -> Known:
+        """What is known for good, for a bench of the same application in another process."""
+        tests = [
+            KnownTest(t.suite, t.state, bool(t.record.get("xOrdered")), t.outcome)
+            for t in self._tests
+            if t.outcome is not None
+        ]
+        suites = [
+            (n, failure)
+            for n, suite in enumerate(self._suites, 1)
+            for failure in suite.failures
+            if suite.broken
+        ]
+        return Known(tuple(tests), tuple(suites))
 
     # -- values ----------------------------------------------------------------------------------------
 
@@ -243,14 +283,14 @@ def _root(symbols: SymbolMap) -> str:
     raise SymbolError("the test library is not in the application")
 
 
-def _exception(report: ExceptionReport) -> Failure:
+def _exception(report: ExceptionReport, note: str) -> Failure:
     callers = [
         f"{frame.pou}, line {frame.line}"
         for frame in report.call_stack[1:_SHOWN_CALLERS]
         if frame.pou != PROGRAM and not frame.pou.startswith(f"{TEST_LIBRARY}.")
     ]
     return Failure(
-        report.message,
+        report.message + note,
         code=report.code,
         pou=report.pou,
         uri=report.uri,

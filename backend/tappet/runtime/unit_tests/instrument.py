@@ -1,8 +1,9 @@
 """Test texts made ready to run: a test can be switched off, and every assertion knows its place.
 
 `TEST('x'); ... TEST_FINISHED();` becomes `IF TAPPET_TEST('x') THEN ... TEST_FINISHED(); END_IF;`, so that
-a test that ended in an exception is left out when the others are run again. `TAPPET_MARK(n);` before an
-assertion tells its place. Everything is put in on the line where it belongs, so that lines stay the same.
+a test that ended in an exception is left out when the others are run again. `TAPPET_MARK(n);` at the begin
+of a test and before an assertion tells its place. Everything is put in on the line where it belongs, so that
+lines stay the same.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ CLOSE = " END_IF;"
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """Where an assertion stands."""
+    """Where an assertion stands, or a test begins."""
 
     uri: str
     pou: str
@@ -44,7 +45,7 @@ class _Insertion:
 
 
 def instrument(source: Source, marks: list[Mark]) -> Source:
-    """The text of `source` with its tests made ready; appends the places of its assertions to `marks`."""
+    """The text of `source` with its tests made ready; appends the places that are marked to `marks`."""
     if source.scope is Scope.LIBRARY or BEGIN not in source.text.upper():
         return source
     lines = source.text.split("\n")
@@ -54,8 +55,9 @@ def instrument(source: Source, marks: list[Mark]) -> Source:
         if source.owner and pou.owner is None:
             qualified = f"{source.owner}.{pou.name}"
         for statements in _lists(pou.body):
-            edits += _gates(statements, lines)
-            edits += _marks(statements, Mark(source.uri, qualified, 0), marks)
+            place = Mark(source.uri, qualified, 0)
+            edits += _gates(statements, lines, place, marks)
+            edits += _marks(statements, place, marks)
     for edit in sorted(edits, key=lambda e: e.place, reverse=True):
         line = lines[edit.line]
         lines[edit.line] = line[: edit.column] + edit.text + line[edit.column + edit.removed :]
@@ -90,7 +92,9 @@ def _called(statement: ast.Stmt) -> str:
     return callee_name(statement.call) if isinstance(statement, ast.CallStmt) and not statement.label else ""
 
 
-def _gates(statements: list[ast.Stmt], lines: list[str]) -> Iterator[_Insertion]:
+def _gates(
+    statements: list[ast.Stmt], lines: list[str], place: Mark, marks: list[Mark]
+) -> Iterator[_Insertion]:
     for index, statement in enumerate(statements):
         if _called(statement) != BEGIN or not isinstance(statement, ast.CallStmt):
             continue
@@ -107,7 +111,8 @@ def _gates(statements: list[ast.Stmt], lines: list[str]) -> Iterator[_Insertion]
         else:  # TcUnit.TEST(...)
             yield _Insertion(start.line, start.column, "IF ")
             yield _Insertion(name.line, name.column, "TAPPET_")
-        yield _Insertion(end.end_line, semicolon, " THEN", removed=1)
+        marks.append(replace(place, line=start.line + 1))
+        yield _Insertion(end.end_line, semicolon, f" THEN TAPPET_MARK({len(marks)});", removed=1)
         yield _after(last.span, lines)
 
 

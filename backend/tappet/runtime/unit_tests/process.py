@@ -1,18 +1,17 @@
 """Tests in a process of their own: a program under test that kills its process takes nobody with it.
 
-The order is one msgpack map on the input of `python -m tappet.runtime.unit_tests.process`; reports come back
-as JSON, one a line, the last one is the result.
+The order is one msgpack map on the input of `python -m tappet.runtime.unit_tests.process FD`, where FD is a
+PlacePage; reports come back as JSON, one a line, the last one is the result.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import signal
 import subprocess
 import sys
-from collections.abc import Sequence
-from dataclasses import asdict, astuple, replace
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, astuple
 from typing import Any
 
 import msgpack
@@ -20,12 +19,12 @@ import msgpack
 from tappet.codegen.build import BuildOptions, LibraryReference
 from tappet.codegen.package import TaskSpec
 from tappet.lang.source import Scope, Source
+from tappet.runtime.posix import PAGE, map_memory
+from tappet.runtime.unit_tests.attempts import FRESH, NO_MEMORY, Attempts
+from tappet.runtime.unit_tests.known import NOTHING, Known
+from tappet.runtime.unit_tests.memory import MemoryLimit, MemoryLimitReachedError
 from tappet.runtime.unit_tests.results import Report
-from tappet.runtime.unit_tests.runner import TestLimits, run_tests
-
-COMMAND = (sys.executable, "-m", "tappet.runtime.unit_tests.process")
-WALL_LIMIT_S = 600.0
-"""A run that takes longer is ended; restarts after endless loops take their time."""
+from tappet.runtime.unit_tests.runner import TestLimits, TestProcess, run_tests
 
 
 def order(
@@ -53,41 +52,27 @@ def order(
 
 
 def run_in_process(command: bytes) -> Report:
-    """Run an order and wait for its report; a process that dies leaves what was known before."""
-    try:
-        done = subprocess.run(  # noqa: S603 - our own command
-            COMMAND, input=command, stdout=subprocess.PIPE, timeout=WALL_LIMIT_S, check=False
-        )
-        return report_of(done.stdout, done.returncode)
-    except subprocess.TimeoutExpired as late:
-        return report_of(late.stdout or b"", None)
+    """Run an order and wait for its report; a test that kills its process is told, and the others run on."""
+    with Attempts(command) as attempts:
+        report = None
+        while report is None:
+            try:
+                done = subprocess.run(  # noqa: S603 - our own command
+                    attempts.command,
+                    input=attempts.order,
+                    stdout=subprocess.PIPE,
+                    pass_fds=attempts.pass_fds,
+                    timeout=attempts.seconds_left,
+                    check=False,
+                )
+                report = attempts.take(done.stdout, done.returncode)
+            except subprocess.TimeoutExpired as late:
+                report = attempts.take(late.stdout or b"", None)
+        return report
 
 
-def report_of(output: bytes, code: int | None) -> Report:
-    """The result in what a process has written; `code` None: it was ended after WALL_LIMIT_S."""
-    lines = output.splitlines()
-    if code == 0 and lines:
-        return Report.from_dict(json.loads(lines[-1]))
-    before = Report("")
-    for line in lines:
-        try:
-            before = Report.from_dict(json.loads(line))
-        except ValueError:
-            break
-    return replace(before, problem=_why(code))
-
-
-def _why(code: int | None) -> str:
-    if code is None:
-        return f"the tests took longer than {WALL_LIMIT_S:g} s and were ended"
-    if code < 0:
-        name = signal.Signals(-code).name
-        return f"a test killed its process ({name}); the tests that had not finished before have no result"
-    return f"the test process ended with code {code}"
-
-
-def perform(content: dict[str, Any], write: Any) -> None:
-    """Carries an order out; `write` gets every report as plain data."""
+def perform(content: dict[str, Any], write: Callable[[dict[str, Any]], None], place: int) -> None:
+    """Carries an order out; `write` gets the lines of its output, `place` is the address of a PlacePage."""
     options = BuildOptions(
         application=content["application"],
         libraries=tuple(LibraryReference(*reference) for reference in content["libraries"]),
@@ -95,16 +80,29 @@ def perform(content: dict[str, Any], write: Any) -> None:
     )
     sources = [Source(**{**source, "scope": Scope(source["scope"])}) for source in content["sources"]]
     tasks = [TaskSpec(**{**task, "programs": tuple(task["programs"])}) for task in content["tasks"]]
+    limits = TestLimits(**content["limits"])
+    memory = MemoryLimit(limits.memory_mib)
+
+    def tell(report: Report, known: Known) -> None:
+        write({"report": report.to_dict(), "known": known.to_dict()})
+
     report = run_tests(
         sources,
         tasks,
         options,
         test_filter=content["filter"],
         only=content["only"],
-        limits=TestLimits(**content["limits"]),
-        progress=lambda so_far: write(so_far.to_dict()),
+        limits=limits,
+        process=TestProcess(
+            Known.from_dict(content["known"]),
+            place,
+            memory,
+            lambda marks: write({"marks": [astuple(mark) for mark in marks]}),
+            tell,
+        ),
     )
-    write(report.to_dict())
+    memory.lift()
+    tell(report, NOTHING)
 
 
 def main() -> None:
@@ -112,11 +110,18 @@ def main() -> None:
     output = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # whatever prints in here must not get between the lines
 
-    def write(report: dict[str, Any]) -> None:
-        output.write(json.dumps(report) + "\n")
+    def write(line: dict[str, Any]) -> None:
+        output.write(json.dumps(line) + "\n")
         output.flush()
 
-    perform(msgpack.unpackb(sys.stdin.buffer.read(), raw=False, strict_map_key=False, use_list=False), write)
+    content = msgpack.unpackb(sys.stdin.buffer.read(), raw=False, strict_map_key=False, use_list=False)
+    page = map_memory(PAGE, int(sys.argv[1]))
+    try:
+        perform(content, write, page.address)
+    except MemoryLimitReachedError:
+        sys.exit(FRESH)
+    except MemoryError:
+        sys.exit(NO_MEMORY)
 
 
 if __name__ == "__main__":

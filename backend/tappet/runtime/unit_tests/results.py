@@ -104,19 +104,17 @@ def _suite(data: dict[str, Any]) -> SuiteOutcome:
     return SuiteOutcome(
         data["name"],
         data["block"],
-        tuple(
-            TestOutcome(
-                **{
-                    **test,
-                    "failures": tuple(_failure(f) for f in test["failures"]),
-                    "output": tuple(test.get("output", ())),
-                }
-            )
-            for test in data["tests"]
-        ),
-        tuple(_failure(f) for f in data["failures"]),
+        tuple(outcome_of(test) for test in data["tests"]),
+        tuple(failure_of(f) for f in data["failures"]),
     )
 
 
-def _failure(data: dict[str, Any]) -> Failure:
+def outcome_of(data: dict[str, Any]) -> TestOutcome:
+    """A test from plain data."""
+    failures = tuple(failure_of(f) for f in data["failures"])
+    return TestOutcome(**{**data, "failures": failures, "output": tuple(data.get("output", ()))})
+
+
+def failure_of(data: dict[str, Any]) -> Failure:
+    """A failure from plain data."""
     return Failure(**{**data, "call_stack": tuple(data["call_stack"])})

@@ -1,7 +1,8 @@
 """Builds an application with its tests and runs them on virtual time until all have finished.
 
 An exception or an endless loop ends only the test it happens in: the application is started again without
-that test, and what had finished before keeps its result.
+that test, and what had finished before keeps its result. What a test does to the whole process is seen by
+`attempts`.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from tappet.runtime.local import ApplicationException, LocalRuntime
 from tappet.runtime.unit_tests.bench import MOST_CHOSEN, Bench
 from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY, discover, program_text
 from tappet.runtime.unit_tests.instrument import Mark, instrument
+from tappet.runtime.unit_tests.known import NOTHING, Known
+from tappet.runtime.unit_tests.memory import MemoryLimit, MemoryLimitReachedError
 from tappet.runtime.unit_tests.results import Report
 
 DEFAULT_INTERVAL_NS = 10_000_000
@@ -36,8 +39,27 @@ class TestLimits:
     simulated_s: float = 600.0
     """Time of the PLC for all tests."""
     restarts: int = 1000
+    memory_mib: int = 1024
+    """What all tests together may take with __NEW; only where they have a process of their own."""
 
     __test__ = False  # no test class of pytest
+
+
+@dataclass(frozen=True, slots=True)
+class TestProcess:
+    """What a run in a process of its own needs, so that another one can go on where it ends."""
+
+    known: Known
+    """Outcomes of the processes before."""
+    place: int
+    """Address where the application keeps which test runs."""
+    memory: MemoryLimit
+    marks: Callable[[Sequence[Mark]], None]
+    """Gets the marked places of the texts."""
+    tell: Callable[[Report, Known], None]
+    """Gets what is known before and after each start of the application."""
+
+    __test__ = False
 
 
 def run_tests(
@@ -48,13 +70,13 @@ def run_tests(
     test_filter: str = "",
     only: Sequence[str] = (),
     limits: TestLimits | None = None,
-    progress: Callable[[Report], None] | None = None,
+    process: TestProcess | None = None,
 ) -> Report:
     """Run the tests of an application; nothing is raised for what is wrong with it.
 
     `test_filter` runs only tests with this text in `suite.test` (`*` for any text), `only` those with these
-    very names (at most MOST_CHOSEN; with more, all run). `progress` gets a report
-    after each start of the application.
+    very names (at most MOST_CHOSEN; with more, all run). Raises MemoryLimitReachedError when the limit of
+    `process` is reached.
     """
     options = with_library(options or BuildOptions(), sources := list(sources))
     found = discover(result.unit for result in parse_sources(sources, ParseOptions(dict(options.defines))))
@@ -75,8 +97,13 @@ def run_tests(
         errors = errors or [d for d in result.diagnostics if d.severity == "error"]
         return Report(options.application, diagnostics=tuple(d.record() for d in errors))
     chosen = tuple(only) if len(only) <= MOST_CHOSEN else ()
-    run = _Run(options.application, result.package, marks, limits or TestLimits(), test_filter, chosen)
-    return run.all(progress)
+    if process is not None:
+        process.marks(marks)
+        process.memory.begin()
+    run = _Run(
+        options.application, result.package, marks, limits or TestLimits(), test_filter, chosen, process
+    )
+    return run.all()
 
 
 def with_library(options: BuildOptions, sources: Iterable[Source]) -> BuildOptions:
@@ -108,24 +135,31 @@ class _Run:
         limits: TestLimits,
         test_filter: str,
         only: Sequence[str],
+        process: TestProcess | None,
     ) -> None:
         self.application = application
         self.package = package
         self.limits = limits
-        self.bench = Bench(package.symbols, marks)
+        self.bench = Bench(package.symbols, marks, process.known if process is not None else NOTHING)
         self.filter = test_filter
         self.only = only
+        self.process = process
 
-    def all(self, progress: Callable[[Report], None] | None) -> Report:
+    def all(self) -> Report:
         bench = self.bench
         for _ in range(self.limits.restarts):
             problem = self._start()
             report = Report(self.application, bench.suites(), problem)
             if problem is not None or bench.complete:
                 return report
-            if progress is not None:
-                progress(report)
+            self._tell()
+            if self.process is not None and self.process.memory.used_up:
+                raise MemoryLimitReachedError
         return Report(self.application, bench.suites(), f"given up after {self.limits.restarts} exceptions")
+
+    def _tell(self) -> None:
+        if self.process is not None:
+            self.process.tell(Report(self.application, self.bench.suites()), self.bench.known())
 
     def _start(self) -> str | None:
         """One start: runs until all tests have finished or one ends in an exception."""
@@ -135,7 +169,8 @@ class _Run:
         with LocalRuntime(self.package, start=False, cycle_limit_s=limit, flight=no_flight) as runtime:
             if runtime.exception is not None:
                 return f"the application does not start: {ApplicationException(runtime.exception)}"
-            bench.prepare(runtime, self.filter, self.only)
+            bench.prepare(runtime, self.filter, self.only, self.process.place if self.process else 0)
+            self._tell()
             runtime.start()
             end_ns = runtime.now_ns + int(self.limits.simulated_s * NS_PER_S)
             cycles = 1
@@ -148,8 +183,20 @@ class _Run:
                     runtime.run(cycles)
                     cycles = CHUNK
             except ApplicationException as error:
+                note = self._memory_note()
                 bench.collect(runtime)
-                return bench.broken(runtime, error.report)
+                return bench.broken(runtime, error.report, note)
             bench.collect(runtime)
             bench.complete = True
             return bench.overflow(runtime)
+
+    def _memory_note(self) -> str:
+        """What is to be said of an exception that came when memory was used up."""
+        if self.process is None:
+            return ""
+        memory = self.process.memory
+        memory.lift()
+        if memory.used_up:
+            return f"; the memory for tests is used up ({memory.mib} MiB)"
+        memory.begin()
+        return ""
