@@ -23,9 +23,9 @@ def _converted(args: list[Any], e: tree.Builtin) -> Any:
     value = args[0]
     if source.unit_ns and target.unit_ns and source != target:
         day = 86_400_000_000_000 // source.unit_ns
-        if source in (tree.DT, tree.LDT) and target == tree.TOD:
+        if source in (tree.DT, tree.LDT) and target in (tree.TOD, tree.LTOD):
             value %= day
-        elif source in (tree.DT, tree.LDT) and target == tree.DATE:
+        elif source in (tree.DT, tree.LDT) and target in (tree.DATE, tree.LDATE):
             value -= value % day
         return wrap(value * source.unit_ns // target.unit_ns, target)
     return convert(value, target)

@@ -13,9 +13,11 @@ from typed_tree import (
     DT,
     INT,
     INTEGERS,
+    LDATE,
     LDT,
     LINT,
     LTIME,
+    LTOD,
     NUMBERS,
     REAL,
     REALS,
@@ -38,8 +40,17 @@ from typed_tree import (
 from typing_rules import bit_type, common, comparable, meet
 
 COMPARISONS = ("=", "<>", "<", ">", "<=", ">=")
-CLOCKS = (TIME, LTIME, DATE, DT, TOD, LDT)
-CONVERTED_CLOCKS = {TIME: (LTIME,), LTIME: (TIME,), DATE: (DT,), TOD: (DT,), DT: (LDT,), LDT: (DT,)}
+CLOCKS = (TIME, LTIME, DATE, DT, TOD, LDATE, LDT, LTOD)
+CONVERTED_CLOCKS = {
+    TIME: (LTIME,),
+    LTIME: (TIME,),
+    DATE: (DT, LDATE, LDT),
+    TOD: (DT, LTOD, LDT),
+    DT: (LDT, DATE),
+    LDATE: (DATE, LDT, DT),
+    LTOD: (TOD, LDT, DT),
+    LDT: (DT, LDATE),
+}
 MEETINGS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in NUMBERS}
 COMMONS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in NUMBERS}
 BITS: dict[Scalar, list[tuple[Scalar, Scalar]]] = {t: [] for t in INTEGERS}
@@ -263,9 +274,9 @@ class Maker(Leaves):
             return self.converted(self.moving(source, depth - 1), type_)
         if type_ in (TIME, LTIME):
             return self._duration(type_, depth)
-        if type_ == DATE:
+        if type_ in (DATE, LDATE):
             return self.leaf(type_, depth)
-        span = LTIME if type_ == LDT else TIME
+        span = LTIME if self.chance(80 if type_.bits == 64 else 20) else TIME
         left, right = self.moving(type_, depth - 1), self.moving(span, depth - 1)
         return self.clock(type_, self.r.choice("+-"), left, right)
 
@@ -287,7 +298,7 @@ class Maker(Leaves):
             if divisor.constant and not isinstance(divisor, Literal):
                 divisor = self.literal(INT, 7)
             return self.clock(type_, "/", left, divisor)
-        date = LDT if type_ == LTIME else self.r.choice((DT, TOD, DATE))
+        date = self.r.choice((LDT, LTOD, LDATE) if type_ == LTIME else (DT, TOD, DATE))
         return self.clock(type_, "-", self.moving(date, depth - 1), self.moving(date, depth - 1))
 
     def moving_text(self, type_: Text, depth: int) -> Expr:

@@ -14,8 +14,10 @@ from typed_tree import (
     DINT,
     INT,
     INTEGERS,
+    LDATE,
     LDT,
     LINT,
+    LTOD,
     NUMBERS,
     REAL,
     TOD,
@@ -43,6 +45,9 @@ _SINGLE = [1.1754944e-38, 1.4e-45, 3.4028235e38, -3.4028235e38, 2147483648.0]
 _DOUBLE = [5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, -1e300, 9007199254740993.0, 9.3e18]
 _WIDE = ["", "a", "\u00e4", "\u0162x", "\u4e2d\u6587", "abc", "zz\u25e6", "hello w\u00f6rld"]
 _TEXTS = ["", "a", "A", "abc", "12", "TRUE", "x y", "zz9", "hello world", "0"]
+
+
+DAY_NS = 86_400_000_000_000
 
 
 def single(value: float) -> float:
@@ -87,7 +92,8 @@ class Leaves:
                 return number // 86_400 * 86_400
             if type_.bits == 64:
                 number = r.choice([0, 1, 999_999, 1_000_000, 123_456_789_012, 86_400_000_000_000, 2**40])
-                return number // 1_000_000_000 * 1_000_000_000 if type_ == LDT else number
+                step = {LDT: 1_000_000_000, LDATE: DAY_NS}.get(type_, 1)
+                return number // step * step % (DAY_NS if type_ == LTOD else 1 << 64)
             return number % 86_400_000 if type_ == TOD else number
         near = [0, 1, 2, 3, 7, 100, type_.high, type_.low, type_.high - 1, type_.low + 1, type_.high // 2]
         if type_.low < 0:

@@ -21,7 +21,7 @@ def targets(source: Scalar) -> list[Scalar]:
     if source.unit_ns:
         others = [c for c in CLOCKS if source in CONVERTED_CLOCKS[c]]
     else:
-        others = [c for c in CLOCKS if c != tree.DATE]
+        others = [c for c in CLOCKS if c not in (tree.DATE, tree.LDATE)]
     return [t for t in (BOOL, *NUMBERS, *others) if t != source]
 
 

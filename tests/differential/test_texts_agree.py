@@ -6,6 +6,7 @@ whether they are literals. What no literal is gives 0; integers of any size are 
 
 from __future__ import annotations
 
+import re
 from random import Random
 from typing import Any
 
@@ -20,11 +21,10 @@ from tappet.lang.literals import decode
 from tappet.lang.source import Source
 
 SESSION = BuildSession()
-LDATE, LTOD = Scalar("LDATE", "date", 64, 1), Scalar("LTOD", "date", 64, 1)
 CLOCKS = {
     "time": (tree.TIME, tree.LTIME),
-    "date": (tree.DATE, LDATE),
-    "tod": (tree.TOD, LTOD),
+    "date": (tree.DATE, tree.LDATE),
+    "tod": (tree.TOD, tree.LTOD),
     "dt": (tree.DT, tree.LDT),
 }
 UNITS = (("d", 86400 * 10**9), ("h", 3600 * 10**9), ("m", 60 * 10**9), ("s", 10**9), ("ms", 10**6))
@@ -133,7 +133,7 @@ def meaning(text: str, target: Scalar) -> Any:
             return 0.0
         if target == REAL and abs(value) > 3.4028235677973362e38:
             return 0.0
-        return convert(float(value), target)
+        return convert(-float(-value) if body[0] == "-" else float(value), target)
     family = next(k for k, types in CLOCKS.items() if target in types)
     if "#" not in body or not body[0].isalpha():
         return 0
@@ -154,8 +154,9 @@ def settled(text: str, target: Scalar) -> bool:
     if "." in text and target.kind == "real":
         before, _, after = text.strip(" ").lstrip("+-").partition(".")
         return before[:1].isdigit() and after[:1].isdigit()
-    strange = "#_" in text or text.count("_") > 1 or "_" in text.partition(".")[2]
-    return "__" not in text and not (target.kind == "time" and strange)
+    if target.kind == "time":
+        return "_" not in re.sub(r"[a-zA-Z]_(?=\d)", "", text)
+    return "__" not in text and not (target.kind == "real" and "_" in text.lower().partition("e")[2])
 
 
 TARGETS = (BOOL, *INTEGERS, REAL, LREAL, *(t for pair in CLOCKS.values() for t in pair))

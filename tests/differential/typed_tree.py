@@ -51,6 +51,7 @@ REAL, LREAL = Scalar("REAL", "real", 32), Scalar("LREAL", "real", 64)
 TIME, LTIME = Scalar("TIME", "time", 32, 1_000_000), Scalar("LTIME", "time", 64, 1)
 DATE, DT = Scalar("DATE", "date", 32, 1_000_000_000), Scalar("DT", "date", 32, 1_000_000_000)
 TOD, LDT = Scalar("TOD", "date", 32, 1_000_000), Scalar("LDT", "date", 64, 1)
+LDATE, LTOD = Scalar("LDATE", "date", 64, 1), Scalar("LTOD", "date", 64, 1)
 INTEGERS = (SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD)
 REALS = (REAL, LREAL)
 NUMBERS = INTEGERS + REALS

@@ -46,8 +46,10 @@ def _clock(type_: Scalar, value: int) -> str:
     if type_.kind == "time":
         return f"T#{value}ms" if type_ == tree.TIME else f"LTIME#{value}ns"
     moment = datetime.datetime(1970, 1, 1) + datetime.timedelta(microseconds=value * type_.unit_ns // 1000)
-    if type_ == tree.DATE:
-        return f"D#{moment:%Y-%m-%d}"
+    if type_ in (tree.DATE, tree.LDATE):
+        return f"{type_.name}#{moment:%Y-%m-%d}"
+    if type_ == tree.LTOD:
+        return f"LTOD#{moment:%H:%M:%S}.{value % 1_000_000_000:09}"
     if type_ == tree.TOD:
         return f"TOD#{moment:%H:%M:%S}.{moment.microsecond // 1000:03}"
     return f"{type_.name}#{moment:%Y-%m-%d-%H:%M:%S}"

@@ -14,6 +14,8 @@ from tappet.lang.types import Elementary, Kind, Type
 
 COMPARISONS = frozenset({"=", "<>", "<", ">", "<=", ">="})
 _LONG_DATES = frozenset({"LDATE", "LTIME_OF_DAY", "LDATE_AND_TIME"})
+_DAYS = (t.DATE, t.LDATE)
+"""Dates without time of day: there is nothing a duration could be added to."""
 _UNTYPED_LIMITS = (-(1 << 63), (1 << 64) - 1)
 
 
@@ -194,7 +196,7 @@ def _special_arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr)
             if right.untyped:
                 right.untyped = False
             return
-        elif lt.kind is Kind.DATE and rt.kind is Kind.TIME and op in "+-" and lt is not t.DATE:
+        elif lt.kind is Kind.DATE and rt.kind is Kind.TIME and op in "+-" and lt not in _DAYS:
             if right.untyped:
                 retype(right, t.LTIME if lt.name in _LONG_DATES else t.TIME)
             left.untyped = right.untyped = False

@@ -30,7 +30,7 @@ Expressions
     Unary       operand_type: convert the operand to it, then apply; the result has that type.
     Binary      operand_type: convert both operands to it, then apply. Comparison gives BOOL. AND OR XOR
                 work on BOOL and integers. Not converted (operand_type None): date and time arithmetic where
-                the units differ. DATE/DT (s), TOD (ms), LDATE/LDT/LTOD (ns) +- TIME (ms) / LTIME (ns) gives
+                the units differ. DT (s), TOD (ms), LDT/LTOD (ns) +- TIME (ms) / LTIME (ns) gives
                 the type of the date; date - date gives TIME (LTIME for the L-forms). TIME * number, number *
                 TIME, TIME / number give TIME. Look at left.type and right.type.
                 Pointer + integer: operand_type is the pointer type, the integer counts bytes (LTYP-72).
