@@ -33,6 +33,7 @@ from tappet.project.exchange.plcopen_declarations import (
     sections,
 )
 from tappet.project.exchange.plcopen_devices import controllers_below, read_devices
+from tappet.project.exchange.plcopen_matiec import is_for_matiec, rewritten
 from tappet.project.exchange.plcopen_tasks import read_task, task_of_instance
 from tappet.project.exchange.plcopen_tree import arrange
 from tappet.project.exchange.report import ExchangeError, ImportReport
@@ -92,10 +93,13 @@ class _Reader:
         self.devices: list[Draft] = []
         self.by_id: dict[str, Draft] = {}
         self.generic: list[Draft] = []
+        self.matiec = False
+        """The bodies are for the compiler of Beremiz and OpenPLC."""
 
     def read(self, root: Element) -> None:
         product = root.child("fileHeader")
         self.batch.complete = product is not None and product.get("productName") == PRODUCT
+        self.matiec = not self.batch.complete and is_for_matiec(root)
         header = root.child("contentHeader")
         if header is not None:
             name = header.get("name")
@@ -282,6 +286,10 @@ class _Reader:
         if languages in ({"ST"}, {"IL"}):
             language = languages.pop()
             text = "\n".join(exact_text(part) for part in parts)
+            if self.matiec and language == "ST":
+                text, notes = rewritten(text)
+                for note in notes:
+                    self.report.add("changed", self.source, note, name=name, line=item.line)
             return body(language, text)
         language = next((part.tag for part in parts if part.tag in GRAPHICAL_LANGUAGES), "CFC")
         self._kept(item, name, language)

@@ -1,0 +1,116 @@
+"""Bodies for the compiler of Beremiz and OpenPLC: C code in pragmas, times in seconds, long CONCAT."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from tappet.project.exchange.plcopen_declarations import CODESYS
+from tappet.project.exchange.xml_tree import XHTML, Element
+
+_TOKEN = re.compile(
+    r"(?P<skipped>\(\*.*?\*\)|//[^\n]*|'(?:\$.|[^'$])*'|\"(?:\$.|[^\"$])*\")"
+    r"|(?P<pragma>\{\{.*?\}\}|\{[^}]*\})"
+    r"|\b(?P<function>(?:TIME_TO_(?P<to>[LSDU]*INT|L?REAL)|(?P<from>[LSDU]*INT|L?REAL)_TO_TIME)"
+    r"|CONCAT)\b(?=\s*\()"
+    r"|(?P<open>\()|(?P<close>\))|(?P<comma>,)",
+    re.IGNORECASE | re.DOTALL,
+)
+
+
+def is_for_matiec(root: Element) -> bool:
+    """Whether a file is of Beremiz or of one of its kind: paragraphs hold its texts, and nothing is of 3S."""
+    if root.namespace.endswith("tc6.xsd"):
+        return True
+    paragraphs = False
+    for item in root.walk():
+        if any(data.get("name").startswith(CODESYS) for data in item.children("data")):
+            return False
+        paragraphs = paragraphs or (item.tag == "p" and item.namespace == XHTML)
+    return paragraphs
+
+
+def rewritten(text: str) -> tuple[str, list[str]]:
+    """A body in ST as it means the same here, and what was changed in it.
+
+    C code between braces becomes a comment: what it does is not in the program any more. A conversion
+    between times and numbers counts seconds there and milliseconds here.
+    """
+    bottom = _Part(None)
+    parts = [bottom]
+    position = pragmas = 0
+    names: dict[str, None] = {}
+    for match in _TOKEN.finditer(text):
+        part = parts[-1]
+        part.pieces.append(text[position : match.start()])
+        position = match.end()
+        if match["pragma"]:
+            inner = match.group().replace("(*", "( *").replace("*)", "* )")
+            part.pieces.append(f"(* {inner} *)")
+            pragmas += 1
+        elif match["function"]:
+            parts.append(_Part(match))
+        elif match["open"]:
+            part.open += 1
+            part.pieces.append("(")
+        elif match["close"] and part.function is not None and part.open == 1:
+            parts.pop()
+            now = _concatenated(part) if part.function["function"].upper() == "CONCAT" else _seconds(part)
+            parts[-1].pieces.append(now or "".join([part.function.group(), *part.pieces, ")"]))
+            if now:
+                names[part.function.group().upper()] = None
+        else:
+            if match["comma"] and part.open == 1:
+                part.commas.append(len(part.pieces))
+            part.open -= bool(match["close"])
+            part.pieces.append(match.group())
+    parts[-1].pieces.append(text[position:])
+    for part in parts[1:]:  # parentheses that nothing closes
+        assert part.function is not None
+        bottom.pieces += [part.function.group(), *part.pieces]
+    notes = ["CONCAT of more than two texts was nested"] if names.pop("CONCAT", "") is None else []
+    if pragmas:
+        count = f"{pragmas} pieces of C code" if pragmas > 1 else "a piece of C code"
+        notes.append(f"{count} between braces became comments: what C does has to be written anew")
+    if names:
+        notes.append(f"{', '.join(names)} count seconds there and milliseconds here; they were rewritten")
+    return "".join(bottom.pieces), notes
+
+
+@dataclass(slots=True)
+class _Part:
+    """What is being put together: the whole text, or the arguments of a function from its parenthesis on."""
+
+    function: re.Match[str] | None
+    pieces: list[str] = field(default_factory=list)
+    open: int = 0
+    commas: list[int] = field(default_factory=list)
+    """Pieces that part the arguments."""
+
+
+def _concatenated(part: _Part) -> str | None:
+    """CONCAT of more than two arguments in pairs; None when it has two, or names them."""
+    ends = [*part.commas, len(part.pieces)]
+    starts = [0, *(comma + 1 for comma in part.commas)]
+    texts = ["".join(part.pieces[start:end]).strip() for start, end in zip(starts, ends, strict=True)]
+    texts[0] = texts[0].removeprefix("(").strip()
+    if len(texts) < 3 or any(":=" in text or "=>" in text for text in texts):
+        return None
+    nested = texts[0]
+    for text in texts[1:]:
+        nested = f"CONCAT({nested}, {text})"
+    return nested
+
+
+def _seconds(part: _Part) -> str:
+    assert part.function is not None
+    argument = "".join(part.pieces).strip().removeprefix("(").strip()
+    to, from_ = (part.function["to"] or "").upper(), (part.function["from"] or "").upper()
+    if to in ("REAL", "LREAL"):
+        return f"(TIME_TO_{to}({argument}) / 1000.0)"
+    if to:
+        whole = f"TIME_TO_LINT({argument}) / 1000"
+        return f"({whole})" if to == "LINT" else f"LINT_TO_{to}({whole})"
+    if from_ in ("REAL", "LREAL"):
+        return f"{from_}_TO_TIME(1000.0 * ({argument}))"
+    return f"LINT_TO_TIME(1000 * TO_LINT({argument}))"
