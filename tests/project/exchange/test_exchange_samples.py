@@ -270,3 +270,26 @@ def test_a_function_without_a_return_type_is_marked() -> None:
         again = import_files({"x.xml": write_plcopen(done.project)})
         assert text(again.project, path) == text(done.project, path)
     assert said(import_files({"f.st": b"FUNCTION F : INT\nF := 1;\nEND_FUNCTION\n"}).report) == set()
+
+
+def test_twincat_parameters_of_libraries_and_empty_folders_of_functions() -> None:
+    project_file = (
+        '<Project xmlns="http://schemas.microsoft.com/developer/msbuild/2003"><ItemGroup>'
+        '<Compile Include="F_Half.TcPOU" /></ItemGroup><ItemGroup>'
+        '<PlaceholderReference Include="TcUnit">'
+        "<DefaultResolution>TcUnit, * (www.tcunit.org)</DefaultResolution>"
+        '<Namespace>TcUnit</Namespace><Parameters><Parameter ListName="GVL_PARAM_TCUNIT" xmlns="">'
+        "<Key>XUNITENABLEPUBLISH</Key><Value>TRUE</Value></Parameter></Parameters></PlaceholderReference>"
+        "</ItemGroup></Project>"
+    )
+    function = (
+        '<TcPlcObject><POU Name="F_Half" Id="{0}">'
+        "<Declaration><![CDATA[FUNCTION F_Half : INT]]></Declaration>"
+        "<Implementation><ST><![CDATA[F_Half := 1;]]></ST></Implementation>"
+        '<Folder Name="Old" Id="{1}" /></POU></TcPlcObject>'
+    )
+    done = import_files({"P.plcproj": project_file.encode(), "F_Half.TcPOU": function.encode()})
+    assert [str(entry).partition(": ")[2] for entry in done.report.noteworthy()] == [
+        "changed TcUnit: parameters of libraries are not read: "
+        "GVL_PARAM_TCUNIT.XUNITENABLEPUBLISH keep their own values"
+    ]

@@ -8,6 +8,15 @@ _SAME = {"tc2_standard": "Standard", "iec_standard": "Standard"}
 """Libraries whose contents are in one of ours; the file's namespace is kept for qualified names."""
 
 
+def tell_parameters(
+    source: str, name: str, given: list[str], report: ImportReport, line: int | None = None
+) -> None:
+    """Say that values for the parameters of a library are not read."""
+    if given:
+        text = f"parameters of libraries are not read: {', '.join(given)} keep their own values"
+        report.add("changed", source, text, name=name, line=line)
+
+
 def reference(
     source: str, name: str, version: str, namespace: str, report: ImportReport, line: int | None = None
 ) -> dict[str, str]:

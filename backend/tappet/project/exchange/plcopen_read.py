@@ -21,7 +21,6 @@ from tappet.project.exchange.drafts import (
     plc_logic,
     task_configuration,
 )
-from tappet.project.exchange.libraries import reference
 from tappet.project.exchange.plcopen_declarations import (
     added,
     data_type_text,
@@ -33,6 +32,7 @@ from tappet.project.exchange.plcopen_declarations import (
     sections,
 )
 from tappet.project.exchange.plcopen_devices import controllers_below, read_devices
+from tappet.project.exchange.plcopen_libraries import read_libraries
 from tappet.project.exchange.plcopen_matiec import is_for_matiec, rewritten
 from tappet.project.exchange.plcopen_tasks import read_task, task_of_instance
 from tappet.project.exchange.plcopen_tree import arrange
@@ -165,7 +165,8 @@ class _Reader:
         if item.tag == "Object" and name == "object":
             self._generic(item)
         elif item.tag == "Libraries":
-            self._libraries(item, parent)
+            references = library_manager(parent).data.setdefault("references", [])
+            references += read_libraries(self.source, item, self.report)
         elif item.tag in _OBJECTS:
             self._element(item, parent)
         elif name not in _NO_OBJECTS:
@@ -375,22 +376,6 @@ class _Reader:
                 application.data = _json(self.source, part)
             else:
                 self._added(name, part, application)
-
-    def _libraries(self, item: Element, parent: Draft) -> None:
-        manager = library_manager(parent)
-        references = manager.data.setdefault("references", [])
-        for library in item.children("Library"):
-            resolution = library.get("DefaultResolution") or library.get("Name")
-            name, _, rest = resolution.lstrip("#").partition(",")
-            version = rest.partition("(")[0].strip() or "*"
-            made = reference(
-                self.source, name.strip(), version, library.get("Namespace"), self.report, library.line
-            )
-            references.append(made)
-            given = [item.get("Name") for part in library.children("Parameters") for item in part]
-            if given:
-                text = f"parameters of libraries are not read: {', '.join(given)} keep their own values"
-                self.report.add("changed", self.source, text, name=name.strip(), line=library.line)
 
     def _generic(self, item: Element) -> None:
         draft = self._draft(item.get("kind"), item, _json(self.source, item))

@@ -6,6 +6,7 @@ name their folder in an attribute.
 
 from __future__ import annotations
 
+from tappet.project.declaration_text import subkind_of
 from tappet.project.exchange.drafts import Draft, body, hex_id
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.standard_tasks import cycle, priority
@@ -44,7 +45,8 @@ def _object(source: str, item: Element, report: ImportReport) -> Draft:
     if draft.kind == "pou":
         _implementation(draft, item, report, draft.name)
         mark_without_result(draft, report)
-    _folders(draft, item)
+    if not draft.data["declaration"] or subkind_of(draft.data["declaration"]) != "function":
+        _folders(draft, item)  # a function has none; TwinCAT keeps empty ones in its file
     for child in item:
         if child.tag in _CHILD_KINDS:
             folders = tuple(part for part in child.get("FolderPath").split("\\") if part)

@@ -15,7 +15,7 @@ from tappet.project.exchange.drafts import (
     plc_logic,
     task_configuration,
 )
-from tappet.project.exchange.libraries import reference
+from tappet.project.exchange.libraries import reference, tell_parameters
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.twincat import ENDINGS, read_object
 from tappet.project.exchange.xml_tree import Element, read_xml
@@ -104,6 +104,13 @@ def _library(source: str, item: Element, include: str, application: Draft, repor
         item.line,
     )
     library_manager(application).data.setdefault("references", []).append(made)
+    given = [
+        f"{parameter.get('ListName')}.{key.text().strip()}"
+        for holder in item.children("Parameters")
+        for parameter in holder
+        if (key := parameter.child("Key")) is not None
+    ]
+    tell_parameters(source, made["name"], given, report, item.line)
 
 
 def _folders(path: str) -> tuple[str, ...]:
