@@ -28,6 +28,7 @@ EDITS = (
     "WHILE n < 10 DO x := 1; END_WHILE",
     "RETURN; n := 1; JMP l; l: n := 2; n := 3;",
     "n := F(1); x := n / 0;",
+    "// n := 1;\nGVL.nTotal := 2; nTotal := n; (* twice *)",
     "",
 )
 OTHERS = (

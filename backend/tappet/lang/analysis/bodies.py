@@ -43,6 +43,8 @@ class State:
     """Of all declarations together."""
     records: dict[int, Record] = field(default_factory=dict)
     """Of each body, by id() of its symbol."""
+    texts: dict[int, list[Diagnostic]] = field(default_factory=dict)
+    """What coding rules report about the declarations and comments of a text, by id() of its unit."""
 
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
@@ -79,12 +81,28 @@ def _coding_rules(state: State) -> None:
     chosen = session.options.static.codes
     if not chosen:
         return
-    for check in coding_checks("check_unit", chosen):
-        for unit in state.units:
-            if unit.source.scope is not Scope.LIBRARY:
-                check(session, unit)
+    state.texts = {id(unit): _of_text(state, unit) for unit in state.units if not _is_library(unit)}
+    for messages in state.texts.values():
+        session.diagnostics += messages
     for check in coding_checks("check_program", chosen):
         check(session, chosen)
+
+
+def _is_library(unit: ast.Unit) -> bool:
+    return unit.source.scope is Scope.LIBRARY
+
+
+def _of_text(state: State, unit: ast.Unit) -> list[Diagnostic]:
+    """Messages about a whole text; they stay while the text does, as its declarations mean the same then."""
+    found = state.texts.get(id(unit))
+    if found is None:
+        session = state.session
+        found, others = [], session.diagnostics
+        session.diagnostics = found
+        for check in coding_checks("check_unit", session.options.static.codes):
+            check(session, unit)
+        session.diagnostics = others
+    return found
 
 
 def finish(state: State) -> Analysis:

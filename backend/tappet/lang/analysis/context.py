@@ -55,6 +55,8 @@ class Session:
     outputs: set[DirectWrite] = field(default_factory=set)
     """Places of the areas Q and M that some code writes."""
     suggestions: int = 0
+    named: dict[int, tuple[ast.Pou | None, list[ast.Name | ast.Member]]] = field(default_factory=dict)
+    """What bodies name, by id() of the symbol, with the tree it was taken from: see `rules.coding`."""
 
     def report(
         self, code: str, uri: str, span: Span, related: Iterable[Related] = (), /, **fields: object

@@ -138,8 +138,10 @@ class Reaching:
         self.turns.append([])
         end = self._body(s.body, state.copy())
         turns, exits = self.turns.pop(), self.exits.pop()
+        if isinstance(s, ast.While) and s.condition.is_constant and s.condition.constant:
+            return _joined(exits)
         if not isinstance(s, ast.RepeatUntil):
-            return _joined([state, *exits])
+            return _joined([end, *turns, *exits] if _runs(s) else [state, *exits])
         end = _joined([end, *turns])
         if end is not None:
             self._read(s.condition, end)
@@ -172,6 +174,17 @@ class Reaching:
         found = _names(targets, self.watched)
         state.some |= found
         state.every |= found
+
+
+def _runs(s: ast.For | ast.While) -> bool:
+    """Whether a loop has a first turn for certain."""
+    if isinstance(s, ast.While):
+        return False
+    first, last = s.start.constant, s.stop.constant
+    step = 1 if s.step is None else s.step.constant
+    if not isinstance(first, int) or not isinstance(last, int) or not isinstance(step, int):
+        return False
+    return first <= last if step > 0 else first >= last
 
 
 def _joined(states: Iterable[_Assigned | None]) -> _Assigned | None:

@@ -69,6 +69,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
+from tappet.lang.rules.coding.project_parts import names_in
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Elementary, Enum, FunctionBlock, String, Subrange
@@ -146,11 +147,9 @@ def check_program(session: Session, chosen: frozenset[str]) -> None:
         return
     users: dict[int, dict[str, None]] = {}
     for pou in session.analysis.pous:
-        parts = [pou, *pou.methods.values(), *pou.actions.values()]
-        for part in parts:
-            for e in all_expressions(part.pou.body if part.pou is not None else []):
-                if isinstance(e, (ast.Name, ast.Member)):
-                    users.setdefault(id(e.symbol), {})[pou.name] = None
+        for part in pou.with_children():
+            for e in names_in(session, part):
+                users.setdefault(id(e.symbol), {})[pou.name] = None
     for gvl in session.analysis.gvls:
         if gvl.source is None or gvl.source.scope is Scope.LIBRARY or gvl.decl is None:
             continue

@@ -1,4 +1,4 @@
-"""The indices of a loop stay inside its array, and reach all of it.
+"""The indices of a loop stay inside its array, and do not stop one short of its ends.
 
 What an index can be is known from constant bounds of the loop, subranges, MOD, AND, LIMIT; below a condition
 inside the loop nothing is said, as the condition may keep the index inside. W1125 tells of the plain loop
@@ -127,8 +127,9 @@ def _left_out(b: Body, s: ast.For, turns: Interval) -> None:
         if not plain or len(array.bounds) != 1 or any(same(e.base, other.base) for other in told):
             continue
         first, last = array.bounds[0]
-        inside = first <= turns[0] and turns[1] <= last and turns != (first, last)
+        missed = (turns[0] - first, last - turns[1])
+        almost = missed != (0, 0) and all(0 <= count <= 1 for count in missed)
         alone = all(same(e, other) for other in used if same(e.base, other.base))
-        if inside and alone:
+        if almost and alone:
             told.append(e)
             b.report("S1247", e.span, low=turns[0], high=turns[1], first=first, last=last)

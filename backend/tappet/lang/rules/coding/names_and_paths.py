@@ -45,7 +45,7 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import Related
-from tappet.lang.rules.coding.project_parts import is_own, with_parts
+from tappet.lang.rules.coding.project_parts import is_own, names_in, with_parts
 from tappet.lang.source import Scope
 from tappet.lang.symbols import (
     GvlSymbol,
@@ -57,7 +57,6 @@ from tappet.lang.symbols import (
     VarSymbol,
 )
 from tappet.lang.types import Enum
-from tappet.lang.walk import all_expressions
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body, Session
@@ -115,8 +114,8 @@ def _paths(session: Session) -> None:
         if not is_own(body.source):
             continue
         uri = body.source.uri if body.source is not None else ""
-        for e in all_expressions(body.pou.body if body.pou is not None else []):
-            symbol = e.symbol if isinstance(e, (ast.Name, ast.Member)) else None
+        for e in names_in(session, body):
+            symbol = e.symbol
             if not isinstance(symbol, (VarSymbol, PouSymbol)):
                 continue
             if isinstance(e, ast.Name) and _is_shared(symbol) and not e.leading_dot:
@@ -126,9 +125,9 @@ def _paths(session: Session) -> None:
                 qualified.setdefault(id(symbol), (e, uri))
     for key, name in order.items():
         if key in qualified:
-            (e, uri), (other, other_uri) = plain[key], qualified[key]
+            (place, place_uri), (other, other_uri) = plain[key], qualified[key]
             related = [Related("by its list or library here", other_uri, other.span)]
-            session.report("S1423", uri, e.span, related, name=name)
+            session.report("S1423", place_uri, place.span, related, name=name)
 
 
 def _is_shared(symbol: VarSymbol | PouSymbol) -> bool:

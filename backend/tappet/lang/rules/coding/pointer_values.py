@@ -1,7 +1,7 @@
 """A pointer holds an address of its own type, and a reference is bound before it is used.
 
 A number need not be an address. The order and the distance of two pointers have a meaning inside one array
-only. A pointer to BYTE, and one to the first element of an array, may look at what has another type.
+only. A pointer to BYTE may look at everything, one to WORD at a WSTRING, and one to an element at its array.
 
 Source: coding guidelines of PLCopen, E2, E3, CP25; CODESYS Static Analysis SA0017, SA0019, SA0061, SA0145.
 
@@ -45,6 +45,7 @@ from tappet.lang import ast
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol, VarSymbol
 from tappet.lang.types import (
     BYTE,
+    WORD,
     Array,
     Elementary,
     FunctionBlock,
@@ -71,13 +72,14 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
     for s in statements(b.pou.pou.body):
         if isinstance(s, ast.Assign):
             _assigned(b, s, chosen)
-        for e in own_expressions(s):
+        found = list(own_expressions(s))
+        for e in found:
             if isinstance(e, ast.AssignExpr):
                 _assigned(b, e, chosen)
             elif isinstance(e, ast.Binary) and "S1236" in chosen and _orders(e, "S1214" in chosen):
                 b.report("S1236", e.span, op=e.op)
         if bound is not None:
-            for name in _unbound(s, bound, b.pou):
+            for name in _unbound(s, found, bound, b.pou):
                 b.report("S1238", name.span, name=name.name)
 
 
@@ -96,12 +98,15 @@ def _fits(source: Type | None, target: Type | None) -> bool:
     """Whether what lies at an address of `source` may be used as `target`."""
     if source is None or target is None or target == BYTE:
         return True
+    if isinstance(target, Array) and target.element == BYTE:
+        return True
     if isinstance(source, Array) and not isinstance(target, Array):
         return _fits(source.element, target)
     if isinstance(source, Array) and isinstance(target, Array):
         return source.element == target.element
-    if isinstance(source, String) and isinstance(target, String):
-        return source.wide == target.wide
+    if isinstance(source, String):
+        wide = isinstance(target, String) and target.wide
+        return source.wide == wide if isinstance(target, String) else source.wide and target == WORD
     if isinstance(source, FunctionBlock) and isinstance(target, FunctionBlock):
         base: FunctionBlock | None = source
         while base is not None and base is not target:
@@ -128,30 +133,29 @@ def _bound_before(pou: PouSymbol) -> set[str]:
     return {target.name.upper() for target in targets if isinstance(target, (ast.Name, ast.Member))}
 
 
-def _unbound(s: ast.Stmt, bound: set[str], pou: PouSymbol) -> Iterator[ast.Name]:
-    """References that a statement uses before anything has bound or tested them, each once."""
-    excused: set[int] = set()
-    begun: list[str] = []
+def _unbound(s: ast.Stmt, found: list[ast.Expr], bound: set[str], pou: PouSymbol) -> Iterator[ast.Name]:
+    """References among the expressions of a statement that nothing has bound or tested before, each once."""
+    begun = {id(e): e.name.upper() for e in _begun(s, found)}
+    for e in found:
+        if isinstance(e, ast.Name) and id(e) not in begun and _may_be_open(e.symbol, pou):
+            key = e.name.upper()
+            if key not in bound and key not in begun.values():
+                bound.add(key)
+                yield e
+    bound.update(begun.values())
+
+
+def _begun(s: ast.Stmt, found: list[ast.Expr]) -> Iterator[ast.Name]:
+    """The names that a statement binds by REF= or tests by __ISVALIDREF."""
     if isinstance(s, ast.Assign) and s.op == "REF=" and isinstance(s.target, ast.Name):
-        excused.add(id(s.target))
-        begun.append(s.target.name.upper())
-    for e in own_expressions(s):
+        yield s.target
+    for e in found:
         if (
             isinstance(e, ast.Call)
             and isinstance(e.target, BuiltinSymbol)
             and e.target.name == "__ISVALIDREF"
         ):
-            for arg in e.args:
-                if isinstance(arg.value, ast.Name):
-                    excused.add(id(arg.value))
-                    begun.append(arg.value.name.upper())
-    for e in own_expressions(s):
-        if not isinstance(e, ast.Name) or id(e) in excused or e.name.upper() in bound:
-            continue
-        if e.name.upper() not in begun and _may_be_open(e.symbol, pou):
-            bound.add(e.name.upper())
-            yield e
-    bound.update(begun)
+            yield from (arg.value for arg in e.args if isinstance(arg.value, ast.Name))
 
 
 def _may_be_open(symbol: object, pou: PouSymbol) -> bool:

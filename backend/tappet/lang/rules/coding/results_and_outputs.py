@@ -1,7 +1,8 @@
 """A function assigns its result on every way out, and the caller takes the outputs it offers.
 
-A result that no way assigns is W1209; FB_Init, FB_Exit and FB_Reinit need none. Ways end at RETURN and at the
-end of the body; bodies with jumps are left out.
+A function whose result no way assigns is W1209. FB_Init, FB_Exit, FB_Reinit and what else the system calls,
+as its attribute says, need none. Ways end at RETURN and at the end of the body; bodies with jumps are left
+out.
 
 Source: coding guidelines of PLCopen, CP3, CP13; spec LDEC-33; CODESYS Static Analysis SA0022, SA0169.
 
@@ -63,7 +64,7 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 
 
 def _result(b: Body, pou: PouSymbol, node: ast.Pou) -> None:
-    if pou.return_type is None or pou.result is None or pou.name.upper() in _LIFE_CYCLE:
+    if pou.return_type is None or pou.result is None or pou.name.upper() in _LIFE_CYCLE or node.attributes:
         return
     if any(s.label for s in statements(node.body)):
         return

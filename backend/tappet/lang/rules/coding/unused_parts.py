@@ -47,14 +47,14 @@ Fails:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.project_parts import is_own, with_parts
+from tappet.lang.rules.coding.project_parts import is_own, names_in, with_parts
 from tappet.lang.symbols import EnumValueSymbol, Symbol, TypeSymbol
 from tappet.lang.types import Array, Enum, Pointer, Reference, Struct
-from tappet.lang.walk import all_expressions, expressions, statements
+from tappet.lang.walk import expressions, statements
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
@@ -116,7 +116,7 @@ class _Used:
             for variable in pou.locals.values():
                 self.type(variable.type)
             if pou.pou is not None:
-                self.names(all_expressions(pou.pou.body))
+                self.names(names_in(session, pou))
                 for s in statements(pou.pou.body):
                     if isinstance(s, ast.Case):
                         labels = [label for branch in s.branches for label in branch.selectors]
@@ -153,7 +153,7 @@ class _Used:
                     if member.decl is not None:
                         self.names(expressions(member.decl.initial))
 
-    def names(self, found: Iterator[ast.Expr]) -> None:
+    def names(self, found: Iterable[ast.Expr]) -> None:
         """Notes values of enumerations, and types that code names."""
         for e in found:
             symbol: Symbol | None = e.symbol if isinstance(e, (ast.Name, ast.Member)) else None
