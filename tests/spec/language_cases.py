@@ -180,15 +180,22 @@ def _then(case: dict[str, Any], application: LoadedApplication) -> LoadedApplica
             image[at : at + size] = result.package.initial_image[at : at + size]
         ctypes.memmove(new.address, bytes(image), len(image))
         return new
-    keep = [(r.offset, r.size) for r in package.persistent] if command != "reset_origin" else []
-    if command in ("reset_warm", "reboot"):
+    start_again(application, command.removeprefix("reset_"))
+    return application
+
+
+def start_again(application: LoadedApplication, command: str) -> None:
+    """Reset (warm, cold, origin), download or reboot: initial values, except for variables that keep theirs."""
+    package = application.package
+    before = bytes(application.image[: package.image_size])
+    keep = [(r.offset, r.size) for r in package.persistent] if command != "origin" else []
+    if command in ("warm", "reboot"):
         keep += [(r.offset, r.size) for r in package.retain]
-    if command.startswith("reset_"):
+    if command in ("warm", "cold", "origin"):
         keep += package.no_init
     application.start()
     for offset, size in keep:
         ctypes.memmove(application.address + offset, before[offset : offset + size], size)
-    return application
 
 
 def matches(case: dict[str, Any], package: CodePackage, path: str, got: Any, want: Any) -> bool:

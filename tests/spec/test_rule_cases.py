@@ -7,6 +7,7 @@ what must come out, as in the conformance tests (CYCLES, EXPECT, FAULT, ERROR, W
 // MESSAGE: two consecutive          some message says this
 // ABSENT: W1001                     no message has this code
 // SET 3: Globals.go = TRUE          written before the third cycle, as a write from outside
+// RESET 3: warm                     before the third cycle: warm, cold, origin, download or reboot
 // OVER: PLC_PRG.x = 0 1 1           the values at the end of each cycle; FALSE is 0, TRUE is 1
 // SOURCE: Globals                   what follows is a text of this name
 """
@@ -19,7 +20,7 @@ from pathlib import Path
 
 import pytest
 from tests.conformance.test_conformance import CYCLE_NS, Expectation, read, run
-from tests.spec.language_cases import Outcome, guarded
+from tests.spec.language_cases import Outcome, guarded, start_again
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
 from tappet.codegen.jit import ApplicationFault, LoadedApplication
@@ -32,6 +33,7 @@ _SOURCE = re.compile(r"^// SOURCE: (\w+)$", re.MULTILINE)
 _MESSAGE = re.compile(r"^// MESSAGE: (.+)$", re.MULTILINE)
 _ABSENT = re.compile(r"^// ABSENT: (\w+)$", re.MULTILINE)
 _SET = re.compile(r"^// SET (\d+): (\S+) = (.+)$", re.MULTILINE)
+_RESET = re.compile(r"^// RESET (\d+): (warm|cold|origin|download|reboot)$", re.MULTILINE)
 _OVER = re.compile(r"^// OVER: (\S+) = (.+)$", re.MULTILINE)
 _VALUES = re.compile(r"'[^']*'|\S+")
 _BIT = {"FALSE": "0", "TRUE": "1"}
@@ -69,9 +71,10 @@ def load(path: Path) -> list[Case]:
 
 @dataclass
 class Course:
-    """What is written before single cycles, and the values that must stand at the end of each."""
+    """What happens before single cycles, and the values that must stand at the end of each."""
 
     writes: dict[int, list[tuple[str, str]]]
+    resets: dict[int, str]
     rows: dict[str, list[str]]
 
     @classmethod
@@ -79,13 +82,16 @@ class Course:
         writes: dict[int, list[tuple[str, str]]] = {}
         for cycle, path, literal in _SET.findall(text):
             writes.setdefault(int(cycle), []).append((path, literal))
-        return cls(writes, {path: _VALUES.findall(values) for path, values in _OVER.findall(text)})
+        resets = {int(cycle): command for cycle, command in _RESET.findall(text)}
+        return cls(writes, resets, {path: _VALUES.findall(values) for path, values in _OVER.findall(text)})
 
     def run(self, application: LoadedApplication) -> dict[str, list[str]]:
         """Cycles as many as the rows have values; what came out, row by row."""
         found: dict[str, list[str]] = {path: [] for path in self.rows}
         application.start()
         for cycle in range(1, max(map(len, self.rows.values())) + 1):
+            if cycle in self.resets:
+                start_again(application, self.resets[cycle])
             for path, literal in self.writes.get(cycle, []):
                 application.write(path, literal)
             application.cycle()
