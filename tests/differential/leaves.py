@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from random import Random
 from typing import Any
@@ -27,6 +28,7 @@ from typed_tree import (
     Deref,
     Enum,
     Expr,
+    Get,
     Index,
     Literal,
     Member,
@@ -63,6 +65,8 @@ class Leaves:
     fixed: set[str] = field(default_factory=set)
     """Variables nothing is assigned to: counters and guards of loops."""
     texts: bool = True
+    properties: list[tree.Property] = field(default_factory=list)
+    """Properties of the own instance that may be read in expressions."""
 
     def chance(self, percent: int) -> bool:
         return self.r.randrange(100) < percent
@@ -112,7 +116,18 @@ class Leaves:
             if writable and v.name in self.fixed:
                 continue
             self._descend(Name(v.type, base_of(v.type), False, v.name), wanted, depth, found, writable)
+        if not writable:
+            own = [p for p in self.properties if wanted(p.type)]
+            found += [Get(p.type, base_of(p.type), False, None, p.name, self.own_prefix()) for p in own]
         return found
+
+    def _read(self, e: Expr, properties: Iterable[tree.Property], wanted: Any, found: list[Expr]) -> None:
+        """Properties of an instance whose Get changes nothing."""
+        read = [p for p in properties if p.pure and wanted(p.type)]
+        found += [Get(p.type, base_of(p.type), False, e, p.name) for p in read]
+
+    def own_prefix(self) -> str:
+        return self.r.choice(("", "THIS"))
 
     def _descend(self, e: Expr, wanted: Any, depth: int, found: list[Expr], writable: bool) -> None:
         if wanted(e.type):
@@ -130,7 +145,13 @@ class Leaves:
         elif isinstance(e.type, Pointer) and not isinstance(e.type.target, Block):
             inner = Deref(e.type.target, base_of(e.type.target), False, e)
             self._descend(inner, wanted, depth - 1, found, writable)
+        elif isinstance(e.type, Pointer) and isinstance(e.type.target, Block) and not writable:
+            inner = Deref(e.type.target, None, False, e)
+            self._read(inner, e.type.target.all_properties.values(), wanted, found)
+        elif isinstance(e.type, tree.Interface) and not writable:
+            self._read(e, e.type.properties, wanted, found)
         elif isinstance(e.type, Block) and not writable:
+            self._read(e, e.type.all_properties.values(), wanted, found)
             for v in e.type.outputs:
                 self._descend(
                     Member(v.type, base_of(v.type), False, e, v.name), wanted, depth - 1, found, writable

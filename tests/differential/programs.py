@@ -34,6 +34,7 @@ from typed_tree import (
     Variable,
     base_of,
 )
+from typing_rules import assignable
 
 
 class ProgramMaker(Statements):
@@ -120,6 +121,8 @@ class ProgramMaker(Statements):
         result = Variable(made.name, made.result)
         maker = Maker(self.r, [*made.inputs, *made.in_outs, *made.locals, result], texts=self.texts)
         if block is not None:
+            known = block.all_properties.values()
+            maker.properties = [p for p in known if p.pure and p.rank < made.rank]
             hidden = Pointer | Interface  # whether they lead somewhere by now is not known
             maker.variables += [v for v in block.members if not isinstance(v.type, hidden)]
         body = Body(maker, made.locals, list(self.functions), True, 0, block, made.rank, overrides)
@@ -127,6 +130,40 @@ class ProgramMaker(Statements):
         own = Name(made.result, base_of(made.result), False, made.name)
         made.body.append(tree.Assign(own, self.value(body, made.result, 2)))
         return made
+
+    def property(self, block: Block, overrides: tree.Property | None = None) -> tree.Property:
+        """A property; what it overrides keeps its type and whether Get has effects."""
+        if overrides is not None:
+            name, type_, pure, rank = overrides.name, overrides.type, overrides.pure, overrides.rank
+        else:
+            name, type_, pure = self.fresh("Q"), self.given(), self.chance(60)
+            rank = self.number
+        value = Variable(name, type_)
+        getter, setter = Function(name, type_), Function(name, type_, [value])
+        for made in (getter, setter):
+            made.rank = rank
+            shown = [v for v in block.members if not isinstance(v.type, Pointer | Interface)]
+            own = [p for p in block.all_properties.values() if p.pure and p.rank < rank]
+            maker = Maker(self.r, [value, *shown], texts=self.texts, properties=own)
+            body = Body(maker, made.locals, list(self.functions), True, 0, block, rank)
+            if made is setter:
+                maker.fixed.add(name)
+                made.body = self.statements(body, self.r.randint(1, 3), 1)
+                targets = maker.places(lambda t: assignable(type_, t), writable=True)
+                if targets:
+                    place = maker.filled(self.r.choice(targets), 1)
+                    made.body.append(tree.Assign(place, Name(type_, base_of(type_), False, name)))
+                continue
+            if not pure:
+                made.locals.append(self.variable("l"))
+                maker.variables += made.locals
+                made.body = self.statements(body, self.r.randint(1, 3), 1)
+            result = Name(type_, base_of(type_), False, name)
+            made.body.append(tree.Assign(result, self.value(body, type_, 2)))
+            if overrides is not None and self.chance(30):
+                base = tree.Get(type_, base_of(type_), False, None, name, "SUPER", overrides)
+                made.body.append(tree.Assign(result, base))
+        return tree.Property(name, type_, getter, setter, pure)
 
     def pointers(self, b: Body) -> list[Any]:
         """Declares a few pointers and references in the room of a body, and makes them lead somewhere."""
@@ -165,13 +202,21 @@ class ProgramMaker(Statements):
         for method in inherited:
             if self.chance(60):
                 made.methods.append(self.function(made, method))
+        for inherited_property in list(base.all_properties.values()) if base else []:
+            if self.chance(60):
+                made.properties.append(self.property(made, inherited_property))
         for _ in range(self.r.randint(0, 2)):
             made.methods.append(self.function(made))
-        if made.all_methods and self.chance(50):
-            some = self.r.sample(list(made.all_methods.values()), self.r.randint(1, len(made.all_methods)))
-            self.interfaces.append(Interface(self.fresh("I_"), some))
+        for _ in range(self.r.choice((0, 0, 1, 2))):
+            made.properties.append(self.property(made))
+        methods, properties = list(made.all_methods.values()), list(made.all_properties.values())
+        if methods + properties and self.chance(50):
+            some = self.r.sample(methods, self.r.randint(min(1, len(methods)), len(methods)))
+            known = self.r.sample(properties, self.r.randint(min(1, len(properties)), len(properties)))
+            self.interfaces.append(Interface(self.fresh("I_"), some, known))
             made.interfaces.append(self.interfaces[-1])
         maker = Maker(self.r, [v for v in made.members if not isinstance(v.type, Pointer)], texts=self.texts)
+        maker.properties = [p for p in made.all_properties.values() if p.pure]
         body = Body(maker, made.locals, list(self.functions), returns=True, owner=made)
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 5), 2)]
         if base is not None and self.chance(60):

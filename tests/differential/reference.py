@@ -176,6 +176,13 @@ class Machine:
 
     def _assign(self, s: tree.Assign, f: Frame) -> None:
         value = copied(self.value(s.value, f))
+        if s.op != ":=":
+            if not value:
+                return
+            value = s.op == "S="
+        if isinstance(s.target, tree.Get):
+            self._set(s.target, value, f)
+            return
         type_ = s.target.base.type if isinstance(s.target, tree.Bit) else s.target.type
         self.place(s.target, f).write(value, type_)
 
@@ -255,6 +262,23 @@ class Machine:
             found = found.slot.read()
         return found
 
+    def _accessor(self, e: tree.Get, f: Frame, role: str) -> tuple[tree.Function, Any]:
+        """Get or Set, and the instance it runs on."""
+        this = f.this if e.base is None else self._instance(e.base, f)
+        found = e.fixed or this[BLOCK].all_properties[e.name]
+        return getattr(found, role), this
+
+    def _get(self, e: tree.Get, f: Frame) -> Any:
+        getter, this = self._accessor(e, f, "getter")
+        own = {**fresh(getter.locals), getter.name: default(getter.result)}
+        self._body(getter.body, Frame([own, this], this))
+        return own[getter.name]
+
+    def _set(self, e: tree.Get, value: Any, f: Frame) -> None:
+        setter, this = self._accessor(e, f, "setter")
+        own = {**fresh(setter.locals), setter.name: stored(value, setter.inputs[0].type)}
+        self._body(setter.body, Frame([own, this], this))
+
     def _callbase(self, s: tree.CallBase, f: Frame) -> None:
         assert f.this is not None
         self._body(s.block.body, Frame([f.this], f.this))
@@ -318,6 +342,8 @@ class Machine:
             return self._clock(e, f)
         if isinstance(e, tree.Builtin):
             return self._builtin(e, f)
+        if isinstance(e, tree.Get):
+            return self._get(e, f)
         return self.place(e, f).read()
 
     def _binary(self, e: tree.Binary, f: Frame) -> Any:

@@ -112,16 +112,22 @@ class Statements:
             called = self._call(b)
             if called is not None:
                 return [called]
-        if choice < 55:
+        if choice < 57:
+            accessed = self._property(b)
+            if accessed is not None:
+                return [accessed]
+        if choice < 60:
             bound = self.bind(b)
             if bound is not None:
                 return [bound]
-        if choice < 60 and (b.loops or b.returns):
+        if choice < 65 and (b.loops or b.returns):
             words = (["EXIT", "CONTINUE"] if b.loops else []) + (["RETURN"] if b.returns else [])
             return [tree.If([(b.maker.moving(BOOL, 2), [tree.Jump(self.r.choice(words))])], [])]
         target = self.target(b)
         if target is None:
             return []
+        if target.type == BOOL and self.chance(25):
+            return [tree.Assign(target, b.maker.expr(BOOL, 2), self.r.choice(("S=", "R=")))]
         return [tree.Assign(target, self.value(b, target.type, 3))]
 
     def _if(self, b: Body, depth: int) -> tree.If:
@@ -133,7 +139,8 @@ class Statements:
 
     def _case(self, b: Body, depth: int) -> tree.Case:
         selector = b.maker.moving(self.r.choice((INT, USINT, DINT, SINT, tree.WORD, tree.LINT)), 2)
-        if isinstance(selector.type, Subrange):  # labels outside its limits would be refused
+        limited = any(isinstance(v.type, Subrange) for v in b.maker.variables)
+        if limited or isinstance(selector.type, Subrange):  # labels outside its limits would be refused
             selector = tree.Unary(selector.held, DINT, False, "-", selector)
         branches, number = [], self.r.choice([0, 0, 1, -3 if base_of(selector.type).low < 0 else 2])
         for _ in range(self.r.randint(1, 3)):
@@ -208,16 +215,20 @@ class Statements:
             if isinstance(v.type, Block) and wanted(v.type)
         ]
 
-    def _callee(self, b: Body) -> tuple[list[Function], Expr | None, str]:
-        """Functions to choose from, the instance they belong to, or THIS."""
-        callable_types = Block | Interface
+    def _owners(self, b: Body) -> list[Expr]:
+        """Instances, interfaces, and what pointers to blocks lead to."""
         places: list[Expr] = []
         for v in b.maker.variables:
             name = Name(v.type, None, False, v.name)
-            if isinstance(v.type, callable_types):
+            if isinstance(v.type, Block | Interface):
                 places.append(name)
             elif isinstance(v.type, Pointer) and isinstance(v.type.target, Block):
                 places.append(tree.Deref(v.type.target, None, False, name))
+        return places
+
+    def _callee(self, b: Body) -> tuple[list[Function], Expr | None, str]:
+        """Functions to choose from, the instance they belong to, or THIS."""
+        places = self._owners(b)
         if places and self.chance(60):
             place = self.r.choice(places)
             return list(_methods(place.type)), place, ""
@@ -241,6 +252,27 @@ class Statements:
             return tree.CallBlock(place, [(v.name, self.value(b, v.type, 2)) for v in inputs])
         return self._call_function(b, functions, place, via)
 
+    def _property(self, b: Body) -> tree.Assign | None:
+        """Reads or writes a property, also one whose Get has effects."""
+        m = b.maker
+        found: list[tuple[tree.Property, Expr | None, str]] = []
+        for place in self._owners(b):
+            known = place.type.properties if isinstance(place.type, Interface) else _properties(place.type)
+            found += [(p, place, "") for p in known]
+        if b.owner is not None:
+            via = self.r.choice(("", "THIS"))
+            found += [(p, None, via) for p in b.owner.all_properties.values() if p.rank < b.rank]
+        if not found:
+            return None
+        p, owner, via = self.r.choice(found)
+        place = tree.Get(p.type, base_of(p.type), False, owner, p.name, via)
+        if self.chance(55) and self.can_give(m, p.type):
+            if p.type == BOOL and self.chance(50):
+                return tree.Assign(place, m.expr(BOOL, 2), self.r.choice(("S=", "R=")))
+            return tree.Assign(place, self.value(b, p.type, 2))
+        targets = m.places(lambda t: assignable(p.type, t), writable=True)
+        return tree.Assign(m.filled(self.r.choice(targets), 1), place) if targets else None
+
     def can_give(self, m: Maker, type_: Type) -> bool:
         """Whether there is a value of a type: arrays and structures have no literals."""
         return not isinstance(type_, Array | Struct) or bool(m.places(lambda t: t == type_))
@@ -263,6 +295,11 @@ class Statements:
 def _line(block: Block | None) -> list[Block]:
     """A block and what it extends."""
     return [] if block is None else [block, *_line(block.base)]
+
+
+def _properties(type_: Type) -> list[tree.Property]:
+    assert isinstance(type_, Block)
+    return list(type_.all_properties.values())
 
 
 def _methods(type_: Type) -> list[Function]:

@@ -126,10 +126,11 @@ class Pointer:
 
 @dataclass(eq=False)
 class Interface:
-    """Heads of methods."""
+    """Heads of methods and properties."""
 
     name: str
     methods: list[Function]
+    properties: list[Property] = field(default_factory=list)
 
 
 @dataclass(eq=False)
@@ -144,6 +145,7 @@ class Block:
     locals: list[Variable] = field(default_factory=list)
     body: list[Any] = field(default_factory=list)
     methods: list[Function] = field(default_factory=list)
+    properties: list[Property] = field(default_factory=list)
 
     @property
     def members(self) -> list[Variable]:
@@ -160,6 +162,12 @@ class Block:
         """By name; what it overrides hides what it inherits."""
         inherited = self.base.all_methods if self.base else {}
         return {**inherited, **{m.name: m for m in self.methods}}
+
+    @property
+    def all_properties(self) -> dict[str, Property]:
+        """As `all_methods`."""
+        inherited = self.base.all_properties if self.base else {}
+        return {**inherited, **{p.name: p for p in self.properties}}
 
     def is_a(self, other: Block) -> bool:
         """Whether an instance may stand where one of `other` is meant."""
@@ -178,6 +186,23 @@ class Function:
     body: list[Any] = field(default_factory=list)
     rank: int = 0
     """A method calls only methods of a lower rank, so that nothing is recursive; overriding keeps it."""
+
+
+@dataclass(eq=False)
+class Property:
+    """A property of a block; `rank` as in `Function`."""
+
+    name: str
+    type: Type
+    getter: Function
+    setter: Function
+    """Its input has the name of the property."""
+    pure: bool
+    """Get changes nothing, so that reading it may stand in an expression."""
+
+    @property
+    def rank(self) -> int:
+        return self.getter.rank
 
 
 Type = Scalar | Text | Enum | Subrange | Array | Struct | Block | Pointer | Interface
@@ -234,6 +259,16 @@ class Name(Expr):
 class Member(Expr):
     base: Expr
     name: str
+
+
+@dataclass
+class Get(Expr):
+    """A property: of an instance or interface, of THIS, or the one of the base (`fixed`) of SUPER."""
+
+    base: Expr | None
+    name: str
+    via: str = ""
+    fixed: Property | None = None
 
 
 @dataclass
@@ -295,8 +330,11 @@ class Builtin(Expr):
 
 @dataclass
 class Assign:
+    """`:=`, or S= and R= on a BOOL; the target may be a property."""
+
     target: Expr
     value: Expr
+    op: str = ":="
 
 
 @dataclass

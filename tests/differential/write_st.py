@@ -63,6 +63,9 @@ def expression(e: Any) -> str:
         return e.name
     if isinstance(e, tree.Member):
         return f"{expression(e.base)}.{e.name}"
+    if isinstance(e, tree.Get):
+        owner = f"{e.via}^" if e.via else expression(e.base) if e.base else ""
+        return f"{owner}.{e.name}" if owner else e.name
     if isinstance(e, tree.Index):
         return f"{expression(e.base)}[{', '.join(expression(i) for i in e.indices)}]"
     if isinstance(e, tree.Deref):
@@ -87,7 +90,7 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
     deeper = indent + "    "
     for s in body:
         if isinstance(s, tree.Assign):
-            lines.append(f"{indent}{expression(s.target)} := {expression(s.value)};")
+            lines.append(f"{indent}{expression(s.target)} {s.op} {expression(s.value)};")
         elif isinstance(s, tree.If):
             word = "IF"
             for condition, inner in s.branches:
@@ -198,6 +201,11 @@ def _block(b: Block) -> list[str]:
     ]
     for method in b.methods:
         lines += _function(method, "METHOD")
+    for p in b.properties:
+        lines += [f"PROPERTY {p.name} : {p.type.name}"]
+        for word, f in (("GET", p.getter), ("SET", p.setter)):
+            lines += [word, *_section("VAR", f.locals), *statements(f.body), f"END_{word}"]
+        lines.append("END_PROPERTY")
     return [*lines, "END_FUNCTION_BLOCK"]
 
 
@@ -218,6 +226,15 @@ def program(p: Program) -> str:
         lines.append(f"INTERFACE {i.name}")
         for method in i.methods:
             lines += [*_head(method, "METHOD"), "END_METHOD"]
+        for of in i.properties:
+            lines += [
+                f"PROPERTY {of.name} : {of.type.name}",
+                "GET",
+                "END_GET",
+                "SET",
+                "END_SET",
+                "END_PROPERTY",
+            ]
         lines.append("END_INTERFACE")
     for b in p.blocks:
         lines += _block(b)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tappet.core import ir, places
 from tappet.core.body import INITIALISERS, PLACES, TARGETS, VALUES, Body
-from tappet.core.scalars import FALSE, NULL, TRUE, convert, require_scalar, scalar_of
+from tappet.core.scalars import NULL, convert, require_scalar, scalar_of
 from tappet.core.values import bit_value
 from tappet.lang import ast
 from tappet.lang import types as t
@@ -19,8 +19,7 @@ def assign(b: Body, op: str, target: ast.Expr, value: ast.Expr) -> None:
         return
     if op in ("S=", "R="):
         with b.block_of() as then:
-            constant = TRUE if op == "S=" else FALSE
-            store_scalar(b, target, constant)
+            assign(b, ":=", target, _flag(op == "S=", target))
         b.emit(ir.If(b.value(value), then, []))
         return
     symbol = getattr(target, "symbol", None)
@@ -29,6 +28,13 @@ def assign(b: Body, op: str, target: ast.Expr, value: ast.Expr) -> None:
         special(b, target, symbol, value)
         return
     assign_memory(b, target, value)
+
+
+def _flag(value: bool, at: ast.Expr) -> ast.Expr:
+    """TRUE or FALSE as if it stood in the text."""
+    found = ast.Literal(text=str(value).upper(), kind="bool", value=value, span=at.span)
+    found.type, found.constant, found.is_constant = t.BOOL, value, True
+    return found
 
 
 def assign_memory(b: Body, target: ast.Expr, value: ast.Expr) -> None:
@@ -237,19 +243,68 @@ def store_member(b: Body, slot: ir.Place, member: VarSymbol, value: ast.Expr) ->
 
 
 def assign_value(b: Body, e: ast.AssignExpr) -> ir.Expr:
-    """Assignment inside an expression: its value is that of the target afterwards."""
-    with b.block_of() as statements:
-        assign(b, e.op, e.target, e.value)
+    """Assignment inside an expression: its value is that of the target afterwards.
+
+    The indices of the target are evaluated once; a property has the value that its Set was given.
+    """
     scalar = require_scalar(e.type)
-    return ir.Sequence(scalar, statements, convert(b.value(e.target), scalar))
+    target = e.target
+    with b.block_of() as statements:
+        if e.op == ":=" and _calls_setter(target):
+            type_ = declared_type(target)
+            local = ir.Place(b.temp(scalar, once=False))
+            b.emit(ir.Store(local, b.value_as(e.value, type_)))
+            assign(b, ":=", target, _held(b, local, target))
+            return ir.Sequence(scalar, statements, ir.Load(scalar, local))
+        if e.op == ":=" and not _is_bit(target):
+            local = ir.Place(b.temp(scalar))
+            b.emit(ir.Store(local, b.value_as(e.value, declared_type(target))))
+            place = places.freeze(b, b.target(target), b.out)
+            b.touch(place)
+            b.emit(ir.Store(place, range_checked(b, ir.Load(scalar, local), target.type)))
+            return ir.Sequence(scalar, statements, ir.Load(scalar, place))
+        assign(b, e.op, target, e.value)
+    return ir.Sequence(scalar, statements, convert(b.value(target), scalar))
 
 
 def assign_place(b: Body, e: ast.AssignExpr) -> ir.Place:
     """Assignment of an aggregate inside an expression."""
     with b.block_of() as statements:
-        assign(b, e.op, e.target, e.value)
-    address = places.address_of(b.place(e.target))
+        if _calls_setter(e.target):
+            type_ = declared_type(e.target)
+            assert type_ is not None
+            local = ir.Place(b.space(type_.size, type_.align))
+            copy_value(b, local, type_, e.value)
+            assign(b, e.op, e.target, _held(b, local, e.target))
+            address = places.address_of(local)
+        else:
+            assign(b, e.op, e.target, e.value)
+            address = places.address_of(b.place(e.target))
     return ir.Place(ir.Indirect(ir.Sequence(ir.PTR, statements, address)))
+
+
+def _is_bit(target: ast.Expr) -> bool:
+    symbol = getattr(target, "symbol", None)
+    if isinstance(target, ast.Member) and target.bit is not None:
+        return True
+    return isinstance(symbol, VarSymbol) and symbol.bit is not None
+
+
+def _calls_setter(target: ast.Expr) -> bool:
+    return (
+        not _is_bit(target)
+        and isinstance(getattr(target, "symbol", None), PropertySymbol)
+        and not yields_reference(target)
+    )
+
+
+def _held(b: Body, local: ir.Place, target: ast.Expr) -> ast.Expr:
+    """What lies at `local`, of the type of a target."""
+    slot = -1 - len(b.held)  # those of the text count from 1
+    b.held[slot] = local
+    found = ast.Held(slot=slot, span=target.span)
+    found.type = found.carried = declared_type(target)
+    return found
 
 
 def _literal_place(b: Body, e: ast.Literal) -> ir.Place:
