@@ -263,13 +263,13 @@ def _names(scope: Scope, expected: t.Type | None, statement: bool, word: str) ->
     seen: set[str] = set()
     for key, symbol in scope.locals.items():
         seen.add(key)
-        if symbol.name and not symbol.name.startswith("__"):
+        if symbol.name and _offered(symbol):
             yield _item(symbol, _rank(symbol, expected, 3, 1))
             call = whole_call(symbol, symbol.name, 3, True) if statement else None
             if call is not None:
                 yield call
     for key, symbol in block_members(scope.block).items():
-        if symbol.name and key not in seen and not symbol.name.startswith("__"):
+        if symbol.name and key not in seen and _offered(symbol):
             seen.add(key)
             yield _item(symbol, 3)
     if scope.block is not None and scope.block.kind == "FUNCTION_BLOCK":
