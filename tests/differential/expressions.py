@@ -97,7 +97,7 @@ class Maker(Leaves):
             operand = self.expr(type_, depth - 1)
             return Builtin(type_, type_, operand.constant, "ABS", [operand], [type_])
         if choice < 84:
-            return self._negative(self.expr(type_, depth - 1))
+            return self.negative(self.expr(type_, depth - 1))
         if not type_.integer:
             operand = self.expr(type_, depth - 1)
             return Builtin(type_, type_, operand.constant, "SQRT", [operand], [type_])
@@ -152,7 +152,7 @@ class Maker(Leaves):
             return divisor
         return Builtin(type_, type_, False, "MAX", [divisor, self.literal(type_, 1)], [type_, type_])
 
-    def _negative(self, operand: Expr) -> Expr:
+    def negative(self, operand: Expr) -> Expr:
         base = base_of(operand.type)
         computed = DINT if base.integer and base.bits < 32 else base
         if base in (tree.UDINT, tree.DWORD):

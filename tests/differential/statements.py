@@ -141,7 +141,7 @@ class Statements:
         selector = b.maker.moving(self.r.choice((INT, USINT, DINT, SINT, tree.WORD, tree.LINT)), 2)
         limited = any(isinstance(v.type, Subrange) for v in b.maker.variables)
         if limited or isinstance(selector.type, Subrange):  # labels outside its limits would be refused
-            selector = tree.Unary(selector.held, DINT, False, "-", selector)
+            selector = b.maker.negative(selector)
         branches, number = [], self.r.choice([0, 0, 1, -3 if base_of(selector.type).low < 0 else 2])
         for _ in range(self.r.randint(1, 3)):
             ranges = []
