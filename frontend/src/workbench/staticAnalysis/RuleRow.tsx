@@ -16,6 +16,7 @@ export function RuleRow({ rule, chosen, readOnly, change }: RuleRowProps) {
   const t = useText();
   const level = levelOf(chosen, rule.code);
   const title = t(titleKey(rule.code));
+  const adjustable = Object.keys(rule.prefixes).length + Object.keys(rule.limits).length > 0;
   return (
     <div className={styles.rule} data-level={level} role="group" aria-label={`${rule.code} ${title}`}>
       <div className={styles.code}>
@@ -31,7 +32,7 @@ export function RuleRow({ rule, chosen, readOnly, change }: RuleRowProps) {
         <div className={styles.muted}>
           {t('analysis.ruleText', { message: messageText(rule.message), advice: messageText(rule.advice) })}
         </div>
-        {level !== 'off' && (
+        {level !== 'off' && adjustable && (
           <div className={styles.settings}>
             {Object.entries(rule.prefixes).map(([key, usual]) => (
               <label key={key} className={styles.setting}>

@@ -1,11 +1,12 @@
 import { useQuery } from '@tanstack/react-query';
 import { ChevronRight, Search } from 'lucide-react';
-import { useState } from 'react';
+import { useRef, useState } from 'react';
 import { api } from '@/api/client';
 import { saveObject, useObject } from '@/api/queries';
 import type { ApplicationData, CodingRule, ObjectSummary, ProjectObject, StaticAnalysisData } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
 import { guard } from '../notices';
+import { useToggleSet } from '../toggleSet';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';
 import { Empty, Failed, Loading } from '../ui/Empty';
@@ -72,19 +73,15 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
   const t = useText();
   const [chosen, setChosen] = useState<StaticAnalysisData>(application.data.static_analysis ?? NO_RULES);
   const [search, setSearch] = useState('');
-  const [closed, setClosed] = useState<ReadonlySet<string>>(new Set());
+  const [closed, toggle] = useToggleSet<string>();
   const [everywhere, setEverywhere] = useState(false);
+  const list = useRef<HTMLDivElement>(null);
   const groups = groupsOf(rules, search, (code) => t(titleKey(code)));
   const shown = groups.flatMap((group) => group.rules);
   const faulty = Object.values(chosen.prefixes).some((prefix) => !isPrefix(prefix));
   const setAll = (level: Level) => {
     const codes = shown.map((rule) => rule.code);
     setChosen(withLevel(chosen, level === 'off' ? codes : codes.filter((code) => !chosen.rules[code]), level));
-  };
-  const toggle = (id: string) => {
-    const next = new Set(closed);
-    if (!next.delete(id)) next.add(id);
-    setClosed(next);
   };
   const save = async () => {
     if (faulty || readOnly) return;
@@ -151,7 +148,10 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
             placeholder={t('analysis.search')}
             aria-label={t('analysis.search')}
             spellCheck={false}
-            onChange={(event) => setSearch(event.target.value)}
+            onChange={(event) => {
+              setSearch(event.target.value);
+              if (list.current) list.current.scrollTop = 0;
+            }}
             onKeyDown={(event) => event.key === 'Enter' && event.preventDefault()}
           />
         </div>
@@ -165,7 +165,7 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
           {t('analysis.defaults')}
         </Button>
       </div>
-      <div className={styles.list}>
+      <div className={styles.list} ref={list}>
         {groups.length === 0 && <Empty title={t('tree.nothingFound', { text: search.trim() })} />}
         {groups.map((group) => {
           const open = !closed.has(group.id);
