@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.project.durations import LONGEST_NS, duration_ns, format_duration
+from tappet.project.durations import LONGEST_NS, duration_ns
 from tappet.project.errors import InvalidTimeError
 
 
@@ -56,5 +56,6 @@ def test_any_text_is_a_duration_or_refused(text: str) -> None:
 
 
 @given(st.integers(0, LONGEST_NS))
-def test_formatting_is_read_back(nanoseconds: int) -> None:
-    assert duration_ns(format_duration(nanoseconds)) == nanoseconds
+def test_units_add_up(nanoseconds: int) -> None:
+    seconds, rest = divmod(nanoseconds, 1_000_000_000)
+    assert duration_ns(f"LTIME#{seconds}s{rest}ns") == nanoseconds

@@ -143,7 +143,6 @@ class Compilation:
             self.cache.hits += 1
             self._results.append((name, data))
             return
-        self.cache.misses += 1
         self._results.append((name, shared_pool().submit(text, self.options)))
 
     def objects(self) -> list[bytes]:

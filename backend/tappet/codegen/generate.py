@@ -218,7 +218,6 @@ class Generator:
         options = OptimiseOptions(level=self.options.level)
         emit_options = EmitOptions(triple=options.triple)
         self.cache.hits = len(parts) - len(dirty)
-        self.cache.misses = 0
         compilation = Compilation(self.cache, options, parallel=len(dirty) > (1 if is_warm() else 2))
         for number in dirty:
             part = parts[number]

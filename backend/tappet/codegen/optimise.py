@@ -72,17 +72,6 @@ def compile_text(text: str, options: OptimiseOptions) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def optimised_text(text: str, options: OptimiseOptions) -> str:
-    """The module after optimisation, for people."""
-    return str(_optimised(text, options, target_machine(options)))
-
-
-def assembly(text: str, options: OptimiseOptions) -> str:
-    """Assembly of the optimised module, for people."""
-    machine = target_machine(options)
-    return str(machine.emit_assembly(_optimised(text, options, machine)))
-
-
 def _optimised(text: str, options: OptimiseOptions, machine: llvm.TargetMachine) -> llvm.ModuleRef:
     try:
         module = llvm.parse_assembly(text, llvm.create_context())
@@ -114,7 +103,6 @@ class ObjectCache:
         self.memory: dict[str, bytes] = {}
         """Objects of the builds of this process since the last `forget`."""
         self.hits = 0
-        self.misses = 0
 
     def key(self, text: str, options: OptimiseOptions) -> str:
         """Content hash of one compilation."""
@@ -130,7 +118,6 @@ class ObjectCache:
         if data is not None:
             self.hits += 1
             return data
-        self.misses += 1
         data = compile_text(text, options)
         self.write(name, data)
         return data

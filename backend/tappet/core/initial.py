@@ -179,7 +179,7 @@ def initial_function(program: Program, type_: t.FunctionBlock) -> str:
             source = pou.source if isinstance(pou, PouSymbol) else None
             function = ir.Function(
                 name,
-                [ir.Parameter("self", ir.PTR, readable=type_.size)],
+                [ir.Parameter("self", ir.PTR)],
                 uri=source.uri if source else "",
                 self_type=program.block_name(type_),
                 cold=True,

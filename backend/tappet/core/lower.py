@@ -272,7 +272,7 @@ def _own_instance(b: Body, pou: PouSymbol) -> None:
         assert block is not None
         b.block = block
         b.function.self_type = b.program.block_name(block)
-        b.function.parameters.append(ir.Parameter("self", ir.PTR, readable=block.size))
+        b.function.parameters.append(ir.Parameter("self", ir.PTR))
         b.own_data = ir.Place(ir.Self(b.function.self_type))
     elif pou.kind == "PROGRAM":
         b.own_data = ir.Place(ir.Data(data_symbol(pou)))
@@ -287,7 +287,7 @@ def _result(b: Body, pou: PouSymbol) -> None:
     scalar = scalar_of(type_)
     if scalar is None:
         number = len(b.function.parameters)
-        b.function.parameters.append(ir.Parameter("result", ir.PTR, readable=type_.size, alone=True))
+        b.function.parameters.append(ir.Parameter("result", ir.PTR, alone=True))
         place = ir.Place(ir.Indirect(ir.Argument(ir.PTR, number), own=True))
         if pou.result is not None:
             b.places[id(pou.result)] = place
@@ -316,7 +316,7 @@ def _parameters(b: Body, pou: PouSymbol) -> None:
         number = len(b.function.parameters)
         scalar = scalar_of(type_)
         if parameter.section in ("VAR_IN_OUT", "VAR_OUTPUT"):
-            b.function.parameters.append(ir.Parameter(parameter.name, ir.PTR, readable=type_.size))
+            b.function.parameters.append(ir.Parameter(parameter.name, ir.PTR))
             place = ir.Place(ir.Indirect(ir.Argument(ir.PTR, number)))
             b.places[id(parameter)] = place
             if parameter.section == "VAR_OUTPUT":
@@ -328,9 +328,7 @@ def _parameters(b: Body, pou: PouSymbol) -> None:
             b.places[id(parameter)] = ir.Place(local)
             b.emit(ir.Store(ir.Place(local), ir.Argument(scalar, number)))
         else:
-            b.function.parameters.append(
-                ir.Parameter(parameter.name, ir.PTR, readable=type_.size, writable=False)
-            )
+            b.function.parameters.append(ir.Parameter(parameter.name, ir.PTR, writable=False))
             local = b.local(parameter.name, type_)
             b.places[id(parameter)] = ir.Place(local)
             b.aggregate_inputs.append((local, number, type_.size))

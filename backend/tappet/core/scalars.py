@@ -36,13 +36,6 @@ def require_scalar(type_: t.Type | None) -> ir.Scalar:
     return scalar
 
 
-def const(scalar: ir.Scalar, value: int | float | bool) -> ir.Const:
-    """A constant."""
-    return ir.Const(scalar, value)
-
-
-TRUE = ir.Const(ir.BOOL, 1)
-FALSE = ir.Const(ir.BOOL, 0)
 NULL = ir.Const(ir.PTR, 0)
 
 

@@ -77,16 +77,3 @@ def _invalid(literal: str) -> InvalidTimeError:
 
 def _shown(text: str) -> str:
     return text if len(text) <= 40 else text[:37] + "..."
-
-
-def format_duration(nanoseconds: int) -> str:
-    """The shortest TIME literal of a duration, e.g. 1_500_000_000 -> `T#1s500ms`."""
-    if nanoseconds == 0:
-        return "T#0ms"
-    parts = []
-    rest = nanoseconds
-    for unit, size in UNIT_NS.items():
-        count, rest = divmod(rest, size)
-        if count:
-            parts.append(f"{count}{unit}")
-    return "T#" + "".join(parts)

@@ -80,14 +80,6 @@ class SourceText:
             found = segment
         return Place(found.object_id, found.part, max(0, line - found.line) + found.part_line)
 
-    def line_of(self, object_id: str, part: Part, line: int) -> int | None:
-        """The line of this text that shows a line of a part; None when the text does not hold it."""
-        found = None
-        for segment in self.segments:
-            if segment.object_id == object_id and segment.part == part and segment.part_line <= line:
-                found = segment.line + line - segment.part_line
-        return found
-
 
 @dataclass(frozen=True, slots=True)
 class WatchdogDefinition:

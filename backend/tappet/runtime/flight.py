@@ -209,13 +209,6 @@ class FlightRecorder:
         """The image at the end of `cycle`; FlightError when it is not kept."""
         return self.rebuild(self.capture(cycle))
 
-    def read_at(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes at (offset, size) at the end of `cycle`; FlightError when it is not kept."""
-        for offset, size in places:
-            self._image.check(offset, size)
-        image = self.image_at(cycle)
-        return [image[offset : offset + size] for offset, size in places]
-
     def capture(self, cycle: int) -> Capture:
         """Copy what is needed to rebuild the image at `cycle`; FlightError when it is not kept."""
         entries, base = self._steady(lambda: (self._entries(), read_memory(self._shadow.address, self._size)))

@@ -23,7 +23,7 @@ _MAP_FIXED_NOREPLACE = 0x100000
 _MAP_FAILED = (1 << 64) - 1
 _HINT_STEP = 16 << 20
 
-SCHED_OTHER, SCHED_FIFO = 0, 1
+SCHED_FIFO = 1
 WATCHDOG_SIGNAL = 42
 """A real-time signal that nobody else uses; it makes a task thread look at its watchdog."""
 FAULT_SIGNALS = (4, 7, 8, 11)  # SIGILL, SIGBUS, SIGFPE, SIGSEGV

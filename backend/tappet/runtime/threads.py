@@ -23,8 +23,6 @@ STACK_SIZE = 1 << 20
 GUARD_SIZE = 1 << 20
 """Large, because a function with a big frame may jump over a single guard page."""
 SIGNAL_STACK_SIZE = 64 << 10
-PRIORITY_LEVELS = 32
-"""Task priorities 0 (highest) to 31 (TASK-11)."""
 
 
 class TaskStack:

@@ -37,7 +37,7 @@ class Load(Expr):
 
 @dataclass(eq=False, slots=True)
 class Address(Expr):
-    """Address of a place (type PTR). `element` is the size behind it that may be read, 0 if unknown."""
+    """Address of a place (type PTR)."""
 
     place: Place
 

@@ -16,8 +16,6 @@ class Parameter:
 
     name: str
     type: Scalar
-    readable: int = 0
-    """Bytes that can be read at the pointer; 0 for unknown."""
     writable: bool = True
     """False: nothing is written through this pointer."""
     alone: bool = False

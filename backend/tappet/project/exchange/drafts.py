@@ -64,7 +64,6 @@ class Batch:
         return not (self.loose.children or self.devices or self.pous.children)
 
 
-TEXT_LANGUAGES = ("ST", "IL")
 GRAPHICAL_LANGUAGES = ("LD", "FBD", "CFC", "SFC")
 
 

@@ -38,7 +38,7 @@ class Parts:
 def write_text(kind: str, name: str, parts: Parts) -> tuple[str, int | None]:
     """The file of an object, and the number of lines of its declaration where reading would not find it."""
     declaration = parts.declaration or ""
-    text = _joined(kind, name, parts, from_line=1 if declaration else 0)
+    text = _joined(kind, name, parts)
     if read_text(kind, name, text) == parts:
         return text, None
     split = declaration.count("\n") + 1 if declaration else 0
@@ -61,7 +61,7 @@ def read_text(kind: str, name: str, text: str, split: int | None = None) -> Part
     return Parts(declaration, _without_newline(_without_end(rest, _end(kind, name, declaration))))
 
 
-def _joined(kind: str, name: str, parts: Parts, from_line: int) -> str:
+def _joined(kind: str, name: str, parts: Parts) -> str:
     pieces = []
     opening = _opening(kind, name)
     if opening:

@@ -31,7 +31,6 @@ CHECK_EVERY_S = 30.0
 """How soon a socket notices that its session has ended."""
 SESSION_ENDED = 4401
 """Close code when the session behind the socket has ended."""
-RUNTIME_REMOVED = 4404
 _MESSAGE: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
 
 
