@@ -232,7 +232,8 @@ def _delete(b: Body, e: ast.Call, name: str) -> None:
     if operand is None or value(b, operand) is None:
         return
     if not isinstance(operand.type, t.Pointer):
-        b.report("E0312", operand.span, name=text_of(operand), type=operand.type)
+        hint = "Write the pointer that __NEW gave."
+        b.report("E0323", operand.span, op=name, what="a pointer", given=f"'{operand.type}'", hint=hint)
         return
     writable(b, operand)
     finish(e, name, [None], None)
@@ -350,7 +351,8 @@ def _exchange(b: Body, e: ast.Call, name: str) -> None:
         return
     pointer = found[0].type
     if not isinstance(pointer, t.Pointer) or pointer.base is None:
-        b.report("E0312", found[0].span, name=text_of(found[0]), type=pointer)
+        hint = "Write ADR(...) of the variable."
+        b.report("E0323", found[0].span, op=name, what="a pointer", given=f"'{pointer}'", hint=hint)
         return
     for argument in found[1:]:
         require(b, argument, pointer.base)
