@@ -30,12 +30,14 @@ Fails:
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.symbols import BuiltinSymbol, Storage, VarSymbol
+from tappet.lang.rules.flow import handed_over
+from tappet.lang.symbols import BuiltinSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Elementary, Enum, Reference, Subrange
-from tappet.lang.walk import bodies, expressions, own_expressions, root, statements, targets
+from tappet.lang.walk import bodies, expressions, own_expressions, root, statements
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
@@ -47,7 +49,9 @@ _SIMPLE = (Elementary, Enum, Subrange)
 _OWN = frozenset({Storage.LOCAL, Storage.PARAMETER, Storage.RESULT})
 _HELD = frozenset({Storage.INSTANCE, Storage.PROGRAM})
 _KEPT = _HELD | {Storage.GLOBAL}
-_UNSTEADY = (ast.Call, ast.Deref, ast.AssignExpr, ast.Held, ast.This, ast.Super)
+_CHANGING = frozenset({"ADR", "XADR", "BITADR", "TIME", "LTIME"})
+"""Operators that give what may change, or give it away."""
+_UNSTEADY = (ast.Deref, ast.AssignExpr, ast.Held, ast.This, ast.Super)
 
 
 def check_pou(b: Body, chosen: frozenset[str]) -> None:
@@ -75,7 +79,7 @@ def _invariants(b: Body, s: ast.For | ast.While | ast.RepeatUntil) -> None:
     written: list[int] = []
     calls = False
     for inner in inside:
-        for target in targets(inner):
+        for target in _targets(inner):
             place = root(target)
             if not isinstance(place, ast.Name):
                 return  # through a pointer: any variable
@@ -89,7 +93,7 @@ def _invariants(b: Body, s: ast.For | ast.While | ast.RepeatUntil) -> None:
     steady = _OWN if calls else _OWN | _HELD
     read = {id(e.symbol) for e in expressions(*_controls(s)) if isinstance(e, ast.Name)}
     for one in s.body:
-        if isinstance(one, _LEAVING) or any(isinstance(e, _LEAVING) for e in statements_inside(one)):
+        if isinstance(one, _LEAVING) or any(isinstance(e, _LEAVING) for e in _inside(one)):
             return
         if isinstance(one, ast.Assign) and one.op == ":=" and isinstance(one.target, ast.Name):
             key = id(one.target.symbol)
@@ -100,7 +104,17 @@ def _invariants(b: Body, s: ast.For | ast.While | ast.RepeatUntil) -> None:
                  if isinstance(e, ast.Name)}  # fmt: skip
 
 
-def statements_inside(s: ast.Stmt) -> list[ast.Stmt]:
+def _targets(s: ast.Stmt) -> Iterator[ast.Expr]:
+    """What a statement may write: by assignment, output, VAR_IN_OUT, address, or call of an instance."""
+    if isinstance(s, (ast.Assign, ast.For)):
+        yield s.target if isinstance(s, ast.Assign) else s.variable
+    for e in own_expressions(s):
+        yield from handed_over(e)
+        if isinstance(e, ast.Call) and isinstance(e.target, PouSymbol) and e.target.kind == "FUNCTION_BLOCK":
+            yield e.callee
+
+
+def _inside(s: ast.Stmt) -> list[ast.Stmt]:
     """All statements inside a statement, itself not included."""
     return [inner for part in bodies(s) for inner in statements(part)]
 
@@ -123,29 +137,32 @@ def _plain(e: ast.Name, steady: frozenset[Storage]) -> bool:
 
 
 def _same_each_turn(e: ast.Expr, written: list[int], steady: frozenset[Storage]) -> bool:
+    operators: set[int] = set()
     for part in expressions(e):
-        if isinstance(part, _UNSTEADY):
-            pure = isinstance(part, ast.Call) and isinstance(part.target, BuiltinSymbol)
-            if not pure or any(_by_address(part)):
+        if isinstance(part, ast.Call):
+            if not _is_pure(part):
                 return False
+            operators.add(id(part.callee))
+        elif isinstance(part, _UNSTEADY):
+            return False
         elif isinstance(part, ast.Name) and isinstance(part.symbol, VarSymbol) and not part.is_constant:
             symbol = part.symbol
             passed_on = isinstance(symbol.type, Reference) or symbol.section in ("VAR_IN_OUT", "VAR_EXTERNAL")
             at_address = symbol.decl is not None and symbol.decl.address is not None
             if id(symbol) in written or passed_on or at_address or symbol.home not in steady:
                 return False
-        elif isinstance(part, (ast.Name, ast.Member)) and not _is_known(part):
+        elif isinstance(part, (ast.Name, ast.Member)) and id(part) not in operators and not _is_known(part):
             return False
     return True
 
 
 def _is_known(e: ast.Name | ast.Member) -> bool:
-    """Whether a name is a variable, a constant, a bit or an operator, and not a property."""
+    """Whether a name is a variable, a constant or a bit, and not a property."""
     bit = isinstance(e, ast.Member) and e.bit is not None
-    return bit or e.is_constant or isinstance(e.symbol, (VarSymbol, BuiltinSymbol))
+    return bit or e.is_constant or isinstance(e.symbol, VarSymbol)
 
 
-def _by_address(e: ast.Expr) -> list[bool]:
-    target = e.target if isinstance(e, ast.Call) else None
-    name = target.name if isinstance(target, BuiltinSymbol) else ""
-    return [True] if name.startswith("__") or name in ("ADR", "BITADR", "TIME", "LTIME") else []
+def _is_pure(e: ast.Call) -> bool:
+    """Whether a call is an operator that depends on its operands only."""
+    name = e.target.name if isinstance(e.target, BuiltinSymbol) else "__"
+    return not name.startswith("__") and name not in _CHANGING
