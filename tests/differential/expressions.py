@@ -71,6 +71,10 @@ class Maker(Leaves):
         """An expression whose static type counts as `type_`."""
         if depth <= 0 or self.chance(12):
             return self.leaf(type_)
+        if self.call is not None and self.chance(5):
+            called = self.call(type_, depth - 1)
+            if called is not None:
+                return called
         if isinstance(type_, Text):
             return self._text(type_, depth)
         if isinstance(type_, Enum):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from random import Random
 from typing import Any
@@ -65,6 +65,8 @@ class Leaves:
     fixed: set[str] = field(default_factory=set)
     """Variables nothing is assigned to: counters and guards of loops."""
     texts: bool = True
+    call: Callable[[Type, int], Expr | None] | None = None
+    """Makes a call whose result counts as a type; None where expressions have no effects."""
     properties: list[tree.Property] = field(default_factory=list)
     """Properties of the own instance that may be read in expressions."""
 

@@ -125,7 +125,9 @@ class ProgramMaker(Statements):
             maker.properties = [p for p in known if p.pure and p.rank < made.rank]
             hidden = Pointer | Interface  # whether they lead somewhere by now is not known
             maker.variables += [v for v in block.members if not isinstance(v.type, hidden)]
-        body = Body(maker, made.locals, list(self.functions), True, 0, block, made.rank, overrides)
+        body = Body(
+            maker, made.locals, list(self.functions), True, 0, block, made.rank, overrides, self.applied
+        )
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 4), 2)]
         own = Name(made.result, base_of(made.result), False, made.name)
         made.body.append(tree.Assign(own, self.value(body, made.result, 2)))
@@ -145,7 +147,8 @@ class ProgramMaker(Statements):
             shown = [v for v in block.members if not isinstance(v.type, Pointer | Interface)]
             own = [p for p in block.all_properties.values() if p.pure and p.rank < rank]
             maker = Maker(self.r, [value, *shown], texts=self.texts, properties=own)
-            body = Body(maker, made.locals, list(self.functions), True, 0, block, rank)
+            effects = None if pure and made is getter else self.applied
+            body = Body(maker, made.locals, list(self.functions), True, 0, block, rank, None, effects)
             if made is setter:
                 maker.fixed.add(name)
                 made.body = self.statements(body, self.r.randint(1, 3), 1)
@@ -217,7 +220,7 @@ class ProgramMaker(Statements):
             made.interfaces.append(self.interfaces[-1])
         maker = Maker(self.r, [v for v in made.members if not isinstance(v.type, Pointer)], texts=self.texts)
         maker.properties = [p for p in made.all_properties.values() if p.pure]
-        body = Body(maker, made.locals, list(self.functions), returns=True, owner=made)
+        body = Body(maker, made.locals, list(self.functions), returns=True, owner=made, effects=self.applied)
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 5), 2)]
         if base is not None and self.chance(60):
             made.body.insert(self.r.randint(0, len(made.body)), tree.CallBase(base))
@@ -232,7 +235,8 @@ class ProgramMaker(Statements):
         variables = [self.variable("p") for _ in range(self.r.randint(3, 8))]
         variables += [self.variable("n", t) for t in self.r.sample(NUMBERS, 3)]
         variables += [Variable(self.fresh("fb"), b) for b in self.blocks]
-        body = Body(Maker(self.r, variables, texts=self.texts), variables, self.functions)
+        maker = Maker(self.r, variables, texts=self.texts)
+        body = Body(maker, variables, self.functions, effects=self.applied)
         first = self.pointers(body)
         for block in self.blocks:
             if self.chance(40):

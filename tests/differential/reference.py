@@ -238,6 +238,14 @@ class Machine:
         raise {"EXIT": _Exit, "CONTINUE": _Continue, "RETURN": _Return}[s.word]
 
     def _callfunction(self, s: tree.CallFunction, f: Frame) -> None:
+        assert s.target is not None
+        result = self._result(s, f)
+        self.place(s.target, f).write(result, s.target.type)
+
+    def _result(self, s: tree.CallFunction, f: Frame) -> Any:
+        self.steps -= 1
+        if self.steps < 0:
+            raise TooLong
         this = f.this if s.via else self._instance(s.instance, f)
         function = s.function
         if this is not None and s.via != "SUPER":
@@ -249,7 +257,7 @@ class Machine:
             own[variable.name] = self.place(target, f)
         own[function.name] = default(function.result)
         self._body(function.body, Frame([own] if this is None else [own, this], this))
-        self.place(s.target, f).write(own[function.name], s.target.type)
+        return own[function.name]
 
     def _instance(self, e: Any, f: Frame) -> Any:
         """The instance a call is for, None for functions."""
@@ -344,6 +352,13 @@ class Machine:
             return self._builtin(e, f)
         if isinstance(e, tree.Get):
             return self._get(e, f)
+        if isinstance(e, tree.Applied):
+            return self._result(e.call, f)
+        if isinstance(e, tree.Chained):
+            value = stored(self.value(e.value, f), e.target.type)
+            place = self.place(e.target, f)
+            place.write(value, e.target.type)
+            return value
         return self.place(e, f).read()
 
     def _binary(self, e: tree.Binary, f: Frame) -> Any:

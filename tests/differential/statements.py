@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from random import Random
 from typing import Any
@@ -28,6 +29,7 @@ from typed_tree import (
     Scalar,
     Struct,
     Subrange,
+    Text,
     Type,
     Variable,
     base_of,
@@ -51,6 +53,13 @@ class Body:
     """Methods below it can be called on THIS."""
     overrides: Function | None = None
     """The method that SUPER^ calls."""
+    effects: Callable[[Body, Type, int], Expr | None] | None = None
+    """Makes calls inside expressions; None where they have no effects."""
+
+    def __post_init__(self) -> None:
+        effects = self.effects
+        if effects is not None:
+            self.maker.call = lambda type_, depth: effects(self, type_, depth)
 
 
 class Statements:
@@ -73,6 +82,11 @@ class Statements:
         if isinstance(target, Array | Struct):
             places = m.places(lambda t: t == target)
             return m.filled(self.r.choice(places), 1)
+        if m.call is not None and self.chance(5):
+            chained = m.places(lambda t: t == target, writable=True)
+            if chained:
+                place = m.filled(self.r.choice(chained), 1)
+                return tree.Chained(target, base_of(target), False, place, self.value(b, target, depth - 1))
         wanted: Type = target
         base = base_of(target)
         if not isinstance(target, Enum) and base in NUMBERS and self.chance(35):
@@ -283,13 +297,42 @@ class Statements:
             return None
         function = self.r.choice(functions)
         targets = m.places(lambda t: assignable(function.result, t), writable=True)
+        if not targets:
+            return None
+        call = self._with_arguments(b, function, place, via, 2)
+        if call is not None:
+            call.target = m.filled(self.r.choice(targets), 1)
+        return call
+
+    def _with_arguments(
+        self, b: Body, function: Function, place: Expr | None, via: str, depth: int
+    ) -> tree.CallFunction | None:
+        m = b.maker
         places = [m.places(lambda t, v=v: t == v.type, writable=True) for v in function.in_outs]
-        if not targets or not all(places) or not all(self.can_give(m, v.type) for v in function.inputs):
+        if not all(places) or not all(self.can_give(m, v.type) for v in function.inputs):
             return None
         in_outs = [m.filled(self.r.choice(found), 1) for found in places]
-        inputs = [self.value(b, v.type, 2) for v in function.inputs]
-        target = m.filled(self.r.choice(targets), 1)
-        return tree.CallFunction(target, function, inputs, in_outs, place, via)
+        inputs = [self.value(b, v.type, depth) for v in function.inputs]
+        return tree.CallFunction(None, function, inputs, in_outs, place, via)
+
+    def applied(self, b: Body, type_: Type, depth: int) -> Expr | None:
+        """A call inside an expression, whose result counts as a type."""
+        functions, place, via = self._callee(b)
+
+        def counts(t: Type) -> bool:
+            if isinstance(type_, Enum):
+                return t is type_
+            if isinstance(type_, Text):
+                return isinstance(t, Text) and t.wide == type_.wide
+            return base_of(t) == base_of(type_)
+
+        fitting = [f for f in functions if counts(f.result)]
+        if not fitting:
+            return None
+        function = self.r.choice(fitting)
+        call = self._with_arguments(b, function, place, via, min(depth, 1))
+        result = function.result
+        return None if call is None else tree.Applied(result, base_of(result), False, call)
 
 
 def _line(block: Block | None) -> list[Block]:

@@ -272,6 +272,21 @@ class Get(Expr):
 
 
 @dataclass
+class Applied(Expr):
+    """A call of a function or method inside an expression; operands are evaluated from left to right."""
+
+    call: CallFunction
+
+
+@dataclass
+class Chained(Expr):
+    """`(target := value)`."""
+
+    target: Expr
+    value: Expr
+
+
+@dataclass
 class Index(Expr):
     base: Expr
     indices: list[Expr]
@@ -379,7 +394,8 @@ class Jump:
 
 @dataclass
 class CallFunction:
-    target: Expr
+    target: Expr | None
+    """None inside an expression."""
     function: Function
     inputs: list[Expr]
     in_outs: list[Expr]

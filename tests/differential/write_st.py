@@ -77,11 +77,23 @@ def expression(e: Any) -> str:
         return f"({e.op} {expression(e.operand)})"
     if isinstance(e, tree.Binary | tree.Clock):
         return f"({expression(e.left)} {e.op} {expression(e.right)})"
+    if isinstance(e, tree.Applied):
+        return _called(e.call)
+    if isinstance(e, tree.Chained):
+        return f"({expression(e.target)} := {expression(e.value)})"
     args = ", ".join(expression(a) for a in e.args)
     if e.name in ("convert", "text"):
         target = e.type.name.partition("(")[0]
         return f"{e.taken[0].name.partition('(')[0]}_TO_{target}({args})"
     return f"{e.name}({args})"
+
+
+def _called(s: tree.CallFunction) -> str:
+    args = [f"{v.name} := {expression(e)}" for v, e in zip(s.function.inputs, s.inputs, strict=True)]
+    args += [f"{v.name} := {expression(e)}" for v, e in zip(s.function.in_outs, s.in_outs, strict=True)]
+    owner = f"{s.via}^" if s.via else expression(s.instance) if s.instance else ""
+    callee = f"{owner}.{s.function.name}" if owner else s.function.name
+    return f"{callee}({', '.join(args)})"
 
 
 def statements(body: list[Any], indent: str = "") -> list[str]:
@@ -116,13 +128,8 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
         elif isinstance(s, tree.Jump):
             lines.append(f"{indent}{s.word};")
         elif isinstance(s, tree.CallFunction):
-            args = [f"{v.name} := {expression(e)}" for v, e in zip(s.function.inputs, s.inputs, strict=True)]
-            args += [
-                f"{v.name} := {expression(e)}" for v, e in zip(s.function.in_outs, s.in_outs, strict=True)
-            ]
-            owner = f"{s.via}^" if s.via else expression(s.instance) if s.instance else ""
-            callee = f"{owner}.{s.function.name}" if owner else s.function.name
-            lines.append(f"{indent}{expression(s.target)} := {callee}({', '.join(args)});")
+            assert s.target is not None
+            lines.append(f"{indent}{expression(s.target)} := {_called(s)};")
         elif isinstance(s, tree.CallBase):
             lines.append(f"{indent}SUPER^();")
         elif isinstance(s, tree.Bind):

@@ -112,7 +112,7 @@ def test_single_value_in_parentheses_is_an_aggregate_only_as_initial_value() -> 
     assert isinstance(read("[(a := 1)]").elements[0], ast.StructInit)  # type: ignore[attr-defined]
     call = read("f(x := (a := 1))")
     assert isinstance(call, ast.Call)
-    assert isinstance(call.args[0].value, ast.StructInit)
+    assert isinstance(call.args[0].value, ast.AssignExpr)
 
 
 def test_every_node_knows_its_place() -> None:

@@ -167,7 +167,7 @@ class ExpressionParser(Core):
             name, name_span = self.member_name()
             return ast.Member(span=self.span_from(start), base=base, name=name, name_span=name_span)
         if kind == "(":
-            args = self.arguments()
+            args = self.arguments(of_call=True)
             return ast.Call(span=self.span_from(start), callee=base, args=args)
         if kind == "^":
             self.i = i + 1
@@ -310,8 +310,11 @@ class ExpressionParser(Core):
 
     # -- calls
 
-    def arguments(self, of_structure: bool = False) -> list[ast.Argument]:
-        """`(a, name := b, name => c)`; stands at the `(`. The values of a structure may be arrays."""
+    def arguments(self, of_structure: bool = False, of_call: bool = False) -> list[ast.Argument]:
+        """`(a, name := b, name => c)`; stands at the `(`. The values of a structure may be arrays.
+
+        In a call `(x := y)` is an assignment, as in every expression, and no structure.
+        """
         self.i += 1
         kinds = self.kinds
         args: list[ast.Argument] = []
@@ -323,7 +326,7 @@ class ExpressionParser(Core):
             return args
         self.depth += 1
         while True:
-            args.append(self.argument(of_structure))
+            args.append(self.argument(of_structure, of_call))
             kind = kinds[self.i]
             if kind == ",":
                 self.i += 1
@@ -359,7 +362,7 @@ class ExpressionParser(Core):
                 return False
         return False
 
-    def argument(self, of_structure: bool = False) -> ast.Argument:
+    def argument(self, of_structure: bool = False, of_call: bool = False) -> ast.Argument:
         """One actual parameter, or the initial value of a member of a structure."""
         start = self.i
         kinds = self.kinds
@@ -368,6 +371,8 @@ class ExpressionParser(Core):
             self.i = start + 2
             if kinds[self.i] in _NO_PARAMETER:
                 value = None
+            elif of_call and kinds[self.i] == "(":
+                value = self.expression()
             else:
                 value = self.bare_element() if of_structure else self.initial_value()
             return ast.Argument(
