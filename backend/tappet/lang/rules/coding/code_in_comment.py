@@ -30,7 +30,7 @@ import re
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.lexer import COMMENT, tokenize
+from tappet.lang.lexer import COMMENT, lex
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
@@ -46,16 +46,18 @@ _STATEMENT = re.compile(
 def check_unit(session: Session, unit: ast.Unit) -> None:
     """Reports the comments of a text."""
     chosen = session.options.static.codes
-    for token in tokenize(unit.source):
-        if token.kind != COMMENT:
+    source = unit.source
+    found = (entry for before in lex(source.text, source.uri).trivia.values() for entry in before)
+    for comment in found:
+        if comment.kind != COMMENT:
             continue
-        if token.text.startswith("//"):
-            inner = token.text[2:]
+        if comment.text.startswith("//"):
+            inner = comment.text[2:]
         else:
-            inner = token.text[2:-2]
+            inner = comment.text[2:-2]
             if "S1120" in chosen:
-                session.report("S1120", unit.source.uri, token.span)
-            if "S1115" in chosen and token.text.startswith("(*") and "(*" in inner:
-                session.report("S1115", unit.source.uri, token.span)
+                session.report("S1120", source.uri, comment.span)
+            if "S1115" in chosen and comment.text.startswith("(*") and "(*" in inner:
+                session.report("S1115", source.uri, comment.span)
         if "S1114" in chosen and _STATEMENT.search(inner):
-            session.report("S1114", unit.source.uri, token.span)
+            session.report("S1114", source.uri, comment.span)

@@ -38,7 +38,7 @@ from typing import TYPE_CHECKING
 from tappet.lang import ast
 from tappet.lang.rules.intervals import Interval, interval
 from tappet.lang.types import Array
-from tappet.lang.walk import bodies, own_expressions, same, statements
+from tappet.lang.walk import bodies, own_expressions, statements
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
@@ -107,29 +107,22 @@ def _check(b: Body, e: ast.Index, array: Array, known: Mapping[int, Interval]) -
 
 
 def _left_out(b: Body, s: ast.For, turns: Interval) -> None:
-    """Arrays of which the loop uses some elements by its counter, and no others."""
-    counter = _counter(s)
+    """Arrays that the loop indexes by its counter only, and all but their first or last element."""
     if s.step is not None and s.step.constant not in (1, -1):
         return
     if any(isinstance(inner, _LEAVING) for inner in statements(s.body)):
         return
-    used = [
-        e
-        for inner in statements(s.body)
-        for e in own_expressions(inner)
-        if isinstance(e, ast.Index) and isinstance(e.base.type, Array)
-    ]
-    told: list[ast.Index] = []
-    for e in used:
-        index, array = e.indices[0], e.base.type
-        assert isinstance(array, Array)
-        plain = len(e.indices) == 1 and isinstance(index, ast.Name) and index.symbol is counter
-        if not plain or len(array.bounds) != 1 or any(same(e.base, other.base) for other in told):
-            continue
-        first, last = array.bounds[0]
-        missed = (turns[0] - first, last - turns[1])
-        almost = missed != (0, 0) and all(0 <= count <= 1 for count in missed)
-        alone = all(same(e, other) for other in used if same(e.base, other.base))
-        if almost and alone:
-            told.append(e)
-            b.report("S1247", e.span, low=turns[0], high=turns[1], first=first, last=last)
+    uses: dict[int, list[ast.Index]] = {}
+    for inner in statements(s.body):
+        for e in own_expressions(inner):
+            if isinstance(e, ast.Index) and isinstance(e.base, (ast.Name, ast.Member)):
+                uses.setdefault(id(e.base.symbol), []).append(e)
+    counter = _counter(s)
+    for found in uses.values():
+        array = found[0].base.type
+        plain = all(isinstance(e.indices[0], ast.Name) and e.indices[0].symbol is counter for e in found)
+        if plain and isinstance(array, Array) and len(array.bounds) == 1:
+            first, last = array.bounds[0]
+            missed = (turns[0] - first, last - turns[1])
+            if missed != (0, 0) and all(0 <= count <= 1 for count in missed):
+                b.report("S1247", found[0].span, low=turns[0], high=turns[1], first=first, last=last)

@@ -30,6 +30,7 @@ Fails:
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -76,20 +77,20 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 
 def _invariants(b: Body, s: ast.For | ast.While | ast.RepeatUntil) -> None:
     inside = list(statements(s.body))
-    written: list[int] = []
+    written: Counter[int] = Counter()
     calls = False
     for inner in inside:
         for target in _targets(inner):
             place = root(target)
             if not isinstance(place, ast.Name):
                 return  # through a pointer: any variable
-            written.append(id(place.symbol))
+            written[id(place.symbol)] += 1
         calls = calls or any(
             isinstance(e, ast.Call) and not isinstance(e.target, BuiltinSymbol)
             for e in own_expressions(inner)
         )
     if isinstance(s, ast.For) and isinstance(s.variable, ast.Name):
-        written.append(id(s.variable.symbol))
+        written[id(s.variable.symbol)] += 1
     steady = _OWN if calls else _OWN | _HELD
     read = {id(e.symbol) for e in expressions(*_controls(s)) if isinstance(e, ast.Name)}
     for one in s.body:
@@ -98,7 +99,7 @@ def _invariants(b: Body, s: ast.For | ast.While | ast.RepeatUntil) -> None:
         if isinstance(one, ast.Assign) and one.op == ":=" and isinstance(one.target, ast.Name):
             key = id(one.target.symbol)
             constant = _same_each_turn(one.value, written, steady)
-            if constant and written.count(key) == 1 and key not in read and _plain(one.target, steady):
+            if constant and written[key] == 1 and key not in read and _plain(one.target, steady):
                 b.report("S1244", one.span, name=one.target.name)
         read |= {id(e.symbol) for inner in statements([one]) for e in own_expressions(inner)
                  if isinstance(e, ast.Name)}  # fmt: skip
@@ -136,7 +137,7 @@ def _plain(e: ast.Name, steady: frozenset[Storage]) -> bool:
     )
 
 
-def _same_each_turn(e: ast.Expr, written: list[int], steady: frozenset[Storage]) -> bool:
+def _same_each_turn(e: ast.Expr, written: Counter[int], steady: frozenset[Storage]) -> bool:
     operators: set[int] = set()
     for part in expressions(e):
         if isinstance(part, ast.Call):
