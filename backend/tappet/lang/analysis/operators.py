@@ -12,7 +12,9 @@ from tappet.lang.analysis.adaptation import adapt_choice, complain, retype
 from tappet.lang.analysis.context import Body
 from tappet.lang.types import Elementary, Kind, Type
 
-COMPARISONS = frozenset({"=", "<>", "<", ">", "<=", ">="})
+_ORDER = frozenset({"<", ">", "<=", ">="})
+COMPARISONS = _ORDER | {"=", "<>"}
+_NUMBERS = frozenset({Kind.BITS, Kind.SIGNED, Kind.UNSIGNED, Kind.REAL})
 _LONG_DATES = frozenset({"LDATE", "LTIME_OF_DAY", "LDATE_AND_TIME"})
 _DAYS = (t.DATE, t.LDATE)
 """Dates without time of day: there is nothing a duration could be added to."""
@@ -311,7 +313,7 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
             elif meeting.warnings != ("", ""):
                 _warn(b, e, left, right, meeting)
             return
-        if _bool_with_number(e, left, right, lt, rt):
+        if _bool_with_number(b, e, left, right, lt, rt):
             return
     elif isinstance(lt, t.String) and isinstance(rt, t.String) and lt.wide == rt.wide:
         e.operand_type = lt if lt.length >= rt.length else rt
@@ -321,8 +323,16 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
     _incompatible(b, e, left, right)
 
 
-def _bool_with_number(e: ast.Binary, left: ast.Expr, right: ast.Expr, lt: Elementary, rt: Elementary) -> bool:
-    """`20 > 30 > 40`: a BOOL counts as 0 or 1 against a literal (LOPR-50)."""
+def _bool_with_number(
+    b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr, lt: Elementary, rt: Elementary
+) -> bool:
+    """`a < b < c`: the result of a comparison counts as 0 or 1; a BOOL does against a literal (LOPR-50)."""
+    chained = e.op in _ORDER and isinstance(left, ast.Binary) and left.op in _ORDER
+    if chained and lt is t.BOOL and rt.kind in _NUMBERS:
+        e.operand_type = rt
+        if not right.is_constant:
+            b.report("W1146", e.span, op=e.op, type=rt)
+        return True
     for side, own, other in ((left, rt, lt), (right, lt, rt)):
         if side.untyped and other.is_integer and own is t.BOOL and isinstance(side.constant, int):
             e.operand_type = t.LINT
