@@ -153,6 +153,7 @@ class BuildSession:
         """Objects in memory, and in `folder` unless it is None."""
         if folder not in self.objects:
             self.objects = {folder: ObjectCache(folder)}
+            self.objects[folder].trim()
         return self.objects[folder]
 
     def parse_all(self, sources: Sequence[Source], options: ParseOptions) -> list[ParseResult]:

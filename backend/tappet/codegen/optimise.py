@@ -7,6 +7,7 @@ import os
 import tempfile
 import threading
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -155,13 +156,16 @@ class ObjectCache:
         self.memory = {name: data for name, data in self.memory.items() if name in names}
 
     def trim(self) -> None:
-        """Remove the objects used longest ago until the cache fits its limit."""
-        if self.folder is None or not self.folder.is_dir():
-            return
-        files = [(f.stat().st_mtime, f.stat().st_size, f) for f in self.folder.glob("??/*") if f.is_file()]
+        """Remove the oldest objects until the folder fits its limit; other processes may do so too."""
+        files = []
+        for file in self.folder.glob("??/*") if self.folder is not None else ():
+            with suppress(OSError):
+                found = file.stat()
+                files.append((found.st_mtime, found.st_size, file))
         total = sum(size for _, size, _ in files)
         for _, size, file in sorted(files):
             if total <= self.limit:
                 break
-            file.unlink(missing_ok=True)
+            with suppress(OSError):
+                file.unlink()
             total -= size
