@@ -71,6 +71,9 @@ def test_code_that_a_loop_repeats(body: str, lines: list[int]) -> None:
         ("FOR i := 0 TO 10 BY 3 DO a[i] := 0; END_FOR", []),  # 9 is the last
         ("FOR i := 9 TO 0 BY -1 DO n := n + a[i - 1]; END_FOR", ["S1246"]),
         ("FOR i := 0 TO 9 DO IF i > 0 THEN n := a[i - 1]; END_IF END_FOR", []),  # the condition keeps it in
+        ("FOR i := 0 TO 9 DO n := SEL(i > 0, 0, a[i - 1]); END_FOR", []),
+        ("FOR i := 0 TO 9 DO bDone := i > 0 AND_THEN a[i - 1] = 2; END_FOR", []),
+        ("FOR i := 0 TO 9 DO bDone := i > 0 AND a[i - 1] = 2; END_FOR", ["S1246"]),
         ("FOR i := 0 TO 9 DO IF i = 9 THEN EXIT; END_IF n := a[i + 1]; END_FOR", []),
         ("FOR i := 0 TO 9 DO n := a[i * 2]; END_FOR", ["S1246"]),
         ("FOR i := 0 TO 9 DO i := i + 1; n := a[i - 1]; END_FOR", []),  # not known any more

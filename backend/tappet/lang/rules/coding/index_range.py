@@ -1,8 +1,8 @@
 """The indices of a loop stay inside its array, and do not stop one short of its ends.
 
-What an index can be is known from constant bounds of the loop, subranges, MOD, AND, LIMIT; below a condition
-inside the loop nothing is said, as the condition may keep the index inside. W1125 tells of the plain loop
-variable.
+What an index can be is known from constant bounds of the loop, subranges, MOD, AND, LIMIT; behind a condition
+inside the loop (IF, AND_THEN, SEL) nothing is said of the loop variable, as the condition may keep the index
+inside. W1125 tells of the plain loop variable.
 
 Source: spec LTYP-150; coding guidelines of PLCopen, L10; CODESYS Static Analysis SA0172, SA0180.
 
@@ -37,8 +37,9 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.rules.intervals import Interval, interval
+from tappet.lang.symbols import BuiltinSymbol
 from tappet.lang.types import Array
-from tappet.lang.walk import bodies, own_expressions, statements
+from tappet.lang.walk import bodies, expressions, own_expressions, statements
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
@@ -56,9 +57,11 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 def _body(b: Body, chosen: frozenset[str], body: list[ast.Stmt], known: Mapping[int, Interval]) -> None:
     for s in body:
         if "S1246" in chosen:
-            for e in own_expressions(s):
+            found = list(own_expressions(s))
+            guarded = {id(inner) for e in found for inner in expressions(*_guarded(e))}
+            for e in found:
                 if isinstance(e, ast.Index) and isinstance(e.base.type, Array):
-                    _check(b, e, e.base.type, known)
+                    _check(b, e, e.base.type, {} if id(e) in guarded else known)
         if isinstance(s, ast.For):
             turns = _turns(s)
             if turns is not None and "S1247" in chosen:
@@ -69,6 +72,15 @@ def _body(b: Body, chosen: frozenset[str], body: list[ast.Stmt], known: Mapping[
         else:
             for part in bodies(s):
                 _body(b, chosen, part, {})
+
+
+def _guarded(e: ast.Expr) -> list[ast.Expr]:
+    """What is evaluated only if the rest of an expression wants it: that may ask if the index is inside."""
+    if isinstance(e, ast.Binary) and e.op in ("AND_THEN", "OR_ELSE"):
+        return [e.right]
+    if isinstance(e, ast.Call) and isinstance(e.target, BuiltinSymbol) and e.target.name in ("SEL", "MUX"):
+        return [arg.value for arg in e.args[1:] if arg.value is not None]
+    return []
 
 
 def _counter(s: ast.For) -> object:
