@@ -11,13 +11,14 @@ from tappet.project.exchange import twincat
 from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
 from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml, shared_pages
-from tappet.project.exchange.drafts import Batch, task_configuration
+from tappet.project.exchange.drafts import Batch, Draft, task_configuration
 from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
 from tappet.project.exchange.placing import Place, empty_project, place
 from tappet.project.exchange.plcopen_read import read_plcopen
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.split_text import split_text
 from tappet.project.exchange.standard_tasks import read_configurations
+from tappet.project.exchange.text_tree import folders_of, is_member, owner_paths, read_member, unmarked
 from tappet.project.exchange.twincat_project import read_project
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.model import Project
@@ -96,18 +97,30 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
         except ExchangeError as error:
             _failed(path, error, report, failures)
             used.add(path)
-    pages = shared_pages(files[path] for path in sorted(files) if path.lower().endswith(_TEXT_ENDINGS))
-    for path in sorted(files):
-        if path in used:
-            continue
+    rest = {path: content for path, content in files.items() if path not in used}
+    pages = shared_pages(rest[path] for path in sorted(rest) if path.lower().endswith(_TEXT_ENDINGS))
+    owners = owner_paths(rest)
+    folders = folders_of([path for path in rest if path.lower().endswith(".st")])
+    for path in sorted(rest, key=lambda path: (path in owners, path)):  # members behind their blocks
         if projects and path.lower().endswith(twincat.ENDINGS):
             report.add("refused", path, "no .plcproj lists this file, so it is not part of the project")
             continue
         try:
-            _read(path, files[path], pages, batch, report)
+            _read(path, rest[path], pages, batch, report, folders.get(path, ()), owners.get(path))
         except ExchangeError as error:
             _failed(path, error, report, failures)
     return failures
+
+
+def _owner(path: str | None, folder: tuple[str, ...], batch: Batch) -> Draft | None:
+    """The block or interface of a file that has the name of the file."""
+    if path is None:
+        return None
+    name = posixpath.splitext(posixpath.basename(path))[0].casefold()
+    for draft in batch.loose.below(folder).children:
+        if draft.source == path and draft.name.casefold() == name and draft.kind in ("pou", "interface"):
+            return draft
+    return None
 
 
 def _failed(path: str, error: ExchangeError, report: ImportReport, failures: list[ExchangeError]) -> None:
@@ -115,8 +128,19 @@ def _failed(path: str, error: ExchangeError, report: ImportReport, failures: lis
     report.add("refused", path, str(error).partition(": ")[2], line=error.line)
 
 
-def _read(path: str, content: bytes, pages: tuple[str, ...], batch: Batch, report: ImportReport) -> None:
-    """Read one file by its ending; XML by its root. `pages` are the code pages that texts are likely in."""
+def _read(
+    path: str,
+    content: bytes,
+    pages: tuple[str, ...],
+    batch: Batch,
+    report: ImportReport,
+    folder: tuple[str, ...],
+    owner_path: str | None,
+) -> None:
+    """Read one file by its ending; XML by its root. `pages` are the code pages that texts are likely in.
+
+    Objects of texts go into `folder`. `owner_path`: the file of the block, for one named after a member.
+    """
     ending = posixpath.splitext(path)[1].lower()
     if ending in twincat.ENDINGS:
         for draft in twincat.read_object(path, content, report):
@@ -128,15 +152,23 @@ def _read(path: str, content: bytes, pages: tuple[str, ...], batch: Batch, repor
         text, encoding = decode_text(path, content, pages)
         if encoding in PAGE_NAMES:
             report.add("changed", path, f"the file is not UTF-8; it was read as {PAGE_NAMES[encoding]}")
+        owner = _owner(owner_path, folder, batch)
         if ending == ".exp" or _MARKED.search(text):
             read_export(path, text, batch, report)
+        elif owner is not None and is_member(text):
+            read_member(path, text, owner, report)
         else:
             stem = posixpath.basename(path).rsplit(".", 1)[0]
-            split = split_text(path, text, report, list_name=stem)
+            parted = unmarked(text)
+            ends, marked = parted.declaration_ends, parted.marked
+            split = split_text(
+                path, parted.text, report, list_name=stem, declaration_ends=ends, open_ended=marked
+            )
             drafts = split.drafts()
             for draft in drafts:
                 mark_without_result(draft, report)
-            batch.loose.children += drafts
+            if drafts:
+                batch.loose.below(folder, path).children += drafts
             read_configurations(split, batch.loose, report)
     else:
         raise ExchangeError(path, f"files of this kind are not read; possible are {', '.join(ENDINGS)}")

@@ -73,18 +73,26 @@ def split_text(
     list_name: str = "Globals",
     declaration_ends: tuple[int, ...] = (),
     list_names: tuple[tuple[int, str], ...] = (),
+    owner: Draft | None = None,
+    open_ended: bool = False,
 ) -> SplitText:
-    """The objects of a text. `list_name` names global variable lists that have no name in `list_names`."""
+    """The objects of a text. `list_name` names global variable lists that have no name in `list_names`.
+
+    Methods, properties and actions that stand alone go below `owner`. `open_ended`: the text holds one
+    object, which ends with it and needs no closing keyword.
+    """
     split = SplitText(source, text, report, declaration_ends, list_names)
-    _Splitter(split, list_name).run()
+    _Splitter(split, list_name, owner, open_ended).run()
     return split
 
 
 class _Splitter:
-    def __init__(self, split: SplitText, list_name: str) -> None:
+    def __init__(self, split: SplitText, list_name: str, owner: Draft | None, open_ended: bool) -> None:
         self.split = split
         self.text = split.text
         self.list_name = list_name
+        self.owner = owner
+        self.open_ended = open_ended
         self.scan: list[Word] = list(words(split.text))
         self.i = 0
         self.end = 0
@@ -204,7 +212,7 @@ class _Splitter:
         draft = Draft("pou", name, source=self.split.source, line=self.split.line(head), children=children)
         draft.data = self._parts(pieces, head)
         self.split.heads.append((head, draft))
-        if not closed:
+        if not closed and not self.open_ended:
             self._note("changed", f"{ends[0]} is missing; the object ends where the next begins", word, name)
 
     def _parts(self, pieces: list[tuple[int, int]], head: int) -> dict[str, object]:
@@ -286,7 +294,7 @@ class _Splitter:
         """A child behind the end of its POU, as CoDeSys exports actions."""
         self.end = max(self.end, self._child_start(self.i)) if not self.split.heads else self.end
         child = self._child(word)
-        owner = next((item for _, item in reversed(self.split.heads) if item.kind == "pou"), None)
+        owner = self.owner or next((o for _, o in reversed(self.split.heads) if o.kind == "pou"), None)
         if owner is not None:
             owner.children.append(child)
         else:
@@ -369,7 +377,7 @@ class _Splitter:
                 return word.start
             self.i += 1
         self.end = len(self.text)
-        if opened is not None:
+        if opened is not None and not self.open_ended:
             self._note("changed", f"{ends[0]} is missing; the object ends with the file", opened)
         return self.end
 
