@@ -84,7 +84,8 @@ export const STATEMENT_KEYWORDS = [
 
 export const OPERATOR_KEYWORDS = ['AND', 'OR', 'XOR', 'NOT', 'MOD', 'AND_THEN', 'OR_ELSE'] as const;
 
-export const ELEMENTARY_TYPES = [
+/** Types whose literals are numbers, or TRUE and FALSE. */
+export const NUMERIC_TYPES = [
   'BOOL',
   'BYTE',
   'WORD',
@@ -100,6 +101,10 @@ export const ELEMENTARY_TYPES = [
   'ULINT',
   'REAL',
   'LREAL',
+] as const;
+
+export const ELEMENTARY_TYPES = [
+  ...NUMERIC_TYPES,
   'STRING',
   'WSTRING',
   'TIME',

@@ -4,6 +4,7 @@
  * The editors need the places of things in a text while it is being typed: the declaration table edits cells
  * in place, monitoring puts values behind variables. It never fails; what it does not know becomes `other`.
  */
+import { NUMERIC_TYPES } from './keywords';
 
 export type TokenKind =
   | 'word' // identifier or keyword
@@ -53,23 +54,7 @@ const DATE_PREFIXES = new Set([
   'LDT',
   'LDATE_AND_TIME',
 ]);
-const NUMERIC_PREFIXES = new Set([
-  'BOOL',
-  'BYTE',
-  'WORD',
-  'DWORD',
-  'LWORD',
-  'SINT',
-  'INT',
-  'DINT',
-  'LINT',
-  'USINT',
-  'UINT',
-  'UDINT',
-  'ULINT',
-  'REAL',
-  'LREAL',
-]);
+const NUMERIC_PREFIXES: ReadonlySet<string> = new Set(NUMERIC_TYPES);
 
 /** End of the match of a sticky expression at `at`, or -1. */
 function matchAt(expression: RegExp, text: string, at: number): number {
