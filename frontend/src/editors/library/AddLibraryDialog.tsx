@@ -1,6 +1,7 @@
 import { useState } from 'react';
 import type { LibraryReference, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
+import { descriptionColumn, nameColumn } from '@/workbench/libraries/columns';
 import { search } from '@/workbench/palette/match';
 import { Button } from '@/workbench/ui/Button';
 import { Dialog } from '@/workbench/ui/Dialog';
@@ -40,13 +41,7 @@ export function AddLibraryDialog({ references, installed, close }: AddLibraryPro
   const choose = (library: LibrarySummary) => setDraft(freshReference(library, references, installed));
 
   const columns: Column<LibrarySummary>[] = [
-    {
-      id: 'name',
-      title: t('library.name'),
-      width: 150,
-      sort: (one) => one.name,
-      cell: (one) => <span>{one.name}</span>,
-    },
+    nameColumn(t),
     {
       id: 'versions',
       title: t('libraries.versions'),
@@ -60,14 +55,7 @@ export function AddLibraryDialog({ references, installed, close }: AddLibraryPro
       width: 60,
       cell: (one) => <span>{taken.has(one.name.toUpperCase()) ? t('libraries.yes') : ''}</span>,
     },
-    {
-      id: 'description',
-      title: t('libraries.description'),
-      width: 160,
-      grow: true,
-      hint: (one) => one.description,
-      cell: (one) => <span>{one.description}</span>,
-    },
+    descriptionColumn(t, 160),
   ];
   return (
     <Dialog

@@ -12,6 +12,7 @@ import { Dialog } from '../ui/Dialog';
 import { Empty, Failed, Loading } from '../ui/Empty';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
+import { descriptionColumn, nameColumn } from './columns';
 import styles from './Libraries.module.css';
 import { idOf } from './model';
 import { useLibraries } from './useLibraries';
@@ -57,13 +58,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
   };
 
   const columns: Column<LibrarySummary>[] = [
-    {
-      id: 'name',
-      title: t('library.name'),
-      width: 150,
-      sort: (one) => one.name,
-      cell: (one) => <span>{one.name}</span>,
-    },
+    nameColumn(t),
     {
       id: 'version',
       title: t('library.version'),
@@ -85,14 +80,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
       cell: (one) => <span>{one.requires.map((required) => required.name).join(', ')}</span>,
       hint: (one) => one.requires.map((required) => `${required.name} ${required.version}`).join(', '),
     },
-    {
-      id: 'description',
-      title: t('libraries.description'),
-      width: 180,
-      grow: true,
-      cell: (one) => <span>{one.description}</span>,
-      hint: (one) => one.description,
-    },
+    descriptionColumn(t, 180),
   ];
   return (
     <Dialog
