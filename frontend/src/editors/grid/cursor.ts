@@ -1,4 +1,5 @@
 /** Cursor and selection of editable tables. Pure functions. */
+import { toggledIn } from '@/workbench/toggleSet';
 
 export interface GridCursor {
   readonly row: number;
@@ -50,11 +51,7 @@ export function selectionAfter(
   how: 'one' | 'toggle' | 'range',
 ): ReadonlySet<number> {
   if (how === 'one') return new Set([row]);
-  if (how === 'toggle') {
-    const next = new Set(before);
-    if (!next.delete(row)) next.add(row);
-    return next;
-  }
+  if (how === 'toggle') return toggledIn(before, row);
   const from = anchor ?? row;
   const low = Math.min(from, row);
   return new Set(Array.from({ length: Math.abs(from - row) + 1 }, (_, i) => low + i));

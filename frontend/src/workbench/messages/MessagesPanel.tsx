@@ -1,25 +1,25 @@
-import { CircleCheck, CircleX, Hammer, Info, ListX, TriangleAlert } from 'lucide-react';
+import { CircleCheck, Hammer, ListX } from 'lucide-react';
 import { useMemo, useState, type KeyboardEvent } from 'react';
 import type { Diagnostic, Severity } from '@/api/types';
 import { useText } from '@/i18n';
 import { useRegistry } from '../commands';
 import { runCommand } from '../run';
+import { useToggleSet } from '../toggleSet';
 import { Button, IconButton } from '../ui/Button';
 import { Empty } from '../ui/Empty';
-import { TextInput } from '../ui/Field';
-import { FilterToggle } from '../ui/FilterToggle';
 import { ContextMenu } from '../ui/Menu';
 import { activeDescendant, openMenuAt } from '../ui/menuKey';
+import { Panel, PanelBar, PanelRest } from '../ui/Panel';
 import type { Column } from '../ui/table';
 import { Table } from '../ui/Table';
 import { jumpTo } from './jump';
 import { messageEntries } from './messageMenu';
 import styles from './Messages.module.css';
+import { SeverityFilter } from './SeverityFilter';
+import { SeverityIcon } from './SeverityIcon';
 import { bytesText, clearMessages, countOf, pathParts, presentMessages, setCurrent, useMessages } from './store';
 
-const ICONS = { error: CircleX, warning: TriangleAlert, info: Info };
 const RANK: Record<Severity, number> = { error: 0, warning: 1, info: 2 };
-const SEVERITIES: readonly Severity[] = ['error', 'warning', 'info'];
 
 interface Line {
   message: Diagnostic;
@@ -30,7 +30,7 @@ interface Line {
 export default function MessagesPanel() {
   const t = useText();
   const { build, live, current } = useMessages();
-  const [hidden, setHidden] = useState<ReadonlySet<Severity>>(new Set());
+  const [hidden, toggle] = useToggleSet<Severity>();
   const [search, setSearch] = useState('');
   const all = useMemo(() => presentMessages(build, live), [build, live]);
   const count = useMemo(() => countOf(all), [all]);
@@ -42,12 +42,6 @@ export default function MessagesPanel() {
       .map((message, at): Line => ({ message, key: String(at) }));
   }, [all, hidden, search]);
 
-  const toggle = (severity: Severity) => {
-    const next = new Set(hidden);
-    if (!next.delete(severity)) next.add(severity);
-    setHidden(next);
-  };
-
   const columns: Column<Line>[] = useMemo(
     () => [
       {
@@ -55,10 +49,7 @@ export default function MessagesPanel() {
         title: '',
         width: 30,
         sort: ({ message: line }) => RANK[line.severity],
-        cell: ({ message: line }) => {
-          const Icon = ICONS[line.severity];
-          return <Icon size={15} className={styles[line.severity]} aria-label={t(`severity.${line.severity}`)} />;
-        },
+        cell: ({ message: line }) => <SeverityIcon severity={line.severity} alone />,
       },
       {
         id: 'code',
@@ -118,24 +109,9 @@ export default function MessagesPanel() {
   };
 
   return (
-    <div className={styles.view}>
-      <div className={styles.bar}>
-        {SEVERITIES.map((severity) => {
-          const Icon = ICONS[severity];
-          return (
-            <FilterToggle key={severity} shown={!hidden.has(severity)} onToggle={() => toggle(severity)}>
-              <Icon size={14} className={styles[severity]} aria-hidden />
-              {t(`messages.${severity}`, { count: count[severity] })}
-            </FilterToggle>
-          );
-        })}
-        <TextInput
-          className={styles.search}
-          value={search}
-          onValue={setSearch}
-          placeholder={t('messages.search')}
-          aria-label={t('messages.search')}
-        />
+    <Panel>
+      <PanelBar>
+        <SeverityFilter count={count} hidden={hidden} toggle={toggle} search={search} onSearch={setSearch} />
         <IconButton
           small
           icon={ListX}
@@ -148,8 +124,8 @@ export default function MessagesPanel() {
             {summary(build.applicationName, build.report, t)}
           </span>
         )}
-      </div>
-      <div className={styles.table}>
+      </PanelBar>
+      <PanelRest>
         <ContextMenu entries={entries}>
           <div className={styles.rows}>
             <Table
@@ -165,8 +141,8 @@ export default function MessagesPanel() {
             />
           </div>
         </ContextMenu>
-      </div>
-    </div>
+      </PanelRest>
+    </Panel>
   );
 }
 

@@ -1,26 +1,25 @@
 import { useQuery } from '@tanstack/react-query';
-import { CircleX, Download, Info, LogIn, ScrollText, TriangleAlert } from 'lucide-react';
+import { Download, LogIn, ScrollText } from 'lucide-react';
 import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
-import type { LogEntry } from '@/api/types';
+import type { LogEntry, Severity } from '@/api/types';
 import { useText } from '@/i18n';
 import { millisecondText } from '../clock';
 import { saveBlob } from '../downloadFile';
-import messages from '../messages/Messages.module.css';
+import { SeverityFilter } from '../messages/SeverityFilter';
+import { SeverityIcon } from '../messages/SeverityIcon';
 import { runCommand } from '../run';
+import { useToggleSet } from '../toggleSet';
 import { Button, IconButton } from '../ui/Button';
 import { Empty, Failed, Loading } from '../ui/Empty';
-import { TextInput } from '../ui/Field';
-import { FilterToggle } from '../ui/FilterToggle';
+import { Panel, PanelBar, PanelRest } from '../ui/Panel';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
-import { levelOf, logCsv, merged, shownEntries, type LogLevel } from './log';
+import { countByLevel, levelOf, logCsv, merged, shownEntries } from './log';
 import { useActiveSession } from './session';
 
 const POLL_MS = 2000;
-const ICONS = { error: CircleX, warning: TriangleAlert, info: Info };
-const LEVELS: readonly LogLevel[] = ['error', 'warning', 'info'];
 
 /** The runtime's log, newest first. */
 export default function LogPanel() {
@@ -41,7 +40,7 @@ export default function LogPanel() {
 
 function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
   const t = useText();
-  const [hidden, setHidden] = useState<ReadonlySet<LogLevel>>(new Set());
+  const [hidden, toggle] = useToggleSet<Severity>();
   const [search, setSearch] = useState('');
   const [selected, setSelected] = useState<string | null>(null);
   const { data, error, refetch } = useQuery({
@@ -63,11 +62,7 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
         id: 'level',
         title: '',
         width: 30,
-        cell: (entry) => {
-          const level = levelOf(entry.severity);
-          const Icon = ICONS[level];
-          return <Icon size={15} className={messages[level]} aria-label={t(`severity.${level}`)} />;
-        },
+        cell: (entry) => <SeverityIcon severity={levelOf(entry.severity)} alone />,
       },
       {
         id: 'at',
@@ -90,30 +85,15 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
   if (error && !data) return <Failed error={error} retry={() => void refetch()} />;
   if (!data) return <Loading />;
 
-  const toggle = (level: LogLevel) => {
-    const next = new Set(hidden);
-    if (!next.delete(level)) next.add(level);
-    setHidden(next);
-  };
-
   return (
-    <div className={messages.view}>
-      <div className={messages.bar}>
-        {LEVELS.map((level) => {
-          const Icon = ICONS[level];
-          return (
-            <FilterToggle key={level} shown={!hidden.has(level)} onToggle={() => toggle(level)}>
-              <Icon size={14} className={messages[level]} aria-hidden />
-              {t(`messages.${level}`, { count: data.filter((entry) => levelOf(entry.severity) === level).length })}
-            </FilterToggle>
-          );
-        })}
-        <TextInput
-          className={messages.search}
-          value={search}
-          onValue={setSearch}
-          placeholder={t('messages.search')}
-          aria-label={t('messages.search')}
+    <Panel>
+      <PanelBar>
+        <SeverityFilter
+          count={countByLevel(data)}
+          hidden={hidden}
+          toggle={toggle}
+          search={search}
+          onSearch={setSearch}
         />
         <IconButton
           small
@@ -122,8 +102,8 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
           disabledReason={lines.length ? null : t('log.empty')}
           onClick={() => saveBlob(new Blob([logCsv(lines)], { type: 'text/csv' }), `${name}-log.csv`)}
         />
-      </div>
-      <div className={messages.table}>
+      </PanelBar>
+      <PanelRest>
         <Table
           label={t('panel.log')}
           items={lines}
@@ -133,7 +113,7 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
           onSelect={(entry) => setSelected(entry && String(entry.id))}
           empty={<Empty title={t(data.length ? 'messages.filtered' : 'log.empty')} />}
         />
-      </div>
-    </div>
+      </PanelRest>
+    </Panel>
   );
 }

@@ -1,15 +1,20 @@
 /** The log as data. Pure functions. */
-import type { LogEntry } from '@/api/types';
-
-export type LogLevel = 'error' | 'warning' | 'info';
+import type { LogEntry, Severity } from '@/api/types';
 
 const MOST = 5000;
 
 /** Runtimes name severities in their own words. */
-export function levelOf(severity: string): LogLevel {
+export function levelOf(severity: string): Severity {
   const text = severity.toLowerCase();
   if (text.startsWith('err') || text.startsWith('exc') || text.startsWith('crit')) return 'error';
   return text.startsWith('warn') ? 'warning' : 'info';
+}
+
+/** How many lines there are of each severity. */
+export function countByLevel(entries: readonly LogEntry[]): Record<Severity, number> {
+  const count = { error: 0, warning: 0, info: 0 };
+  for (const entry of entries) count[levelOf(entry.severity)]++;
+  return count;
 }
 
 /** Known lines and new ones, each once; the oldest fall out of a very long log. A smaller id means a new log began. */
@@ -19,7 +24,7 @@ export function merged(known: readonly LogEntry[], fresh: readonly LogEntry[]): 
 }
 
 /** Newest first, without the hidden levels, with the searched text. */
-export function shownEntries(entries: readonly LogEntry[], hidden: ReadonlySet<LogLevel>, search: string): LogEntry[] {
+export function shownEntries(entries: readonly LogEntry[], hidden: ReadonlySet<Severity>, search: string): LogEntry[] {
   const wanted = search.trim().toLowerCase();
   return entries
     .filter((entry) => !hidden.has(levelOf(entry.severity)))
