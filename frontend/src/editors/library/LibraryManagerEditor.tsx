@@ -9,6 +9,7 @@ import { LibraryTree } from '@/workbench/libraries/LibraryTree';
 import { idOf } from '@/workbench/libraries/model';
 import { useLibraries } from '@/workbench/libraries/useLibraries';
 import { runCommand } from '@/workbench/run';
+import { useToggleSet } from '@/workbench/toggleSet';
 import { Button, IconButton } from '@/workbench/ui/Button';
 import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
 import { Table } from '@/workbench/ui/Table';
@@ -25,7 +26,7 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
   const draft = useDraft<LibraryManagerData>(panelId, projectId, objectId, () => true);
   const installed = useLibraries();
   const [selected, setSelected] = useState<string | null>(null);
-  const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
+  const [open, toggle] = useToggleSet<string>();
   const [shown, setShown] = useState<{ library: string; item: LibraryItem | null } | null>(null);
   const libraries = useMemo(() => installed.data ?? [], [installed.data]);
   const references = useMemo(() => draft.data?.references ?? [], [draft.data]);
@@ -65,11 +66,6 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
     if (edited) changeAt(at, edited);
   };
   const remove = () => change(references.filter((_, at) => at !== chosen?.at));
-  const toggle = (key: string) => {
-    const next = new Set(open);
-    if (!next.delete(key)) next.add(key);
-    setOpen(next);
-  };
   const none = !chosen ? t('library.chooseOne') : chosen.at === null ? t('libraries.comesAlong') : null;
   const library = chosen?.library ?? null;
   const columns = referenceColumns({

@@ -1,10 +1,11 @@
-import { ChevronRight, TriangleAlert } from 'lucide-react';
+import { TriangleAlert } from 'lucide-react';
 import { useState } from 'react';
 import type { LibraryReference, LibrarySummary } from '@/api/types';
 import { t } from '@/i18n';
 import { objectIcon } from '@/icons/objects';
 import { Select } from '@/workbench/ui/Field';
 import type { Column } from '@/workbench/ui/table';
+import { Twist } from '@/workbench/ui/Twist';
 import styles from './LibraryManager.module.css';
 import { namespaceFault, namespaceOf, type ReferenceRow } from './model';
 import { versionChoices } from './ReferenceFields';
@@ -32,18 +33,16 @@ export function referenceColumns(options: ColumnOptions): Column<ReferenceRow>[]
       cell: (row) => (
         <>
           <span style={{ width: (row.level - 1) * 16, flex: 'none' }} />
-          <span
-            className={styles.twist}
-            data-open={open.has(row.key) ? '' : undefined}
+          <Twist
+            open={open.has(row.key)}
+            expandable={row.expandable}
             role={row.expandable ? 'button' : undefined}
             aria-label={row.expandable ? t('libraries.requiredBy', { name: row.name }) : undefined}
             onPointerDown={(event) => {
               event.stopPropagation();
               if (row.expandable) toggle(row.key);
             }}
-          >
-            {row.expandable && <ChevronRight size={14} strokeWidth={1.75} />}
-          </span>
+          />
           {row.library ? (
             <Icon size={15} />
           ) : (

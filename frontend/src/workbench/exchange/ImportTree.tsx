@@ -1,9 +1,11 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { Check, ChevronRight, Minus } from 'lucide-react';
+import { Check, Minus } from 'lucide-react';
 import { useId, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import type { ObjectKind } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
+import { useToggleSet } from '../toggleSet';
+import { Twist } from '../ui/Twist';
 import { checkedOf, nodeRows, toggled, type Checked, type NodeForest, type NodeRow } from './model';
 import styles from './Exchange.module.css';
 
@@ -22,7 +24,7 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
   const t = useText();
   const id = useId();
   const scroll = useRef<HTMLDivElement>(null);
-  const [closed, setClosed] = useState<ReadonlySet<string>>(new Set());
+  const [closed, toggleClosed] = useToggleSet<string>();
   const [focused, setFocused] = useState(0);
   const rows = useMemo(() => nodeRows(forest, closed, search), [forest, closed, search]);
   const checked = useMemo(() => checkedOf(forest, chosen), [forest, chosen]);
@@ -39,10 +41,7 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
     virtual.scrollToIndex(next);
   };
   const twist = (row: NodeRow) => {
-    if (!row.expandable) return;
-    const next = new Set(closed);
-    if (!next.delete(row.node.key)) next.add(row.node.key);
-    setClosed(next);
+    if (row.expandable) toggleClosed(row.node.key);
   };
   const onKeyDown = (event: KeyboardEvent) => {
     const row = rows[at];
@@ -86,9 +85,7 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
               onPointerDown={() => setFocused(index)}
               onDoubleClick={() => twist(row)}
             >
-              <span className={styles.twist} data-open={row.expanded ? '' : undefined} onClick={() => twist(row)}>
-                {row.expandable && <ChevronRight size={14} strokeWidth={1.75} />}
-              </span>
+              <Twist open={row.expanded} expandable={row.expandable} onClick={() => twist(row)} />
               <span
                 className={styles.box}
                 data-state={state}

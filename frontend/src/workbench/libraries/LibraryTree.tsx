@@ -1,10 +1,9 @@
-import { ChevronRight } from 'lucide-react';
 import { useId, useRef, useState, type KeyboardEvent } from 'react';
 import type { LibraryItem, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
 import { findTyped, moveFocus, type Motion, type Row } from '../tree/model';
-import treeStyles from '../tree/Tree.module.css';
+import { Twist } from '../ui/Twist';
 import { groupsOf, idOf, objectKindOf } from './model';
 import styles from './Libraries.module.css';
 import { useContents } from './useLibraries';
@@ -185,14 +184,12 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
             node.expandable ? toggle(node.id, !isOpen(node)) : onOpen?.(node.library, node.item ?? null)
           }
         >
-          <span
-            className={treeStyles.twist}
-            data-open={isOpen(node) ? '' : undefined}
+          <Twist
+            open={isOpen(node)}
+            expandable={node.expandable}
             onClick={() => node.expandable && toggle(node.id, !isOpen(node))}
             onDoubleClick={(event) => event.stopPropagation()}
-          >
-            {node.expandable && <ChevronRight size={14} strokeWidth={1.75} />}
-          </span>
+          />
           <NodeIcon node={node} />
           <span>{node.name}</span>
           {node.detail && <span className={styles.muted}>{node.detail}</span>}

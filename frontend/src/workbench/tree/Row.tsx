@@ -1,4 +1,4 @@
-import { ChevronRight, CloudUpload, Zap } from 'lucide-react';
+import { CloudUpload, Zap } from 'lucide-react';
 import { useRef, useState, type KeyboardEvent } from 'react';
 import type { LoginRelation, ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
@@ -7,6 +7,7 @@ import { displayName } from '../objectName';
 import type { OnlineTone } from '../onlineSession';
 import { Floating } from '../ui/Floating';
 import { ToneDot } from '../ui/ToneDot';
+import { Twist } from '../ui/Twist';
 import type { Mark } from './marks';
 import type { Row } from './model';
 import styles from './Tree.module.css';
@@ -58,17 +59,15 @@ export function TreeRow({
         <span key={level} className={styles.guide} style={{ left: indentOf(level + 1) + 8 }} />
       ))}
       <span style={{ width: indentOf(row.level) - 6, flex: 'none' }} />
-      <span
-        className={styles.twist}
-        data-open={row.expanded ? '' : undefined}
+      <Twist
+        open={row.expanded}
+        expandable={row.expandable}
         onClick={(event) => {
           event.stopPropagation();
           onTwist();
         }}
         onDoubleClick={(event) => event.stopPropagation()}
-      >
-        {row.expandable && <ChevronRight size={14} strokeWidth={1.75} />}
-      </span>
+      />
       <span className={styles.icon}>
         <ObjectIcon kind={object.kind} subkind={object.subkind} name={object.name} />
       </span>
