@@ -6,10 +6,12 @@ import type { Access } from '@/lsp/symbols';
 import { openObject } from '@/workbench/docking/dock';
 import { guard } from '@/workbench/notices';
 import { useProject } from '@/workbench/project';
+import { useToggleSet } from '@/workbench/toggleSet';
 import { IconButton } from '@/workbench/ui/Button';
 import { Empty } from '@/workbench/ui/Empty';
 import { TextInput } from '@/workbench/ui/Field';
 import { FilterToggle } from '@/workbench/ui/FilterToggle';
+import { Panel, PanelBar, PanelRest } from '@/workbench/ui/Panel';
 import { Table } from '@/workbench/ui/Table';
 import type { Column } from '@/workbench/ui/table';
 import styles from './CrossReferencePanel.module.css';
@@ -23,7 +25,7 @@ export default function CrossReferencePanel() {
   const { data: objects } = useObjects(projectId);
   const { question, name, busy, places, projectId: askedIn } = useCrossReferences();
   const [typed, setTyped] = useState<{ name: string; text: string }>({ name: '', text: '' });
-  const [hidden, setHidden] = useState<ReadonlySet<Access>>(new Set());
+  const [hidden, toggle] = useToggleSet<Access>();
   const [filter, setFilter] = useState('');
   const [selected, setSelected] = useState<string | null>(null);
   const rows = useMemo(
@@ -40,11 +42,6 @@ export default function CrossReferencePanel() {
       setTyped({ name: wanted, text: wanted });
       void guard(() => findCrossReferences(projectId, { name: wanted }, wanted));
     }
-  };
-  const toggle = (access: Access) => {
-    const next = new Set(hidden);
-    if (!next.delete(access)) next.add(access);
-    setHidden(next);
   };
   const columns = useMemo(
     (): Column<Row>[] => [
@@ -119,8 +116,8 @@ export default function CrossReferencePanel() {
   };
 
   return (
-    <div className={styles.view}>
-      <div className={styles.bar}>
+    <Panel>
+      <PanelBar>
         <TextInput
           className={styles.name}
           value={text}
@@ -157,8 +154,8 @@ export default function CrossReferencePanel() {
           placeholder={t('crossReferences.filter')}
           aria-label={t('crossReferences.filter')}
         />
-      </div>
-      <div className={styles.table}>
+      </PanelBar>
+      <PanelRest>
         <Table
           label={t('panel.crossReferences')}
           items={shown}
@@ -169,8 +166,8 @@ export default function CrossReferencePanel() {
           onOpen={jump}
           empty={<Nothing asked={question !== null} busy={busy} filtered={rows.length > 0} name={name} />}
         />
-      </div>
-    </div>
+      </PanelRest>
+    </Panel>
   );
 }
 

@@ -4,6 +4,7 @@ import type { ImportEntry } from '@/api/types';
 import { useText } from '@/i18n';
 import { saveBlob } from '../downloadFile';
 import { guard, notify } from '../notices';
+import { useToggleSet } from '../toggleSet';
 import { Button } from '../ui/Button';
 import { Empty } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
@@ -24,16 +25,11 @@ interface ReportViewProps {
 /** The report of an import: filtered by outcome and text, copied, saved; a double click opens an object. */
 export function ReportView({ entries, hide = [], open }: ReportViewProps) {
   const t = useText();
-  const [hidden, setHidden] = useState<ReadonlySet<Outcome>>(new Set(hide));
+  const [hidden, toggle] = useToggleSet<Outcome>(hide);
   const [search, setSearch] = useState('');
   const [selected, setSelected] = useState<string | null>(null);
   const count = countOutcomes(entries);
   const shown = shownEntries(entries, hidden, search).map((entry, at) => ({ entry, key: String(at) }));
-  const toggle = (outcome: Outcome) => {
-    const next = new Set(hidden);
-    if (!next.delete(outcome)) next.add(outcome);
-    setHidden(next);
-  };
   const text = () => reportText(shown.map(({ entry }) => entry));
   const columns: Column<(typeof shown)[number]>[] = [
     {

@@ -1,10 +1,10 @@
-import { Library as LibraryIcon, Search, X } from 'lucide-react';
+import { Library as LibraryIcon } from 'lucide-react';
 import { useState } from 'react';
 import { useText } from '@/i18n';
 import { showPanel } from '../docking/dock';
-import treeStyles from '../tree/Tree.module.css';
-import { IconButton } from '../ui/Button';
+import { TreeFilter } from '../tree/TreeFilter';
 import { Empty, Failed, Loading } from '../ui/Empty';
+import { Panel } from '../ui/Panel';
 import { chooseItem } from './chosen';
 import { LibraryTree } from './LibraryTree';
 import { useLibraries } from './useLibraries';
@@ -18,19 +18,8 @@ export default function LibrariesPanel() {
   if (!data) return <Loading />;
   if (data.length === 0) return <Empty icon={LibraryIcon} title={t('libraries.none')} />;
   return (
-    <div className={treeStyles.view}>
-      <div className={treeStyles.filter}>
-        <Search size={13} aria-hidden />
-        <input
-          value={search}
-          placeholder={t('libraries.search')}
-          aria-label={t('libraries.search')}
-          spellCheck={false}
-          onChange={(event) => setSearch(event.target.value)}
-          onKeyDown={(event) => event.key === 'Escape' && setSearch('')}
-        />
-        {search && <IconButton small icon={X} label={t('tree.clearFilter')} onClick={() => setSearch('')} />}
-      </div>
+    <Panel>
+      <TreeFilter label={t('libraries.search')} value={search} onValue={setSearch} />
       <LibraryTree
         label={t('panel.libraries')}
         libraries={data}
@@ -38,6 +27,6 @@ export default function LibrariesPanel() {
         onChoose={(library, item) => chooseItem(`${library.name}, ${library.version}`, item)}
         onOpen={() => showPanel('libraryDoc', false)}
       />
-    </div>
+    </Panel>
   );
 }

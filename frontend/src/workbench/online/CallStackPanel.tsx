@@ -5,6 +5,7 @@ import { useText } from '@/i18n';
 import { runCommand } from '../run';
 import { Button } from '../ui/Button';
 import { Empty } from '../ui/Empty';
+import { Panel } from '../ui/Panel';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
 import styles from './CallStackPanel.module.css';
@@ -99,7 +100,7 @@ function Report({ exception }: { exception: RuntimeException }) {
   );
   const title = exceptionTitle(exception);
   return (
-    <div className={styles.view}>
+    <Panel>
       <div className={styles.head}>
         <OctagonAlert size={16} aria-hidden />
         <strong>{title}</strong>
@@ -133,6 +134,6 @@ function Report({ exception }: { exception: RuntimeException }) {
           empty={<Empty title={t('exception.noValues')} />}
         />
       </div>
-    </div>
+    </Panel>
   );
 }

@@ -10,6 +10,7 @@ import { atLeast } from '../rights';
 import { Button } from '../ui/Button';
 import { Empty, Failed, Loading } from '../ui/Empty';
 import { ContextMenu } from '../ui/Menu';
+import { Panel, PanelRest } from '../ui/Panel';
 import { Table } from '../ui/Table';
 import type { Column } from '../ui/table';
 import { useTasks } from './poll';
@@ -120,7 +121,7 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
     });
 
   return (
-    <div className={styles.view}>
+    <Panel>
       <div className={styles.bar}>
         <Button
           variant="quiet"
@@ -148,7 +149,7 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
             : []
         }
       >
-        <div className={styles.table}>
+        <PanelRest>
           <Table
             label={t('panel.tasks')}
             items={data}
@@ -157,9 +158,9 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
             selected={selected}
             onSelect={(task) => setSelected(task?.name ?? null)}
           />
-        </div>
+        </PanelRest>
       </ContextMenu>
-    </div>
+    </Panel>
   );
 }
 

@@ -15,9 +15,11 @@ import { useText } from '@/i18n';
 import { openObject } from '../docking/dock';
 import { useProject } from '../project';
 import { runCommand } from '../run';
+import { useToggleSet } from '../toggleSet';
 import { Button } from '../ui/Button';
 import { Empty } from '../ui/Empty';
 import { TextInput } from '../ui/Field';
+import { Panel } from '../ui/Panel';
 import { rowsOf, type Outcome, type Row } from './model';
 import { setFilter, useTests } from './store';
 import styles from './Tests.module.css';
@@ -30,7 +32,7 @@ export default function TestsPanel() {
   const t = useText();
   const { last, filter } = useTests();
   const { projectId, busy } = useProject();
-  const [closed, setClosed] = useState<ReadonlySet<string>>(new Set());
+  const [closed, toggleClosed] = useToggleSet<string>();
   const [onlyBad, setOnlyBad] = useState(false);
   const [current, setCurrent] = useState<string | null>(null);
   const report = last?.projectId === projectId ? last.report : null;
@@ -42,11 +44,7 @@ export default function TestsPanel() {
     return report ? rowsOf(report, closed, onlyBad, words) : [];
   }, [report, closed, onlyBad, t]);
 
-  const twist = (row: Row) => {
-    const next = new Set(closed);
-    if (!next.delete(row.id)) next.add(row.id);
-    setClosed(next);
-  };
+  const twist = (row: Row) => toggleClosed(row.id);
   const open = (row: Row) => {
     if (row.failure) showPlace(row.failure);
     else if (row.open !== null) twist(row);
@@ -69,7 +67,7 @@ export default function TestsPanel() {
     </Button>
   );
   return (
-    <div className={styles.view}>
+    <Panel>
       <div className={styles.bar}>
         {report && run}
         {report && (
@@ -135,7 +133,7 @@ export default function TestsPanel() {
           {run}
         </Empty>
       )}
-    </div>
+    </Panel>
   );
 }
 

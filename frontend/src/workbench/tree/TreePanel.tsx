@@ -1,5 +1,5 @@
 import { useQuery } from '@tanstack/react-query';
-import { FolderTree, Plus, Search, SearchX, X } from 'lucide-react';
+import { FolderTree, Plus, SearchX } from 'lucide-react';
 import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, useObjects } from '@/api/queries';
@@ -9,12 +9,13 @@ import type { PanelProps } from '../panels';
 import { useProject } from '../project';
 import { mayEdit } from '../rights';
 import { reasonText, runCommand } from '../run';
-import { Button, IconButton } from '../ui/Button';
+import { Button } from '../ui/Button';
 import { Empty, Failed, Loading } from '../ui/Empty';
+import { Panel } from '../ui/Panel';
 import { forestOf, rootsOf, rowsOf, type TreeView } from './model';
 import { ObjectTree } from './ObjectTree';
 import type { PlacementRule } from '@/api/types';
-import styles from './Tree.module.css';
+import { TreeFilter } from './TreeFilter';
 
 /** The placement rules; they do not change while the server runs. */
 export function usePlacement() {
@@ -41,19 +42,8 @@ export default function TreePanel({ panelId, options }: PanelProps) {
   if (!projectId || !objects.data || !placement.data) return <Loading />;
   const nothingFound = filter.trim() !== '' && rowsOf(forest, roots, new Set(), filter).length === 0;
   return (
-    <div className={styles.view}>
-      <div className={styles.filter}>
-        <Search size={13} aria-hidden />
-        <input
-          value={filter}
-          placeholder={t('tree.filter')}
-          aria-label={t('tree.filter')}
-          spellCheck={false}
-          onChange={(event) => setFilter(event.target.value)}
-          onKeyDown={(event) => event.key === 'Escape' && setFilter('')}
-        />
-        {filter && <IconButton small icon={X} label={t('tree.clearFilter')} onClick={() => setFilter('')} />}
-      </div>
+    <Panel>
+      <TreeFilter label={t('tree.filter')} value={filter} onValue={setFilter} />
       {roots.length === 0 ? (
         <NoObjects view={view} />
       ) : nothingFound ? (
@@ -71,7 +61,7 @@ export default function TreePanel({ panelId, options }: PanelProps) {
           label={t(view === 'devices' ? 'panel.devices' : 'panel.pous')}
         />
       )}
-    </div>
+    </Panel>
   );
 }
 
