@@ -255,6 +255,59 @@ def test_rows_are_cut_copied_and_pasted(page: Page, table: Locator) -> None:
     has_stored(page, BODY + "\n".join(lines[:2]) + "\n")
 
 
+def test_rows_are_dragged(page: Page, table: Locator) -> None:
+    """NET-10, FBD-07: those that are selected move together, with Ctrl they are copied; each is one undo."""
+    lines = BODY.split("\n")
+    cell(table, 2, "Operator").click()
+    cell(table, 3, "Operator").click(modifiers=["Shift"])
+    above = {"x": 10, "y": 3}
+    cell(table, 3, "Operator").drag_to(cell(table, 1, "Operator"), target_position=above)
+    expect(cell(table, 1, "Operator")).to_have_text("ANDN")
+    has_stored(page, "\n".join([lines[1], lines[2], lines[0], *lines[3:]]))
+    page.keyboard.press("Control+Z")
+    has_stored(page, BODY)
+    cell(table, 1, "Operator").click()
+    page.keyboard.down("Control")
+    cell(table, 1, "Operator").drag_to(cell(table, 3, "Operator"), target_position=above)
+    page.keyboard.up("Control")
+    expect(cell(table, 3, "Operator")).to_have_text("LD")
+    has_stored(page, "\n".join([*lines[:2], lines[0], *lines[2:]]))
+    page.keyboard.press("Control+Z")
+    has_stored(page, BODY)
+
+
+def test_negation_network_comments_and_names_from_a_cell(page: Page, table: Locator) -> None:
+    """CMD-21, NET-07, DECL-20: Alt+N, Ctrl+O; Shift+F12 and Ctrl+F2 are about the operand at the cursor."""
+    cell(table, 2, "Operator").click()
+    page.keyboard.press("Alt+n")
+    expect(cell(table, 2, "Operator")).to_have_text("AND")
+    has_stored(page, BODY.replace("ANDN ", "AND  "))
+    page.keyboard.press("Alt+n")
+    page.keyboard.press("Control+o")
+    row = table.get_by_role("row").nth(2)
+    expect(row).to_have_attribute("data-state", "excluded")
+    first, second = BODY.split("mark:")
+    out = [f"//| {line}" if line else "//|" for line in first.rstrip("\n").split("\n")]
+    has_stored(page, "\n".join([*out, f"mark:{second}"]))
+    page.keyboard.press("Control+o")
+    expect(row).not_to_have_attribute("data-state", "excluded")
+    has_stored(page, BODY)
+    cell(table, 5, "Operand").click()
+    page.keyboard.press("Shift+F12")
+    found = page.get_by_role("grid", name="Cross References").get_by_role("row")
+    expect(found.filter(has_text="IL_Fill.iCount")).to_have_count(3)
+    cell(table, 5, "Operand").click()  # where the cursor is already: the cell opens
+    expect(table.get_by_role("textbox")).to_have_value("iCount")
+    page.keyboard.press("Control+F2")
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("listitem")).to_have_count(3)
+    page.keyboard.type("iBottles")
+    page.keyboard.press("Enter")
+    expect(dialog).to_have_count(0)
+    expect(cell(table, 5, "Operand")).to_have_text("iBottles")
+    has_stored(page, BODY.replace("iCount", "iBottles"))
+
+
 def test_proposals_and_definitions(page: Page, table: Locator) -> None:
     """IL-01, IL-04: the language server helps in the cells; F12 leads to the declaration."""
     cell(table, 2, "Operator").click()

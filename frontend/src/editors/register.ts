@@ -3,6 +3,7 @@ import { Waypoints } from 'lucide-react';
 import { lazy } from 'react';
 import { registerEditor } from '@/workbench/editors';
 import { registerPanel } from '@/workbench/panels';
+import { registerIlCommands } from './il/commands';
 import { registerTextCommands } from './st/commands';
 
 registerEditor({
@@ -21,3 +22,4 @@ registerPanel({
 });
 
 registerTextCommands();
+registerIlCommands();

@@ -32,6 +32,13 @@ describe('keys', () => {
     expect(pressed('Ctrl+S', press('Meta+s'))).toBe(true);
   });
 
+  it('are left to others by a command that is not shown', () => {
+    const commands = [command('comment', ['Ctrl+O'], 'editor'), command('open', ['Ctrl+O'])];
+    const shown = ({ id }: Command) => id !== 'comment';
+    expect(findByKey(commands, press('Ctrl+O'), 'editor')?.id).toBe('comment');
+    expect(findByKey(commands, press('Ctrl+O'), 'editor', shown)?.id).toBe('open');
+  });
+
   it('find the command of the view first, then the one that acts everywhere', () => {
     const commands = [
       command('rename', ['F2'], 'tree'),

@@ -40,10 +40,16 @@ export function pressed(text: string, event: KeyPress): boolean {
   );
 }
 
-export function findByKey(commands: Iterable<Command>, event: KeyPress, scope: Command['scope']): Command | undefined {
+/** The command of a key: that of the view first; those that are not `shown` now leave it to others. */
+export function findByKey(
+  commands: Iterable<Command>,
+  event: KeyPress,
+  scope: Command['scope'],
+  shown: (command: Command) => boolean = () => true,
+): Command | undefined {
   let global: Command | undefined;
   for (const command of commands) {
-    if (!command.keys?.some((keys) => pressed(keys, event))) continue;
+    if (!command.keys?.some((keys) => pressed(keys, event)) || !shown(command)) continue;
     if (command.scope === undefined) global ??= command;
     else if (command.scope === scope) return command;
   }

@@ -62,8 +62,9 @@ function onKeyDown(event: KeyboardEvent): void {
   if (isField(event.target) && belongsToField(event)) return;
   const { commands } = useRegistry.getState();
   const context = commandContext();
-  const command = findByKey(commands.values(), event, scopeOf(event.target));
-  if (command && (command.visible?.(context) ?? true)) {
+  const shown = (command: Command) => command.visible?.(context) ?? true;
+  const command = findByKey(commands.values(), event, scopeOf(event.target), shown);
+  if (command) {
     event.preventDefault();
     event.stopPropagation();
     void runCommand(command.id);

@@ -13,6 +13,7 @@ import {
 } from 'react';
 import { Grip } from '@/workbench/ui/Grip';
 import { isMenuKey, openMenuAt } from '@/workbench/ui/menuKey';
+import { useRowDrop, type RowDrop } from './useRowDrop';
 import { cursorAfterKey, type GridCursor } from './cursor';
 import styles from '@/workbench/ui/Table.module.css';
 
@@ -66,6 +67,7 @@ interface GridProps {
   /** Rows on screen, told whenever they change. */
   onRange?: (first: number, last: number) => void;
   onDragRow?: (row: number, event: DragEvent) => void;
+  onDropRow?: RowDrop;
   empty?: ReactNode;
   ref?: Ref<GridHandle>;
 }
@@ -96,6 +98,10 @@ export function Grid(props: GridProps) {
   }, [editing]);
   /** The button went down on the cell that had the cursor already. */
   const again = useRef(false);
+  /** It went down on one of several chosen rows: they may be dragged, so it chooses only when it goes up. */
+  const pending = useRef(false);
+  const body = useRef<HTMLDivElement>(null);
+  const dropping = useRowDrop(props.onDropRow, body, count, ROW_HEIGHT);
   const cursorRow = cursor?.row ?? -1;
   useEffect(() => {
     if (cursorRow >= 0 && cursorRow < count) virtual.scrollToIndex(cursorRow, { align: 'auto' });
@@ -138,6 +144,7 @@ export function Grid(props: GridProps) {
     }
   };
 
+  const canDrag = props.onDragRow !== undefined && editing === null;
   const widthOf = (column: GridColumn) => {
     const width = widths[column.id] ?? column.width;
     const grows = column.grow === true && widths[column.id] === undefined;
@@ -157,6 +164,7 @@ export function Grid(props: GridProps) {
       aria-activedescendant={cursor && !editing ? `${id}-${String(cursor.row)}-${String(cursor.column)}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
+      {...dropping.listeners}
       onPointerDown={(event) => event.target === event.currentTarget && props.onEmptyClick?.()}
     >
       <div className={styles.head} role="row">
@@ -181,11 +189,13 @@ export function Grid(props: GridProps) {
       </div>
       {count === 0 && props.empty}
       <div
+        ref={body}
         className={styles.body}
         style={{ height: virtual.getTotalSize() }}
         role="presentation"
         onPointerDown={(event) => event.target === event.currentTarget && props.onEmptyClick?.()}
       >
+        {dropping.at !== null && <div className={styles.dropMark} style={{ top: dropping.at * ROW_HEIGHT }} />}
         {items.map(({ index: row, start }) => (
           <div
             key={props.keyOf(row)}
@@ -197,7 +207,7 @@ export function Grid(props: GridProps) {
             className={styles.row}
             data-state={props.rowState?.(row)}
             style={{ transform: `translateY(${String(start)}px)` }}
-            draggable={props.onDragRow !== undefined && editing === null}
+            draggable={canDrag}
             onDragStart={(event) => props.onDragRow?.(row, event)}
           >
             {columns.map((column, at) => {
@@ -214,6 +224,8 @@ export function Grid(props: GridProps) {
                   title={edited ? undefined : props.hint?.(row, column)}
                   onPointerDown={(event) => {
                     if (edited || (event.button !== 0 && props.selected.has(row))) return;
+                    pending.current = canDrag && !event.shiftKey && props.selected.size > 1 && props.selected.has(row);
+                    if (pending.current) return;
                     const plain = event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey;
                     again.current = plain && cursor?.row === row && cursor.column === at;
                     onCursor(
@@ -221,7 +233,10 @@ export function Grid(props: GridProps) {
                       event.ctrlKey || event.metaKey ? 'toggle' : event.shiftKey ? 'range' : 'one',
                     );
                   }}
-                  onClick={() => {
+                  onClick={(event) => {
+                    if (pending.current)
+                      onCursor({ row, column: at }, event.ctrlKey || event.metaKey ? 'toggle' : 'one');
+                    pending.current = false;
                     if (props.editOnClick === true && again.current && !edited) onEdit?.({ row, column: at });
                     again.current = false;
                   }}

@@ -26,6 +26,7 @@ import styles from './IlTable.module.css';
 import { ilMenu } from './menu';
 import { useRowMessages } from './messages';
 import { parseRows, rowAt } from './rows';
+import { useRowDrag } from './useRowDrag';
 import { useIlActs, type IlEditing } from './useIlActs';
 import { usePrepare } from './usePrepare';
 import { useTableOfPanel } from './useTableOfPanel';
@@ -65,7 +66,8 @@ export function IlTable(props: IlTableProps) {
     const row = cursor === null ? undefined : rows[cursor.row];
     const column = cursor === null ? undefined : columns[cursor.column]?.id;
     const cell = row && (column === 'operator' ? row.operator : (row.operand ?? row.operator));
-    const at = cell?.start ?? row?.start;
+    // Behind the parenthesis or sign that it may begin with, there stands the name that commands are about.
+    const at = cell == null ? row?.start : cell.start + Math.max(0, cell.text.search(/[\p{L}_]/u));
     return {
       getModel: () => model,
       getPosition: () => (at === undefined ? null : model.getPositionAt(at)),
@@ -93,6 +95,7 @@ export function IlTable(props: IlTableProps) {
     place,
     focus: () => grid.current?.focus(),
   });
+  const drag = useRowDrag(model, acts, [...selected]);
   const enter = useTableOfPanel({ panelId, panel: props, acts, place, locked, selection, messages, inText });
 
   // A jump leads to the row; without a place, the table just gets the keyboard.
@@ -125,6 +128,7 @@ export function IlTable(props: IlTableProps) {
       return true;
     };
     const ctrl = event.ctrlKey || event.metaKey;
+    // Ctrl+Del is the key of CODESYS.
     if (event.key === 'Delete' && !event.shiftKey && !event.altKey) return used(acts.remove);
     if (event.key === 'Enter' && ctrl) return used(acts.newRow);
     if (event.key.toLowerCase() === 'a' && ctrl) return used(acts.selectAll);
@@ -168,7 +172,8 @@ export function IlTable(props: IlTableProps) {
     const shown = rows[row];
     if (shown === undefined) return undefined;
     const wide = ['label', 'comment', 'raw'].includes(shown.kind) ? `wide ${shown.kind}` : '';
-    return `${wide} ${shown.line === fault ? 'fault' : ''}`.trim() || undefined;
+    const excluded = shown.excluded ? 'excluded' : '';
+    return `${wide} ${excluded} ${shown.line === fault ? 'fault' : ''}`.trim() || undefined;
   };
   const valueColumn = columns.findIndex(({ id }) => id === 'value');
 
@@ -223,6 +228,8 @@ export function IlTable(props: IlTableProps) {
             editOnClick={!locked}
             onKey={onKey}
             onEmptyClick={selection.clear}
+            onDragRow={locked ? undefined : drag.begin}
+            onDropRow={drag.target}
             onRange={(first, last) =>
               setRange((before) => (before.first === first && before.last === last ? before : { first, last }))
             }

@@ -39,6 +39,7 @@ export function ilColumns(t: typeof Text, chosen: Chosen, online: boolean): read
 
 /** The cell of the text behind a column that can be edited in this kind of row, or null. */
 export function editedColumn(row: IlRow, column: string | undefined): IlColumn | null {
+  if (row.excluded) return null;
   if (row.kind === 'comment') return column === 'line' ? null : 'comment';
   if (row.kind === 'label' || row.kind === 'raw') {
     if (column === 'comment') return row.comment !== null || row.kind === 'raw' ? 'comment' : null;
@@ -67,7 +68,10 @@ export function cellContent({ t, row, facts, messages }: CellView, column: Colum
     case 'operator':
       return <Operator row={row} messages={messages} />;
     case 'operand':
-      if (row.kind === 'label') return <i className={styles.network}>{t('il.network', { number: row.network })}</i>;
+      if (row.kind === 'label') {
+        const text = row.excluded ? 'il.commented' : 'il.network';
+        return <i className={styles.network}>{t(text, { number: row.network })}</i>;
+      }
       return row.operand && <Code cell={row.operand} row={row} messages={messages} />;
     case 'address':
       return <span>{facts?.address}</span>;

@@ -1,6 +1,18 @@
 /** Rows of IL and what the table does to them. */
 import { describe, expect, it } from 'vitest';
-import { cellProblem, copyRows, deleteRows, insertLabel, insertRow, pasteRows, setCell } from './edits';
+import {
+  cellProblem,
+  copyRows,
+  deleteRows,
+  insertLabel,
+  insertRow,
+  moveRows,
+  negated,
+  negateRows,
+  pasteRows,
+  setCell,
+  toggleNetwork,
+} from './edits';
 import { cellText, parseRows, rowAt, type IlColumn } from './rows';
 
 /** Rows as `kind|operator|operand|comment`. */
@@ -198,5 +210,107 @@ describe('edits of the IL table', () => {
     expect(pasteRows('LD a', null, 'LD x').text).toBe('LD a\nLD x');
     expect(pasteRows(text, 2, 'LD x').text).toBe('  LD a // c\nm:\nLD x\n   ST b\n');
     expect(pasteRows('', null, 'LD x')).toEqual({ text: 'LD x', row: 0, count: 1 });
+  });
+});
+
+describe('rows that are moved', () => {
+  const text = 'LD a\nST b\nm: LD c\nST d\n';
+  const move = (...args: Parameters<typeof moveRows>) => moveRows(...args);
+
+  it('go in front of a row, within their network or into another one', () => {
+    expect(move(text, [0], 2, false)).toEqual({ text: 'ST b\nLD a\nm: LD c\nST d\n', row: 1, count: 1 });
+    expect(move(text, [4], 0, false)).toEqual({ text: 'ST d\nLD a\nST b\nm: LD c\n', row: 0, count: 1 });
+    expect(move(text, [0, 1], 4, false)).toEqual({ text: 'm: LD c\nLD a\nST b\nST d\n', row: 2, count: 2 });
+    expect(move(text, [0, 4], 1, false).text).toBe('LD a\nST d\nST b\nm: LD c\n');
+  });
+
+  it('go to the end, where a blank row stays the last one', () => {
+    expect(move(text, [0], 6, false)).toEqual({ text: 'ST b\nm: LD c\nST d\nLD a\n', row: 4, count: 1 });
+    expect(move('LD a\nST b', [0], 2, false).text).toBe('ST b\nLD a');
+    expect(move('LD a\nST b\n', [2], 0, false).text).toBe('\nLD a\nST b');
+  });
+
+  it('are copied', () => {
+    expect(move(text, [0], 4, true)).toEqual({ text: 'LD a\nST b\nm: LD c\nLD a\nST d\n', row: 4, count: 1 });
+    expect(move(text, [0], 0, true).text).toBe(`LD a\n${text}`);
+  });
+
+  it('leave a label where it is, or go without their instruction', () => {
+    expect(move(text, [3], 0, false).text).toBe('   LD c\nLD a\nST b\nm:\nST d\n');
+    expect(move(text, [2], 0, false).text).toBe('m:\nLD a\nST b\n   LD c\nST d\n');
+    expect(move(text, [0], 3, false).text).toBe('ST b\nm:\nLD a\n   LD c\nST d\n');
+  });
+
+  it('stay where they are when they are dropped on themselves', () => {
+    for (const before of [1, 2, 3]) expect(move(text, [1, 2], before, false).text).toBe(text);
+    expect(move(text, [], 0, false).text).toBe(text);
+  });
+});
+
+describe('negation', () => {
+  it('is where the language has it (IL-20 to IL-23)', () => {
+    const pairs = ['LD LDN', 'st stn', 'AND ANDN', 'Or OrN', 'XOR( XORN(', 'AND ( ANDN (', 'JMPC JMPCN'];
+    for (const pair of [...pairs, 'CALC CALCN', 'RETC RETCN']) {
+      const [plain = '', not = ''] = pair.split(/ (?=\S*N(?: \(|\(|$))| (?=stn)/i);
+      expect([plain, negated(plain)]).toEqual([plain, not]);
+      expect([not, negated(not)]).toEqual([not, plain]);
+    }
+    expect(negated('&')).toBe('ANDN');
+    expect(negated('JMPN')).toBe('JMPC');
+    for (const word of ['JMP', 'CAL', 'RET', 'S', 'R', 'NOT', 'ADD', 'ADD(', ')', 'MAX', 'x.Run', 'IN :=', ''])
+      expect([word, negated(word)]).toEqual([word, null]);
+  });
+
+  it('is put into the rows that can have it, and the columns stay', () => {
+    const text = '  LD    a // c\n  ADD   b\nm: ANDN  d\n//| LD x\n  CAL t(\n  LD := 1)';
+    const all = parseRows(text).map((_, index) => index);
+    const not = '  LDN   a // c\n  ADD   b\nm: AND   d\n//| LD x\n  CAL t(\n  LD := 1)';
+    expect(negateRows(text, all)).toBe(not);
+    expect(negateRows(not, all)).toBe(text);
+  });
+});
+
+describe('networks that are commented out (NET-07)', () => {
+  const text = 'LD a\nST b\n\nm: LD c // why\nST d\nn:\nRET';
+  const out = 'LD a\nST b\n\n//| m: LD c // why\n//| ST d\nn:\nRET';
+
+  it('keep their text behind a mark in each line', () => {
+    expect(toggleNetwork(text, 5)).toBe(out);
+    expect(toggleNetwork(out, 3)).toBe(text);
+    expect(toggleNetwork(text, 0)).toBe('//| LD a\n//| ST b\n//|\nm: LD c // why\nST d\nn:\nRET');
+    expect(toggleNetwork('\n\n', 0)).toBe('\n\n');
+  });
+
+  it('are shown in their columns, with the numbers that the networks had', () => {
+    expect(shown(out)).toEqual(shown(text));
+    const rows = parseRows(out);
+    expect(rows.map(({ excluded }) => excluded)).toEqual([false, false, false, true, true, true, false, false]);
+    expect(rows.map(({ network }) => network)).toEqual([1, 1, 1, 2, 2, 2, 3, 3]);
+    expect(rows[4]?.operand).toEqual({ start: out.indexOf('c //'), end: out.indexOf('c //') + 1, text: 'c' });
+  });
+
+  it('do not change how the others are read', () => {
+    const opened = 'CAL t(\n//| LD (* x\nIN := a)\nST b';
+    expect(shown(opened)).toEqual([
+      'instruction|CAL|t(|',
+      'instruction|LD||x',
+      'parameter|IN :=|a)|',
+      'instruction|ST|b|',
+    ]);
+    expect(parseRows('(* x\n//| LD a\n*)').map(({ kind, excluded }) => [kind, excluded])).toEqual([['comment', false]]);
+  });
+
+  it('are not edited, but deleted, copied and pasted into', () => {
+    expect(setCell(out, 4, 'operand', 'x')).toBe(out);
+    expect(deleteRows(out, [3])).toBe(out.replace('//| m: LD', '//|    LD'));
+    expect(copyRows(out, [3])).toBe('//| m:');
+    expect(copyRows(out, [4])).toBe('//|    LD c // why');
+    expect(pasteRows(out, 5, 'LD x\n').text).toBe(out.replace('//| ST d', '//| LD x\n//| ST d'));
+    expect(moveRows(out, [0], 5, false).text).toBe('ST b\n\n//| m: LD c // why\n//| LD a\n//| ST d\nn:\nRET');
+    expect(moveRows(out, [5], 0, false).text).toBe('//| ST d\nLD a\nST b\n\n//| m: LD c // why\nn:\nRET');
+  });
+
+  it('keep lines that the text editor has indented or trimmed', () => {
+    expect(toggleNetwork('  //| LD a\n  //|\n  //|   ST b', 0)).toBe('LD a\n\n  ST b');
   });
 });

@@ -1,6 +1,18 @@
-import { ClipboardPaste, Copy, ListPlus, Scissors, Search, Tag, Trash2, WandSparkles } from 'lucide-react';
+import {
+  ClipboardPaste,
+  Copy,
+  ListPlus,
+  MessageSquareOff,
+  Scissors,
+  Search,
+  Tag,
+  Trash2,
+  WandSparkles,
+  Waypoints,
+} from 'lucide-react';
 import type { t as Text } from '@/i18n';
 import { guard } from '@/workbench/notices';
+import { runCommand } from '@/workbench/run';
 import type { MenuEntry } from '@/workbench/ui/Menu';
 import type { useIlActs } from './useIlActs';
 
@@ -58,6 +70,17 @@ export function ilMenu(t: typeof Text, acts: Acts, chosen: number): MenuEntry[] 
       run: acts.remove,
     },
     { kind: 'line', key: 'l2' },
+    { kind: 'item', key: 'negate', text: t('il.negate'), shortcut: 'Alt+N', disabledReason: none, run: acts.negate },
+    {
+      kind: 'item',
+      key: 'network',
+      text: t('il.toggleNetwork'),
+      icon: MessageSquareOff,
+      shortcut: 'Ctrl+O',
+      disabledReason: none,
+      run: acts.toggleNetwork,
+    },
+    { kind: 'line', key: 'l3' },
     {
       kind: 'item',
       key: 'assistant',
@@ -75,6 +98,23 @@ export function ilMenu(t: typeof Text, acts: Acts, chosen: number): MenuEntry[] 
       shortcut: 'F12',
       disabledReason: none,
       run: () => void guard(acts.definition),
+    },
+    {
+      kind: 'item',
+      key: 'references',
+      text: t('st.command.references'),
+      icon: Waypoints,
+      shortcut: 'Shift+F12',
+      disabledReason: none,
+      run: () => void runCommand('st.peekReferences'),
+    },
+    {
+      kind: 'item',
+      key: 'rename',
+      text: t('st.command.renameSymbol'),
+      shortcut: 'Ctrl+F2',
+      disabledReason: none,
+      run: () => void runCommand('st.renameSymbol'),
     },
   ];
 }

@@ -6,6 +6,7 @@ import { joinComments } from '../declaration/comments';
 import type { Range } from '../declaration/model';
 import { OPERATORS } from '../st/instructionList';
 import { isTrivia, textOf, tokenize, type Token } from '../st/lexer';
+import { runsOf, type Run } from './excluded';
 
 export type RowKind =
   /** Operator and operand. */
@@ -41,6 +42,8 @@ export interface IlRow extends Range {
   readonly depth: number;
   /** Number of its network: a label begins a new one. */
   readonly network: number;
+  /** Its network is commented out (NET-07). */
+  readonly excluded: boolean;
 }
 
 export type IlColumn = 'operator' | 'operand' | 'comment';
@@ -73,11 +76,31 @@ export function segmentsOf(text: string, tokens: readonly Token[] = tokenize(tex
 
 /** All rows of a body: one for each line, and one more for each label in front of an instruction. */
 export function parseRows(text: string): readonly IlRow[] {
-  const tokens = tokenize(text);
-  const code = tokens.filter((token) => !isTrivia(token));
   const context: Context = { opened: [], continues: false, network: 1, begun: false };
   const rows: IlRow[] = [];
   let line = 1;
+  for (const run of piecesOf(text)) {
+    const { opened, continues } = context;
+    if (run.excluded) Object.assign(context, { opened: [], continues: false });
+    rows.push(...rowsOf(run, line, context));
+    if (run.excluded) Object.assign(context, { opened, continues });
+    line += run.bare.split('\n').length;
+  }
+  return rows;
+}
+
+function piecesOf(text: string): readonly Run[] {
+  const tokens = tokenize(text);
+  const comments = new Set(tokens.flatMap((token) => (token.kind === 'comment' ? [token.start] : [])));
+  const mark = (at: number) => at + /^[ \t]*/.exec(text.slice(at))![0].length;
+  return runsOf(text, segmentsOf(text, tokens), (segment) => comments.has(mark(segment.start)));
+}
+
+function rowsOf({ start: from, bare: text, excluded }: Run, firstLine: number, context: Context): IlRow[] {
+  const tokens = tokenize(text);
+  const code = tokens.filter((token) => !isTrivia(token));
+  const rows: IlRow[] = [];
+  let line = firstLine;
   let at = 0;
   let codeAt = 0;
   for (const segment of segmentsOf(text, tokens)) {
@@ -85,11 +108,22 @@ export function parseRows(text: string): readonly IlRow[] {
     while (at < tokens.length && (tokens[at] as Token).start < segment.end) at += 1;
     const own = tokens.slice(first, at);
     const ownCode = own.filter((token) => !isTrivia(token));
-    rows.push(...new Line(text, segment, line, own, ownCode, { all: code, at: codeAt }, context).rows());
+    const body = { all: code, at: codeAt, from, excluded };
+    rows.push(...new Line(text, segment, line, own, ownCode, body, context).rows());
     codeAt += ownCode.length;
     line += text.slice(segment.start, segment.end).split('\n').length;
   }
   return rows;
+}
+
+/** The piece of the text that a line is part of. */
+interface Body {
+  /** Its tokens, and where those of the line begin among them. */
+  readonly all: readonly Token[];
+  readonly at: number;
+  /** Where it begins in the whole text. */
+  readonly from: number;
+  readonly excluded: boolean;
 }
 
 /** The rows of one line: labels, and what stands behind them. */
@@ -103,8 +137,7 @@ class Line {
     private readonly line: number,
     private readonly tokens: readonly Token[],
     private readonly code: readonly Token[],
-    /** The tokens of the whole text, and where those of the line begin among them. */
-    private readonly body: { readonly all: readonly Token[]; readonly at: number },
+    private readonly body: Body,
     private readonly context: Context,
   ) {
     this.start = segment.start;
@@ -265,18 +298,21 @@ class Line {
   ): IlRow {
     const { start, line } = this;
     const { network } = this.context;
+    const { from, excluded } = this.body;
+    const placed = (cell: Cell | null) => cell && { ...cell, start: from + cell.start, end: from + cell.end };
     this.start = end;
     return {
       kind,
       line,
-      lineStart: this.segment.start,
-      start,
-      end,
-      operator,
-      operand,
-      comment,
+      lineStart: from + this.segment.start,
+      start: from + start,
+      end: from + end,
+      operator: placed(operator),
+      operand: placed(operand),
+      comment: placed(comment),
       depth: Math.max(0, depth),
       network,
+      excluded,
     };
   }
 }

@@ -14,7 +14,18 @@ import type { GridSelection } from '../grid/useGridSelection';
 import type { TextPlace } from '../st/focus';
 import { unlockForEditing } from '../st/useEditingLock';
 import { editedColumn, type ColumnId } from './columns';
-import { copyRows, deleteRows, insertLabel, insertRow, pasteRows, setCell } from './edits';
+import {
+  copyRows,
+  deleteRows,
+  insertLabel,
+  insertRow,
+  moveRows,
+  negatedOf,
+  negateRows,
+  pasteRows,
+  setCell,
+  toggleNetwork,
+} from './edits';
 import type { EndedBy } from './IlCellEditor';
 import { cellText, parseRows, type IlColumn, type IlRow } from './rows';
 
@@ -65,6 +76,7 @@ export function useIlActs(input: ActsInput) {
   const edit = (cell: GridEditing): void => {
     const row = rows[cell.row];
     const column = row && editedColumn(row, columns[cell.column]?.id);
+    if (row?.excluded === true) notify({ tone: 'info', title: t('il.excludedRow') });
     if (row === undefined || column == null) return;
     change(() => {
       // In a row without an instruction, the first thing written is its operator.
@@ -119,13 +131,12 @@ export function useIlActs(input: ActsInput) {
       selection.move({ row, column: selection.cursor?.column ?? columnAt('operator') }, 'one');
     });
   };
-  const paste = (clipboard: string) => {
-    if (clipboard === '') return;
-    change(() => {
-      const made = pasteRows(model.getValue(), chosen[0] ?? null, clipboard);
-      replace(made.text);
-      select(made.row, columns[selection.cursor?.column ?? -1]?.id ?? 'operator', made.row + made.count - 1);
-    });
+  const show = (made: { readonly text: string; readonly row: number; readonly count: number }) => {
+    replace(made.text);
+    select(made.row, columns[selection.cursor?.column ?? -1]?.id ?? 'operator', made.row + made.count - 1);
+  };
+  const paste = (clipboard: string, before = chosen[0] ?? null) => {
+    if (clipboard !== '') change(() => show(pasteRows(model.getValue(), before, clipboard)));
   };
   const copied = () => copyRows(model.getValue(), chosen);
 
@@ -161,6 +172,18 @@ export function useIlActs(input: ActsInput) {
     paste,
     copied,
     newRow: () => change(() => newRow()),
+    /** Rows dropped in front of a row; those of another table come as text. */
+    move: (dropped: readonly number[], before: number, copy: boolean) =>
+      change(() => show(moveRows(model.getValue(), dropped, before, copy))),
+    negate: () => {
+      if (chosen.every((row) => rows[row] === undefined || negatedOf(rows[row]) === null))
+        notify({ tone: 'info', title: t('il.negateNone') });
+      else change(() => replace(negateRows(model.getValue(), chosen)));
+    },
+    toggleNetwork: () => {
+      const networks = new Map(chosen.map((row) => [rows[row]?.network, row]));
+      if (chosen.length > 0) change(() => replace([...networks.values()].reduce(toggleNetwork, model.getValue())));
+    },
     cut: () => {
       const text = copied();
       remove();
@@ -175,6 +198,7 @@ export function useIlActs(input: ActsInput) {
       selection.move({ row: 0, column: selection.cursor?.column ?? columnAt('operator') }, 'one');
       selection.move({ row: rows.length - 1, column: selection.cursor?.column ?? columnAt('operator') }, 'range');
     },
+    leaveCell: () => setEditing(null),
     assist,
     definition: () => goToDefinition(input.place),
     suggest: () => {

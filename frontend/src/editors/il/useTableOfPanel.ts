@@ -5,7 +5,7 @@ import { activeLanguageClient } from '@/lsp/session';
 import { indentation, useEditorSettings } from '../settings';
 import type { GridSelection } from '../grid/useGridSelection';
 import type { TextDocument } from '../documents/documents';
-import { showCrossReferences, type TextPanel } from '../st/acts';
+import { rename, showCrossReferences, type TextPanel } from '../st/acts';
 import { setPanelChosen, setPanelTable, type PanelTable, type TextPlace } from '../st/focus';
 import { ACTIONS } from '../st/handlers';
 import { clipboardActs } from './menu';
@@ -72,7 +72,14 @@ function tableOf(now: RefObject<TableInput>): PanelTable {
       'edit.selectAll': () => now.current.acts.selectAll(),
       'st.inputAssistant': () => now.current.acts.assist(),
       'st.goToDefinition': () => now.current.acts.definition(),
+      'st.renameSymbol': () => {
+        // What an open cell holds would bring the old name back.
+        now.current.acts.leaveCell();
+        return rename(now.current.panel, now.current.place);
+      },
       'st.peekReferences': () => showCrossReferences(now.current.panel, now.current.place),
+      'il.negate': () => now.current.acts.negate(),
+      'il.toggleNetwork': () => now.current.acts.toggleNetwork(),
       'st.suggest': () => now.current.acts.suggest(),
       'st.parameters': () => undefined,
       'st.format': () => now.current.acts.change(() => void format(now.current.panel.document)),

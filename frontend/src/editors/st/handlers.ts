@@ -1,6 +1,7 @@
 /** What the delegated commands do in a text editor. */
 import type { Handler, Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
+import { ilHandlers } from '../il/handlers';
 import {
   addExpressionsToWatch,
   addToWatch,
@@ -87,6 +88,7 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
         else if (place !== null) addToWatch(panel, place);
       },
     },
+    ...(document.isIl ? ilHandlers(panelId, document) : {}),
     'st.revisions': { run: () => revisions(panel, partsShown(object.kind)) },
     'file.save': {
       run: async () => {
