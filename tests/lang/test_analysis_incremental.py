@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
@@ -130,22 +131,69 @@ def test_only_the_edited_bodies_are_analysed() -> None:
         ("G", "g : INT", "g : DINT"),
     ],
 )
-def test_edits_of_declarations_take_the_full_way(name: str, old: str, new: str) -> None:
+def test_edits_of_declarations_keep_the_symbols_of_all_objects(name: str, old: str, new: str) -> None:
     units = _units({})
     first = analyse(list(units.values()))
-    source = units[name].source
-    units[name] = parse(Source(source.uri, source.text.replace(old, new), name=source.name)).unit
+    objects = [*first.pous, *(pou.instance for pou in first.pous), *first.types.values()]
+    units[name] = parse(_edited(units[name].source, old, new)).unit
     second = analyse(list(units.values()), previous=first)
+    assert second.continued
+    assert second.changed is None
+    assert [*second.pous, *(pou.instance for pou in second.pous), *second.types.values()] == objects
+
+
+def _edited(source: Source, old: str, new: str) -> Source:
+    assert old in source.text
+    return replace(source, text=source.text.replace(old, new))
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("F", "FUNCTION F", "FUNCTION F2"),
+        ("FB", "FUNCTION_BLOCK FB", "FUNCTION_BLOCK FB EXTENDS Dev"),
+        ("FB", "FUNCTION_BLOCK FB", "FUNCTION_BLOCK ABSTRACT FB"),
+        ("E", "(one, two)", "INT"),
+        ("G", "VAR_GLOBAL", "VAR_CONFIG P.x AT %IX0.0 : BOOL; END_VAR VAR_GLOBAL"),
+        ("F", "FUNCTION F", "FUNCTION_BLOCK F"),
+    ],
+)
+def test_edits_of_heads_take_the_full_way(name: str, old: str, new: str) -> None:
+    units = _units({})
+    first = analyse(list(units.values()))
+    units[name] = parse(_edited(units[name].source, old, new)).unit
+    second = analyse(list(units.values()), previous=first)
+    assert not second.continued
     assert second.changed is None
     assert second.state is not None
+
+
+def test_a_second_object_of_the_name_takes_the_full_way() -> None:
+    units = [*_units({}).values(), parse(Source("F2", "FUNCTION F : INT\nEND_FUNCTION")).unit]
+    first = analyse(units)
+    units[-1] = parse(Source("F2", "FUNCTION F : DINT\nEND_FUNCTION")).unit
+    assert not analyse(units, previous=first).continued
 
 
 def test_an_added_object_takes_the_full_way() -> None:
     units = list(_units({}).values())
     first = analyse(units)
     second = analyse([*units, parse(Source("Q", "PROGRAM Q\nEND_PROGRAM")).unit], previous=first)
-    assert second.changed is None
+    assert not second.continued
     assert "Q" in second.programs
+
+
+def test_the_body_of_a_block_appears() -> None:
+    """Others ask whether an instance does anything."""
+    uses = "FUNCTION Uses : INT\nVAR f : FB; END_VAR\nUses := 1;\nEND_FUNCTION"
+    texts = ["FUNCTION_BLOCK FB\nVAR a : INT; END_VAR\nEND_FUNCTION_BLOCK", uses]
+    units = [parse(Source(f"t{n}", text)).unit for n, text in enumerate(texts)]
+    first = analyse(units)
+    assert not [d for d in first.diagnostics if d.code == "W1221"]
+    units[0] = parse(Source("t0", texts[0].replace("END_VAR", "END_VAR a := 1;"))).unit
+    second = analyse(units, previous=first)
+    assert second.continued
+    assert [d.uri for d in second.diagnostics if d.code == "W1221"] == ["t1"]
 
 
 def test_nothing_changed() -> None:

@@ -7,28 +7,16 @@ from dataclasses import dataclass, field
 from tappet.lang import ast
 from tappet.lang.analysis import program
 from tappet.lang.analysis.collected import Collected
-from tappet.lang.analysis.context import Body, DirectWrite, Session
+from tappet.lang.analysis.context import Body, Record, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.statements import check_jumps, statements
 from tappet.lang.analysis.suppression import kept
+from tappet.lang.analysis.words import Words
 from tappet.lang.diagnostics import Diagnostic, with_severity
 from tappet.lang.rules import LIBRARY_POU_RULES, POU_RULES, coding_checks
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol
-
-
-@dataclass(slots=True)
-class Record:
-    """What one part of the program has reported, named, written and called; sets hold id() of symbols.
-    `operands`, `outputs`: see `Session`."""
-
-    messages: list[Diagnostic]
-    used: set[int]
-    written: set[int]
-    called: set[int]
-    operands: set[tuple[str, int]]
-    outputs: set[DirectWrite]
 
 
 @dataclass(slots=True)
@@ -39,20 +27,20 @@ class State:
     session: Session
     found: Collected
     declarations: Declarations
-    declared: Record
-    """Of all declarations together."""
     records: dict[int, Record] = field(default_factory=dict)
     """Of each body, by id() of its symbol."""
     texts: dict[int, list[Diagnostic]] = field(default_factory=dict)
     """What coding rules report about the declarations and comments of a text, by id() of its unit."""
+    words: dict[str, Words] = field(default_factory=dict)
+    """Of the texts, by uri, where an edit of declarations has asked for them."""
 
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     """Resolves and checks the statements of one POU, method, action or accessor."""
-    record = Record([], set(), set(), set(), set(), set())
-    session.diagnostics, session.used = record.messages, record.used
-    session.written, session.called, session.operands = record.written, record.called, record.operands
-    session.outputs = record.outputs
+    record = Record()
+    session.aggregates = False
+    session.diagnostics, session.accounted = record.messages, None
+    session.count_in(record)
     node = pou.pou
     if node is None:
         return record
@@ -72,6 +60,7 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     for e in body.unreadable:
         body.report("E0424", e.span, name=e.name, what="Get", verb="read")
     body.unreadable.clear()
+    record.aggregates = session.aggregates
     return record
 
 
@@ -108,7 +97,7 @@ def _of_text(state: State, unit: ast.Unit) -> list[Diagnostic]:
 def finish(state: State) -> Analysis:
     """Checks the whole program and puts all messages together, in the order of the sources."""
     session = state.session
-    records = [state.declared, *state.records.values()]
+    records = [*session.declared.values(), *state.records.values()]
     session.used = set().union(*(record.used for record in records))
     session.written = set().union(*(record.written for record in records))
     session.called = set().union(*(record.called for record in records))
@@ -123,7 +112,7 @@ def finish(state: State) -> Analysis:
     for number, unit in enumerate(state.units):
         order.setdefault(unit.source.uri, number)
     last = len(order)
-    found.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code))
+    found.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code, d.message))
     analysis = session.analysis
     analysis.diagnostics = with_severity(kept(found, state.units), session.options.static.errors)
     analysis.called = session.called

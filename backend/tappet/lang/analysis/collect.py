@@ -45,7 +45,8 @@ def collect(session: Session, units: Sequence[ast.Unit]) -> Collected:
     """Makes the symbols of all units."""
     found = Collected()
     children: list[tuple[ast.Pou | ast.Property, Source]] = []
-    _add_system_interface(session)
+    if not session.levels.system:
+        _add_system_interface(session)
     for unit in units:
         level = session.levels.of(unit.source)
         for declaration in unit.declarations:
@@ -96,9 +97,11 @@ def _pou(session: Session, found: Collected, pou: ast.Pou, source: Source, level
     symbol = PouSymbol(
         pou.name, source, pou.name_span, pou.comment, pou=pou, kind=pou.kind, qualified_name=pou.name
     )
+    symbol = session.stand_for(symbol, source.uri)
     pou.symbol = symbol
     if pou.kind in ("PROGRAM", "FUNCTION_BLOCK"):
-        symbol.instance = t.FunctionBlock(pou.name, program=pou.kind == "PROGRAM", pou=pou)
+        instance = t.FunctionBlock(pou.name, program=pou.kind == "PROGRAM", pou=pou)
+        symbol.instance = session.stand_for(instance, source.uri)
     _declare(session, level, symbol, pou)
     found.pous.append((symbol, level))
     found.own[id(symbol)] = collect_variables(session, found, symbol, pou.blocks, source)
@@ -114,7 +117,8 @@ def _interface(
     session: Session, found: Collected, declaration: ast.Interface, source: Source, level: Level
 ) -> None:
     symbol = InterfaceSymbol(declaration.name, source, declaration.name_span, declaration.comment)
-    symbol.type = t.Interface(declaration.name, pou=declaration)
+    symbol = session.stand_for(symbol, source.uri)
+    symbol.type = session.stand_for(t.Interface(declaration.name, pou=declaration), source.uri)
     declaration.symbol = symbol
     _declare(session, level, symbol, declaration)
     found.interfaces.append((symbol, declaration, source))
@@ -128,6 +132,7 @@ def _type(
     session: Session, found: Collected, declaration: ast.TypeDecl, source: Source, level: Level
 ) -> None:
     symbol = TypeSymbol(declaration.name, source, declaration.name_span, declaration.comment)
+    symbol = session.stand_for(symbol, source.uri)
     _declare(session, level, symbol, declaration)
     found.types.append((symbol, declaration, source))
     declaration.type = None
@@ -143,6 +148,7 @@ def _gvl(
     session: Session, found: Collected, declaration: ast.GlobalList, source: Source, level: Level
 ) -> None:
     symbol = GvlSymbol(declaration.name, source, declaration.name_span, declaration.comment, decl=declaration)
+    symbol = session.stand_for(symbol, source.uri)
     blocks = [block for block in declaration.blocks if block.section != "VAR_CONFIG"]
     for block in declaration.blocks:
         if block.section == "VAR_CONFIG":
@@ -169,6 +175,7 @@ def _gvl(
                 owner=symbol.name,
                 decl=decl,
             )
+            variable = session.stand_for(variable, source.uri, symbol.name)
             decl.symbol = variable
             add_variable(session, symbol.members, variable, source)
             collect_local_enum(session, found, decl.type_ref, f"{symbol.name}_{decl.name}", source)

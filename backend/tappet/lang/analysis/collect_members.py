@@ -42,6 +42,7 @@ def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast
         instance=owner.instance,
         owner=owner,
     )
+    symbol = session.stand_for(symbol, source.uri, owner.qualified_name)
     pou.symbol = symbol
     check_name(session, pou.name, source, pou.name_span)
     table = owner.methods if pou.kind == "METHOD" else owner.actions
@@ -62,10 +63,14 @@ def collect_property(
         session.report("E0205", source.uri, property_.name_span, what="property", name=property_.name)
         return
     symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
+    symbol = session.stand_for(symbol, source.uri, owner.qualified_name)
     check_name(session, property_.name, source, property_.name_span)
     owner.properties[key] = symbol
     kept = keeping_variable(owner, property_, source)
     if kept is not None:
+        kept = session.stand_for(kept, source.uri, owner.qualified_name)
+        assert kept.decl is not None
+        kept.decl.symbol = kept
         found.own[id(owner)].variables[kept.name.upper()] = kept
     _add_accessors(session, found, owner, symbol, property_, source)
 
@@ -93,9 +98,10 @@ def _add_accessors(
             instance=block.instance if block else None,
             owner=block,
         )
+        head = session.stand_for(head, source.uri, block.qualified_name if block else owner.name)
         pou.symbol = head
         found.own[id(head)] = collect_variables(session, found, head, accessor.blocks, source)
-        _add_accessor_value(found.own[id(head)], property_, prefix, source)
+        _add_accessor_value(session, found.own[id(head)], head, property_, source)
         if block is None:
             owner.methods[pou.name.upper()] = head
         if prefix == "__get":
@@ -124,9 +130,11 @@ def accessor_pou(
     )
 
 
-def _add_accessor_value(own: OwnVariables, property_: ast.Property, prefix: str, source: Source) -> None:
+def _add_accessor_value(
+    session: Session, own: OwnVariables, head: PouSymbol, property_: ast.Property, source: Source
+) -> None:
     """The property's name inside its setter is the value that is set."""
-    if prefix != "__set" or property_.type_ref is None:
+    if not head.name.startswith("__set") or property_.type_ref is None:
         return
     decl = ast.VarDecl(
         name=property_.name,
@@ -143,6 +151,7 @@ def _add_accessor_value(own: OwnVariables, property_: ast.Property, prefix: str,
         section="VAR_INPUT",
         decl=decl,
     )
+    symbol = session.stand_for(symbol, source.uri, f"{head.qualified_name} value")
     decl.symbol = symbol
     own.variables[property_.name.upper()] = symbol
 
@@ -160,6 +169,7 @@ def collect_head(
         kind="METHOD",
         qualified_name=f"{owner.name}.{pou.name}",
     )
+    symbol = session.stand_for(symbol, source.uri, owner.name)
     pou.symbol = symbol
     key = pou.name.upper()
     if key in owner.methods:
@@ -174,5 +184,6 @@ def collect_property_head(
 ) -> None:
     """A property of an interface, with its accessors."""
     symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
+    symbol = session.stand_for(symbol, source.uri, owner.name)
     owner.properties[property_.name.upper()] = symbol
     _add_accessors(session, found, owner, symbol, property_, source)

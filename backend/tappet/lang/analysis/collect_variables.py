@@ -99,6 +99,7 @@ def collect_variables(
                 owner=f"__STAT_{owner}" if section == "VAR_STAT" else owner,
                 decl=decl,
             )
+            variable = session.stand_for(variable, source.uri, owner)
             decl.symbol = variable
             add_variable(session, own.variables, variable, source)
             if section == "VAR_STAT":
@@ -124,6 +125,7 @@ def collect_enum_values(
         seen.add(key)
         check_name(session, entry.name, source, entry.span)
         value = EnumValueSymbol(entry.name, source, entry.span, entry.comment)
+        value = session.stand_for(value, source.uri, name)
         values.append(value)
         found.enum_of_value[id(value)] = enum
         level.enum_values.append((name, qualified, value))

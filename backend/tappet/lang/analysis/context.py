@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass, field, fields
+from functools import cache
+from typing import Any, NamedTuple, TypeVar
 
 from tappet.lang import ast
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
@@ -28,6 +29,31 @@ class DirectWrite(NamedTuple):
     name: str
     uri: str
     span: Span
+
+
+@dataclass(slots=True)
+class Record:
+    """What one part of the program has reported, named, written and called; sets hold id() of symbols.
+    `operands`, `outputs`: see `Session`."""
+
+    messages: list[Diagnostic] = field(default_factory=list)
+    used: set[int] = field(default_factory=set)
+    written: set[int] = field(default_factory=set)
+    called: set[int] = field(default_factory=set)
+    operands: set[tuple[str, int]] = field(default_factory=set)
+    outputs: set[DirectWrite] = field(default_factory=set)
+    aggregates: bool = False
+    """Whether statements hold `(a := 1)`: it names members without a variable they are in."""
+
+
+Key = tuple[type, str, str]
+"""Class, owner and upper-case name of what a text declares."""
+Made = TypeVar("Made")
+
+
+@cache
+def _content_of(kind: type) -> tuple[str, ...]:
+    return tuple(f.name for f in fields(kind))
 
 
 @dataclass(slots=True)
@@ -57,6 +83,54 @@ class Session:
     suggestions: int = 0
     named: dict[int, tuple[ast.Pou | None, list[ast.Name | ast.Member]]] = field(default_factory=dict)
     """What bodies name, by id() of the symbol, with the tree it was taken from: see `rules.coding`."""
+    aggregates: bool = False
+    """Whether an aggregate `(a := 1)` has been met."""
+    declared: dict[str, Record] = field(default_factory=dict)
+    """What the declarations of each text have named, by its uri."""
+    accounted: str | None = None
+    """Text whose declarations name what is named now."""
+    made: dict[str, dict[Key, Any]] = field(default_factory=dict)
+    """Symbols and types that stand for what each text declares, by its uri."""
+    before: dict[str, dict[Key, Any]] = field(default_factory=dict)
+    """The same, from before an edit, of the texts that are being declared again."""
+
+    def stand_for(self, made: Made, uri: str, owner: str = "") -> Made:
+        """`made`; or what stood for the same before an edit, with the content of `made`, as others refer to
+        it."""
+        key = (made.__class__, owner, made.name.upper())  # type: ignore[attr-defined]
+        earlier = self.before.get(uri)
+        old = earlier.pop(key, None) if earlier else None
+        if old is not None:
+            for name in _content_of(old.__class__):
+                setattr(old, name, getattr(made, name))
+            made = old
+        known = self.made.get(uri)
+        if known is None:
+            known = self.made[uri] = {}
+        known.setdefault(key, made)
+        return made
+
+    def account(self, uri: str) -> tuple[Any, ...] | None:
+        """What is named from now on is named by the declarations of a text; give the result to `resume`."""
+        if uri == self.accounted:
+            return None
+        before = (self.accounted, self.used, self.written, self.called, self.operands, self.outputs)
+        record = self.declared.get(uri)
+        if record is None:
+            record = self.declared[uri] = Record()
+        self.accounted = uri
+        self.count_in(record)
+        return before
+
+    def resume(self, before: tuple[Any, ...] | None) -> None:
+        """Ends what `account` has begun."""
+        if before is not None:
+            self.accounted, self.used, self.written, self.called, self.operands, self.outputs = before
+
+    def count_in(self, record: Record) -> None:
+        """What is named from now on goes to `record`."""
+        self.used, self.written, self.called = record.used, record.written, record.called
+        self.operands, self.outputs = record.operands, record.outputs
 
     def report(
         self, code: str, uri: str, span: Span, related: Iterable[Related] = (), /, **fields: object

@@ -57,7 +57,11 @@ class Declarations(TypeReferences):
         entry = self.variables.pop(id(symbol), None)
         if entry is None:
             return
-        variable, body = entry
+        counted = self.session.account(entry[1].uri)
+        self._resolve(*entry)
+        self.session.resume(counted)
+
+    def _resolve(self, variable: VarSymbol, body: Body) -> None:
         decl = variable.decl
         assert decl is not None
         type_ = self.type_of(body, decl.type_ref, f"{variable.owner or ''}_{variable.name}")
@@ -185,6 +189,7 @@ class Declarations(TypeReferences):
     def _complete_struct(
         self, struct: t.Struct, ref: ast.StructType, body: Body, declaration: ast.TypeDecl | None
     ) -> None:
+        counted = self.session.account(body.uri)
         placement = layout.Placement()
         if declaration is not None:
             placement.pack, faulty = layout.pack_of(declaration.attributes)
@@ -220,6 +225,7 @@ class Declarations(TypeReferences):
             struct.members[decl.name.upper()] = member
         placement.offset = highest if struct.union else placement.offset
         struct.size, struct.align = placement.size, placement.align
+        self.session.resume(counted)
 
     def _struct_member(self, body: Body, struct: t.Struct, decl: ast.VarDecl) -> t.Member | None:
         symbol = VarSymbol(
@@ -232,9 +238,11 @@ class Declarations(TypeReferences):
             owner=struct.name,
             decl=decl,
         )
+        symbol = self.session.stand_for(symbol, body.uri, struct.name)
         decl.symbol = symbol
         if decl.name.upper() in struct.members:
             body.report("E0205", decl.name_span, what="member", name=decl.name)
+            decl.type_ref.type = None
             return None
         if decl.address is not None:
             place = addresses.locate(body, decl.address, decl.span)

@@ -227,6 +227,8 @@ class _Views:
             owner=pou.qualified_name,
             decl=decl,
         )
+        if pou.source is not None:
+            result = self.session.stand_for(result, pou.source.uri, f"{pou.qualified_name} result")
         if decl is not None:
             decl.symbol = result
         pou.result = result

@@ -37,11 +37,11 @@ def reanalyse(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOp
     if not all(_only_bodies(old, new) for old, new in pairs):
         return None
     edited = {old.source.uri for old, _ in pairs}
-    if any(message.uri in edited for message in state.declared.messages):
+    if any(uri in edited and record.messages for uri, record in state.session.declared.items()):
         return None
     state.session.suggestions = 0
     changed: list[PouSymbol] = []
-    state.session.analysis = replace(previous, changed=changed)
+    state.session.analysis = replace(previous, changed=changed, continued=True)
     previous.state = None
     for old, new in pairs:
         for before, after in zip(old.declarations, new.declarations, strict=True):
@@ -62,7 +62,12 @@ def _only_bodies(old: ast.Unit, new: ast.Unit) -> bool:
         return False
     if not all(isinstance(d, (ast.Pou, ast.Property)) for d in old.declarations):
         return False
-    return _same(old.declarations, new.declarations)
+    return _same(old.declarations, new.declarations) and _with_code(old) == _with_code(new)
+
+
+def _with_code(unit: ast.Unit) -> list[bool]:
+    """Which blocks have a body: others ask for that."""
+    return [isinstance(d, ast.Pou) and d.kind == "FUNCTION_BLOCK" and bool(d.body) for d in unit.declarations]
 
 
 _COMPARED: dict[type, tuple[str, ...]] = {}

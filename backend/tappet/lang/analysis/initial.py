@@ -141,6 +141,7 @@ def _repeat(b: Body, e: ast.Repeat, array: t.Array) -> int:
 
 def _structure(b: Body, e: ast.StructInit, target: Type) -> None:
     clear(e)
+    b.session.aggregates = True
     if isinstance(target, t.Reference):
         target = target.base
     if not isinstance(target, (t.Struct, t.FunctionBlock)):

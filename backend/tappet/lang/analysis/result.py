@@ -164,6 +164,8 @@ class Analysis:
     """id() of every POU that code calls, instantiates or takes the address of."""
     changed: list[PouSymbol] | None = None
     """POUs, methods and accessors with a new body since the previous analysis; None: everything is new."""
+    continued: bool = False
+    """Whether symbols of the previous analysis live on here."""
     state: object | None = None
     """What the next analysis may reuse; no business of others."""
 

@@ -140,6 +140,27 @@ class Levels:
             self._tables[key] = table
         return table
 
+    def renew(self) -> set[str]:
+        """Fills the tables of application and POUs view again after lists and enumerations have changed; the
+        names that stand for something else now."""
+        changed: set[str] = set()
+        for level in (self.pous, self.application):
+            level.values = {}
+        for scope in (Scope.POUS, Scope.APPLICATION):
+            key = scope.value
+            if key not in self._tables:
+                continue
+            shared = self._tables.pop(key), self._values.pop(key)  # every view of a text holds them
+            self.seen_by(Source("", "", scope))
+            fresh = self._tables[key], self._values[key]
+            self._tables[key], self._values[key] = shared
+            for table, new in zip(shared, fresh, strict=True):
+                names = table.keys() | new.keys()
+                changed.update(name for name in names if not _same(table.get(name), new.get(name)))
+                table.clear()
+                table.update(new)
+        return changed
+
     def values_seen_by(self, source: Source) -> dict[str, Symbol]:
         """Variables and enumeration values with the name of a type: where a value stands, they are meant."""
         self.seen_by(source)
@@ -197,6 +218,15 @@ class Levels:
                         table[key] = AmbiguousSymbol(symbol.name, choices=[*choices, choice])
             self._tables["libraries"] = table
         return table
+
+
+def _same(old: Symbol | None, new: Symbol | None) -> bool:
+    """Whether a name stands for the same."""
+    if isinstance(old, AmbiguousSymbol) and isinstance(new, AmbiguousSymbol):
+        return (old.name, old.choices) == (new.name, new.choices)
+    if isinstance(old, QualifiedSymbol) and isinstance(new, QualifiedSymbol):
+        return (old.name, old.choice) == (new.name, new.choice)
+    return old is new
 
 
 def is_type(symbol: Symbol) -> bool:

@@ -154,6 +154,7 @@ class TypeReferences:
             body.report("E0107", ref.span, what="type", limit=DEPTH_LIMIT)
             return None
         self.resolving.append(symbol.name)
+        counted = self.session.account(body.uri)
         if isinstance(ref, ast.StructType):
             symbol.type = self._struct(body, ref, symbol.name, declaration, symbol)
         elif isinstance(ref, ast.EnumType):
@@ -165,6 +166,7 @@ class TypeReferences:
             symbol.type = type_
         declaration.type = symbol.type
         self.resolving.pop()
+        self.session.resume(counted)
         return symbol.type
 
     def _report_cycle(self, symbol: TypeSymbol) -> None:
@@ -280,7 +282,8 @@ class TypeReferences:
                 body.report("E0415", ref.span, what="An enumeration", type=ref.base)
             else:
                 base = found
-        enum = t.Enum(name, base, decl=declaration)
+        counted = self.session.account(body.uri)
+        enum = self.session.stand_for(t.Enum(name, base, decl=declaration), body.uri)
         ref.type = enum
         if declaration is not None:
             enum.qualified_only = attribute(declaration.attributes, "qualified_only") is not None
@@ -323,6 +326,7 @@ class TypeReferences:
             if isinstance(default, int):
                 enum.default = int(default)
         body.locals = outer
+        self.session.resume(counted)
         return enum
 
     # -- structures
@@ -335,7 +339,7 @@ class TypeReferences:
         declaration: ast.TypeDecl | None,
         symbol: TypeSymbol | None = None,
     ) -> t.Struct:
-        struct = t.Struct(name, union=ref.union, decl=declaration)
+        struct = self.session.stand_for(t.Struct(name, union=ref.union, decl=declaration), body.uri)
         ref.type = struct
         if symbol is not None:
             symbol.type = struct

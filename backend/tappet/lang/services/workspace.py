@@ -240,7 +240,7 @@ class Workspace:
         last = self._snapshots.get(program.name)
         previous = last.analysis if last is not None else None
         analysis = analyse([result.unit for result in results], settings, previous)
-        self.whole_analyses += analysis.changed is None
+        self.whole_analyses += not analysis.continued
         snapshot = Snapshot(program, results, analysis)
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation

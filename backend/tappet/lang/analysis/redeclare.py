@@ -1,0 +1,294 @@
+"""A second analysis after an edit of declarations.
+
+The edited texts, and those whose declarations can depend on them, are declared again. What stood for their
+objects before stands for them again, so that all others stay as they are; of the bodies, those are analysed
+that can tell a difference (`effects`).
+
+An edit qualifies when the same objects are declared as before, with the same bases and interfaces; it may
+add, change and take away variables, values, methods and parameters. Everything else takes the full way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from tappet.lang import ast
+from tappet.lang.analysis.bodies import State, analyse_body, finish
+from tappet.lang.analysis.collect import collect
+from tappet.lang.analysis.collected import Collected
+from tappet.lang.analysis.context import SUGGESTION_LIMIT, Key
+from tappet.lang.analysis.declare import all_pous, declare
+from tappet.lang.analysis.effects import Effects, contents, sizes
+from tappet.lang.analysis.result import Analysis, AnalysisOptions
+from tappet.lang.analysis.scope import Level
+from tappet.lang.analysis.words import Words, words_of
+from tappet.lang.sfc.library import has_chart
+from tappet.lang.source import Scope
+from tappet.lang.symbols import PouSymbol, Symbol
+
+_CHART_FLAGS = "SFC"
+"""Begins the names that a chart looks for although they do not stand in its text."""
+
+
+def redeclare(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOptions) -> Analysis | None:
+    """The analysis of `units` made from `previous`; None when the edit does not qualify."""
+    state = previous.state
+    if not isinstance(state, State) or options != previous.options or options.static.codes:
+        return None
+    if len(units) != len(state.units) or len({unit.source.uri for unit in units}) != len(units):
+        return None
+    pairs = [(old, new) for old, new in zip(state.units, units, strict=True) if old is not new]
+    if not pairs or not all(_same_objects(old, new) for old, new in pairs):
+        return None
+    again = _Again(state, units, {new.source.uri: (old, new) for old, new in pairs})
+    if not again.qualifies():
+        return None
+    previous.state = None
+    return again.run(options)
+
+
+# -- which edits qualify ----------------------------------------------------------------------------
+
+
+def _same_objects(old: ast.Unit, new: ast.Unit) -> bool:
+    """Whether two texts declare the same objects, whatever is inside."""
+    if replace(old.source, text="", body_line=0) != replace(new.source, text="", body_line=0):
+        return False
+    if new.source.scope is Scope.LIBRARY or has_chart(old) or has_chart(new):
+        return False
+    if len(old.declarations) != len(new.declarations):
+        return False
+    owned = old.source.owner is not None
+    return all(map(_same_head, old.declarations, new.declarations, [owned] * len(old.declarations)))
+
+
+def _same_head(old: ast.Declaration, new: ast.Declaration, owned: bool) -> bool:
+    if old.__class__ is not new.__class__ or (old.name != new.name and not owned):
+        return False
+    if isinstance(old, ast.Pou) and isinstance(new, ast.Pou):
+        heads = [(p.kind, p.extends, p.implements) for p in (old, new)]
+        return heads[0] == heads[1] and (owned or old.modifiers == new.modifiers)
+    if isinstance(old, ast.Interface) and isinstance(new, ast.Interface):
+        return old.extends == new.extends
+    if isinstance(old, ast.TypeDecl) and isinstance(new, ast.TypeDecl):
+        return old.extends == new.extends and old.type_ref.__class__ is new.type_ref.__class__
+    return not _configures(old) and not _configures(new)
+
+
+def _configures(declaration: ast.Declaration) -> bool:
+    """Whether a list holds VAR_CONFIG, which concerns the whole program."""
+    return isinstance(declaration, ast.GlobalList) and any(
+        block.section == "VAR_CONFIG" for block in declaration.blocks
+    )
+
+
+class _Again:
+    """One analysis after an edit."""
+
+    def __init__(
+        self, state: State, units: Sequence[ast.Unit], edited: dict[str, tuple[ast.Unit, ast.Unit]]
+    ) -> None:
+        self.state = state
+        self.session = state.session
+        self.units = units
+        self.edited = edited
+        """Texts that are new: old and new tree by uri."""
+        self.words: dict[str, Words] = {}
+        """Of all texts but those of libraries, which see nothing of the project."""
+        for unit in units:
+            if unit.source.scope is not Scope.LIBRARY:
+                known = state.words.get(unit.source.uri)
+                self.words[unit.source.uri] = known if known and known.unit is unit else words_of(unit)
+        self._numbers = {unit.source.uri: (number, unit) for number, unit in enumerate(units)}
+        self.texts = self._dependent()
+        """Uris of the texts that are declared again."""
+
+    # -- which texts are declared again
+
+    def _dependent(self) -> set[str]:
+        """The edited texts and those whose declarations name what these declare, directly or through others;
+        always whole objects with their methods, and all that has messages, as a suggestion may change."""
+        objects = self._objects()
+        names = {name for old, _ in self.edited.values() for name in words_of(old).global_names}
+        others = {uri: w.declared for uri, w in self.words.items() if not _only_configures(w.unit)}
+        todo = set(self.edited)
+        todo.update(uri for uri, record in self.session.declared.items() if record.messages and uri in others)
+        found: set[str] = set()
+        while todo:
+            uri = todo.pop()
+            found.add(uri)
+            others.pop(uri, None)
+            names |= self.words[uri].global_names
+            for key in _objects_of(self.words[uri].unit):
+                todo.update(text for text in objects[key] if text not in found)
+            if not todo:
+                todo = {uri for uri, words in others.items() if not names.isdisjoint(words)}
+        return found
+
+    def _objects(self) -> dict[tuple[Scope, str], list[str]]:
+        """Texts of each object, by scope and name."""
+        found: dict[tuple[Scope, str], list[str]] = {}
+        for uri, words in self.words.items():
+            for key in _objects_of(words.unit):
+                found.setdefault(key, []).append(uri)
+        return found
+
+    def qualifies(self) -> bool:
+        """Whether every object that is declared again is the only one of its name."""
+        levels = self.session.levels
+        known = [levels.application, levels.pous, *levels.libraries.values()]
+        for unit in self._units_again():
+            level = levels.of(unit.source)
+            own_parts = [isinstance(d, ast.Property) or _is_owned(d) for d in unit.declarations]
+            if any(own_parts) and not all(own_parts):
+                return False
+            for declaration in unit.declarations:
+                if _configures(declaration):
+                    return False
+                if _is_owned(declaration) or isinstance(declaration, ast.Property):
+                    continue
+                key = declaration.name.upper()
+                holders = [other for other in known if key in other.objects]
+                symbol = level.objects.get(key)
+                if holders != [level] or symbol is None or symbol.source is None:
+                    return False
+                if symbol.source.uri != unit.source.uri:
+                    return False
+        return True
+
+    def _units_again(self) -> list[ast.Unit]:
+        return [unit for unit in self.units if unit.source.uri in self.texts]
+
+    # -- declaring again
+
+    def run(self, options: AnalysisOptions) -> Analysis | None:
+        """Declares the texts again and analyses the bodies that this concerns; None when it turns out not to
+        qualify: the state is used up then."""
+        state, session = self.state, self.session
+        session.analysis = Analysis(options, continued=True)
+        session.diagnostics, session.suggestions, session.accounted = [], 0, None
+        earlier = {uri: session.made.pop(uri) for uri in self.texts if uri in session.made}
+        before, sizes_before = contents(earlier), sizes(earlier)
+        session.before = {uri: dict(table) for uri, table in earlier.items()}
+        old_pous = _pous(earlier.values())
+        for uri in self.texts:
+            session.declared.pop(uri, None)
+        for pou in old_pous:
+            state.declarations.bodies.pop(id(pou), None)
+        part = self._collect()
+        if part is None:
+            return None
+        self._merge(part)
+        moved = self._renew_tables()
+        declare(session, part, state.declarations, state.found)
+        if any(message.uri not in self.texts for message in session.diagnostics):
+            return None
+        made = {uri: session.made[uri] for uri in self.texts if uri in session.made}
+        self._forget(old_pous, _pous(made.values()))
+        effects = Effects(before, session.before, made, part, frozenset(self.edited))
+        effects.note(moved)
+        effects.note_sizes(sizes_before, sizes(made))
+        session.before = {}
+        if any(word.startswith(_CHART_FLAGS) for word in effects.all_words()):
+            return None
+        state.units = tuple(self.units)
+        state.words = self.words
+        self._analyse_bodies(effects)
+        return finish(state) if session.suggestions < SUGGESTION_LIMIT else None
+
+    def _analyse_bodies(self, effects: Effects) -> None:
+        state = self.state
+        for pou in all_pous(state.found):
+            record = state.records.get(id(pou))
+            assert pou.source is not None
+            words = self.words.get(pou.source.uri)
+            if record is None or (words is not None and effects.concern(pou, record, words)):
+                body = state.declarations.bodies[id(pou)]
+                state.records[id(pou)] = analyse_body(self.session, pou, body)
+
+    def _collect(self) -> Collected | None:
+        """The symbols of the texts, in the places of those before; None when an object is another one now."""
+        session = self.session
+        own: list[Level] = [session.levels.application, session.levels.pous]
+        kept = [(dict(level.objects), list(level.gvls), level.enum_values) for level in own]
+        for level in own:
+            for key in [k for k, s in level.objects.items() if _uri(s) in self.texts]:
+                del level.objects[key]
+            level.enum_values = [e for e in level.enum_values if _uri(e[2]) not in self.texts]
+        part = collect(session, self._units_again())
+        for level, (objects, lists, _) in zip(own, kept, strict=True):
+            if any(objects.get(key) is not symbol for key, symbol in level.objects.items()):
+                return None
+            if len(objects) != len(level.objects):
+                return None
+            level.objects, level.gvls = objects, lists
+            level.enum_values.sort(key=lambda entry: self._order(entry[2]))
+        return part
+
+    def _order(self, value: Symbol) -> tuple[bool, int]:
+        """Where an enumeration value would be collected: what has an owner comes last."""
+        number, unit = self._numbers[_uri(value)]
+        return any(_is_owned(d) or isinstance(d, ast.Property) for d in unit.declarations), number
+
+    def _merge(self, part: Collected) -> None:
+        """Puts what the texts declare now into what is known of the whole."""
+        found, texts = self.state.found, self.texts
+        types = {id(entry[0]): entry for entry in part.types}
+        found.types = [types.get(id(entry[0]), entry) for entry in found.types]
+        lists = {id(entry[0]): entry for entry in part.gvls}
+        found.gvls = [lists.get(id(entry[0]), entry) for entry in found.gvls]
+        interfaces = {id(entry[0]): entry for entry in part.interfaces}
+        found.interfaces = [interfaces.get(id(entry[0]), entry) for entry in found.interfaces]
+        found.own |= part.own
+        kept = {k: v for k, v in found.enum_values.items() if v and _uri(v[0]) not in texts}
+        found.enum_values = kept | part.enum_values
+        values = {id(value) for entries in kept.values() for value in entries}
+        found.enum_of_value = {k: v for k, v in found.enum_of_value.items() if k in values}
+        found.enum_of_value |= part.enum_of_value
+        found.local_enums = [e for e in found.local_enums if e[1].uri not in texts] + part.local_enums
+
+    def _renew_tables(self) -> set[str]:
+        """Makes the tables of global names again; the names that stand for something else now."""
+        levels = self.session.levels
+        return levels.renew() if any(self._gives_names(unit) for unit in self._units_again()) else set()
+
+    def _gives_names(self, unit: ast.Unit) -> bool:
+        """Whether a text makes more known by plain name than its objects, now or before."""
+        old = self.edited.get(unit.source.uri)
+        names = words_of(old[0]).global_names if old is not None else frozenset()
+        return len(names | self.words[unit.source.uri].global_names) > len(unit.declarations)
+
+    def _forget(self, old: Iterable[PouSymbol], new: Iterable[PouSymbol]) -> None:
+        """Drops what is kept of methods and accessors that are gone."""
+        state = self.state
+        living = {id(pou) for pou in new}
+        for pou in old:
+            if id(pou) not in living:
+                state.records.pop(id(pou), None)
+                state.session.calls.pop(id(pou), None)
+                state.found.own.pop(id(pou), None)
+
+
+def _pous(tables: Iterable[dict[Key, object]]) -> list[PouSymbol]:
+    return [thing for table in tables for thing in table.values() if isinstance(thing, PouSymbol)]
+
+
+def _uri(symbol: Symbol) -> str:
+    return symbol.source.uri if symbol.source is not None else ""
+
+
+def _is_owned(declaration: ast.Declaration) -> bool:
+    return isinstance(declaration, ast.Pou) and declaration.kind in ("METHOD", "ACTION", "TRANSITION")
+
+
+def _only_configures(unit: ast.Unit) -> bool:
+    return bool(unit.declarations) and all(map(_configures, unit.declarations))
+
+
+def _objects_of(unit: ast.Unit) -> set[tuple[Scope, str]]:
+    """Scope and name of the objects that a text belongs to."""
+    scope, owner = unit.source.scope, unit.source.owner
+    if owner is not None:
+        return {(scope, owner.upper())}
+    return {(scope, declaration.name.upper()) for declaration in unit.declarations}

@@ -1,0 +1,120 @@
+"""An analysis after edits of declarations knows the same as a full one, and looks at no more than it must."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from edited_project import CHOICES, OBJECTS, knowledge, messages, text_of, units_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tappet.lang.analysis import Analysis, analyse
+from tappet.lang.analysis.bodies import State
+from tappet.lang.parser import parse
+from tappet.lang.source import Scope, Source
+
+EDITS = st.lists(
+    st.sampled_from([(place, number) for place, texts in CHOICES.items() for number in range(len(texts))]),
+    min_size=1,
+    max_size=3,
+)
+
+
+@settings(max_examples=30, deadline=None)
+@given(EDITS, st.lists(EDITS, min_size=8, max_size=12))
+def test_every_edit_leads_to_what_a_full_analysis_knows(
+    begin: list[tuple[str, int]], edits: list[list[tuple[str, int]]]
+) -> None:
+    """Messages, types, values, layout and what every name stands for are the same after each of the edits."""
+    chosen = dict(begin)
+    units = units_of(chosen)
+    analysis = analyse(list(units.values()))
+    for edit in edits:
+        chosen |= dict(edit)
+        for name in OBJECTS:
+            source = text_of(name, chosen)
+            if source != units[name].source:
+                units[name] = parse(source).unit
+        analysis = analyse(list(units.values()), previous=analysis)
+        fresh = units_of(chosen)
+        full = analyse(list(fresh.values()))
+        assert messages(analysis) == messages(full)
+        assert knowledge(analysis, units.values()) == knowledge(full, fresh.values())
+
+
+def _edited(place: str, number: int, begin: dict[str, int] | None = None) -> tuple[set[str], Analysis]:
+    """The bodies that are analysed again when one place is edited, and what is known then."""
+    chosen = begin or {}
+    units = units_of(chosen)
+    first = analyse(list(units.values()))
+    assert isinstance(first.state, State)
+    before = dict(first.state.records)
+    for name in OBJECTS:
+        source = text_of(name, chosen | {place: number})
+        if source != units[name].source:
+            units[name] = parse(source).unit
+    second = analyse(list(units.values()), previous=first)
+    assert second.continued
+    assert isinstance(second.state, State)
+    records = second.state.records
+    parts = [part for pou in second.pous for part in pou.with_children()]
+    return {p.qualified_name for p in parts if records[id(p)] is not before.get(id(p))}, second
+
+
+@pytest.mark.parametrize(
+    ("place", "number", "begin", "looked_at"),
+    [
+        ("base", 1, {}, {"FB_Base"}),
+        ("row", 1, {}, set()),
+        ("row", 1, {"prg_body": 4}, {"PLC_PRG"}),
+        ("gvl", 2, {}, {"FB_Axis.__getSpeed"}),
+        ("gvl", 1, {}, {"P_List"}),
+        ("limits", 1, {}, set()),
+        ("pool_in", 1, {}, {"F_Pool"}),
+        ("pool_in", 1, {"prg_body": 6}, {"F_Pool", "PLC_PRG"}),
+        ("scale_in", 1, {"prg_body": 6}, {"F_Scale", "PLC_PRG"}),
+        ("enum", 1, {"prg_body": 2}, {"PLC_PRG"}),
+        ("go_in", 1, {"prg_body": 1}, {"PLC_PRG"}),
+        ("speed", 1, {}, {"FB_Axis.__getSpeed"}),
+        ("other", 1, {}, {"P_Other"}),
+    ],
+)
+def test_bodies_that_can_tell_no_difference_stay(
+    place: str, number: int, begin: dict[str, int], looked_at: set[str]
+) -> None:
+    found, _ = _edited(place, number, begin)
+    assert found == looked_at
+
+
+def test_types_that_hold_an_edited_one_are_laid_out_again() -> None:
+    _, after = _edited("row", 2)
+    sizes = {name: type_.size for name, type_ in after.types.items()}
+    full = analyse(list(units_of({"row": 2}).values()))
+    assert sizes == {name: type_.size for name, type_ in full.types.items()}
+    assert sizes["ST_ROW"] == 12
+
+
+def test_a_library_is_not_edited_in_parts() -> None:
+    units = list(units_of({}).values())
+    library = replace(units[-1].source, uri="lib", text="FUNCTION L : INT\nEND_FUNCTION", library="Lib")
+    library = replace(library, scope=Scope.LIBRARY)
+    units.append(parse(library).unit)
+    first = analyse(units)
+    units[-1] = parse(replace(library, text="FUNCTION L : DINT\nEND_FUNCTION")).unit
+    assert not analyse(units, previous=first).continued
+
+
+BLOCK = "FUNCTION_BLOCK B\nMETHOD M : INT\nEND_METHOD\nEND_FUNCTION_BLOCK"
+CALLER = "PROGRAM P\nVAR b : B; i : INT; END_VAR\ni := b.M();\nEND_PROGRAM"
+
+
+def test_methods_come_and_go() -> None:
+    trees = [parse(Source("B", BLOCK)).unit, parse(Source("P", CALLER)).unit]
+    analysis = analyse(trees)
+    assert analysis.ok
+    for name, errors in (("N", ["E0204"]), ("M", [])):
+        trees[0] = parse(Source("B", BLOCK.replace("METHOD M", f"METHOD {name}"))).unit
+        analysis = analyse(trees, previous=analysis)
+        assert analysis.continued
+        assert [d.code for d in analysis.diagnostics if d.severity == "error"] == errors
