@@ -21,6 +21,10 @@ Fails:
     a := 1;
 Fails:
     VAR a : INT; END_VAR
+    {info 'name of the author'}    (* W1211: the text, with its place *)
+    a := 1; {text 'part one is done'}  (* W1212: the text, without one *)
+Fails:
+    VAR a : INT; END_VAR
     {nonsense 17}                  (* W1210: unknown *)
     a := 1;
 """
@@ -36,10 +40,10 @@ from tappet.lang import ast
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
-CODES = ("E0433", "W1208", "W1210", "W1211")
+CODES = ("E0433", "W1208", "W1210", "W1211", "W1212")
 NODES = (ast.PragmaStmt,)
 _MESSAGE = re.compile(r"(text|info|warning|error)\s+(?:\d\s+)?(['\"]?)(.*?)\2\s*$", re.IGNORECASE | re.DOTALL)
-_CODES = {"text": "W1211", "info": "W1211", "warning": "W1208", "error": "E0433"}
+_CODES = {"text": "W1212", "info": "W1211", "warning": "W1208", "error": "E0433"}
 _KNOWN = re.compile(
     r"(attribute|define|undefine|if|elsif|else|end_if|include|region|endregion|flag|bitaccess|implicit|"
     r"warning\s+(disable|restore)|analysis|messageguid|s|"

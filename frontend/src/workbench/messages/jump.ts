@@ -4,13 +4,14 @@ import { t } from '@/i18n';
 import { openObject } from '../docking/dock';
 import { notify } from '../notices';
 import { useProject } from '../project';
-import { presentMessages, setCurrent, useMessages } from './store';
+import { hasPlace, presentMessages, setCurrent, useMessages } from './store';
 
-/** Opens the object a message is about, at its place. Messages about libraries or the application have none. */
+/** Opens the object a message is about, at its place. Messages about libraries or the application have none,
+ *  nor have the lines of `{text}` pragmas. */
 export function jumpTo(message: Diagnostic): void {
   const { projectId } = useProject.getState();
   const objects = (projectId && queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId))) || [];
-  const object = objects.find((candidate) => candidate.id === message.object_id);
+  const object = hasPlace(message) && objects.find((candidate) => candidate.id === message.object_id);
   if (!object) {
     notify({ tone: 'info', title: t('messages.noPlace'), text: message.object_path });
     return;
@@ -30,7 +31,7 @@ export function jumpTo(message: Diagnostic): void {
 /** F4 and Shift+F4: the next or previous message that has a place, errors and warnings alike, around the end. */
 export function stepMessage(by: 1 | -1): void {
   const { build, live, current } = useMessages.getState();
-  const messages = presentMessages(build, live).filter((message) => message.object_id !== null);
+  const messages = presentMessages(build, live).filter(hasPlace);
   if (messages.length === 0) return;
   const at = current ? messages.indexOf(current) : -1;
   const next = messages[at < 0 ? (by > 0 ? 0 : messages.length - 1) : (at + by + messages.length) % messages.length]!;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
-import { bytesText, countOf, pathParts, presentMessages, type BuildResult } from './store';
+import { bytesText, countOf, hasPlace, pathParts, presentMessages, type BuildResult } from './store';
 
 const message = (object_id: string | null, severity: Diagnostic['severity'], text = 'm'): Diagnostic => ({
   code: 'E0001',
@@ -33,6 +33,11 @@ describe('messages', () => {
 
   it('without an object stay until the next build', () => {
     expect(presentMessages(build(message(null, 'error')), new Map([['x', []]]))).toHaveLength(1);
+  });
+
+  it('have a place, except those of the application and the lines of {text} pragmas', () => {
+    const text = { ...message('x', 'info'), code: 'W1212' };
+    expect([message('x', 'info'), message(null, 'info'), text].map(hasPlace)).toEqual([true, false, false]);
   });
 
   it('are counted by severity', () => {

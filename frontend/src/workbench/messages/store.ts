@@ -52,6 +52,14 @@ export function presentMessages(
   return [...fromBuild, ...[...live.values()].flat()];
 }
 
+/** The code of `{text 'x'}` in a program: a line that leads nowhere (LPRG-10). */
+const TEXT = 'W1212';
+
+/** Whether there is a place of the project to go to. Pure. */
+export function hasPlace(message: Diagnostic): boolean {
+  return message.object_id !== null && message.code !== TEXT;
+}
+
 export function countOf(messages: readonly Diagnostic[]): Record<Severity, number> {
   const count = { error: 0, warning: 0, info: 0 };
   for (const message of messages) count[message.severity]++;
