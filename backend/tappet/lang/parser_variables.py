@@ -157,8 +157,10 @@ class VariableParser(TypeParser):
         )
 
     def _path(self) -> tuple[str, Span]:
-        """`PLC_PRG.instance[1].member` of a VAR_CONFIG, as one text."""
+        """`PLC_PRG.instance[1].member` of a VAR_CONFIG, as one text; `.global` names no list."""
         start = self.i
+        if self.kinds[start] == "." and self.kinds[start + 1] is ID:
+            self.i += 1
         self.name("variable", "Write the full path of the variable.")
         kinds = self.kinds
         while kinds[self.i] == "." or kinds[self.i] == "[":

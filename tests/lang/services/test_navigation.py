@@ -139,6 +139,12 @@ def test_references_in_a_variable_configuration() -> None:
     )
     found = {p.at(r.place) for r in references(p.snapshot, p.document, p.position)}
     assert found == {"PLC_PRG:1:21 fb", "PLC_PRG:1:38 fb", "Config:1:20 fb"}
+    p = Project(
+        GVL="VAR_GLOBAL sen|sor AT %I* : INT; END_VAR",
+        Config="VAR_CONFIG .sensor AT %IW0 : INT; END_VAR",
+    )
+    found = {p.at(r.place) for r in references(p.snapshot, p.document, p.position)}
+    assert found == {"GVL:1:12 sensor", "Config:1:13 sensor"}
 
 
 def test_highlights_stay_in_the_document() -> None:

@@ -421,3 +421,19 @@ END_VAR
     assert "hours : DINT := 3;" in kept
     assert "days : DINT := 3;" in kept
     assert "which was there already" in notes(again, "PersistentVars")[0]
+
+
+def test_the_addresses_that_twincat_2_writes_are_a_list_of_their_own() -> None:
+    """Its list has no name, and `.motor` is a global variable of any list."""
+    lists = (
+        "(* @GLOBAL_VARIABLE_LIST := 'Global_Variables' *)\n"
+        "VAR_GLOBAL\n\tmotor AT %Q* : BOOL;\nEND_VAR\n(* @OBJECT_END := 'Global_Variables' *)\n"
+    )
+    configured = (
+        "(* Generated automatically by TwinCAT - (read only) *)\n"
+        "VAR_CONFIG\n\t.motor AT %QX4.2 : BOOL;\nEND_VAR\n"
+    )
+    done = import_files({"A_CONFIG.EXP": configured.encode(), "GLOBALS.EXP": lists.encode()})
+    assert ".motor AT %QX4.2" in part(done, "Variable_Configuration", "declaration")
+    assert "motor AT %Q*" in part(done, "Global_Variables", "declaration")
+    assert done.report.noteworthy() == []

@@ -75,7 +75,7 @@ def _place_all(session: Session, found: Collected, declarations: Declarations) -
     seen: set[str] = set()
     for decl, source in found.configured:
         body = plain_body(session, source)
-        key = decl.name.upper()
+        key = _key_of(decl.name, incomplete, found)
         if key in seen:
             body.report("E0610", decl.span, path=decl.name)
             continue
@@ -93,6 +93,15 @@ def _place_all(session: Session, found: Collected, declarations: Declarations) -
         variable = entry.variable
         if variable.source is not None and variable.span is not None:
             session.report("E0605", variable.source.uri, variable.span, path=entry.path)
+
+
+def _key_of(path: str, incomplete: dict[str, _Incomplete], found: Collected) -> str:
+    """The path in upper case; of `.name` that of the global variable, whichever list holds it."""
+    key = path.upper()
+    if not key.startswith("."):
+        return key
+    names = (f"{gvl.name.upper()}{key}" for gvl, _ in found.gvls if not gvl.qualified_only)
+    return next((name for name in names if name in incomplete), key)
 
 
 def _path_hint(key: str, incomplete: dict[str, _Incomplete]) -> str:

@@ -246,11 +246,12 @@ class _Finder:
         self.add(node.name_span, "declaration", node.symbol, key)
 
     def path(self, node: ast.VarDecl) -> None:
-        """`PLC_PRG.inst.x` of a VAR_CONFIG."""
+        """`PLC_PRG.inst.x` of a VAR_CONFIG, and `.x` of a global variable."""
         line, column = node.name_span.line, node.name_span.column
+        column += node.name.startswith(".")
         symbol: Symbol | None = None
         type_: t.Type | None = None
-        for number, part in enumerate(node.name.split(".")):
+        for number, part in enumerate(node.name.removeprefix(".").split(".")):
             name = part.partition("[")[0]
             if number == 0:
                 symbol = self.analysis.scope.get(name.upper())

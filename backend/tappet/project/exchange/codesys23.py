@@ -24,6 +24,8 @@ _IL_LINE = re.compile(
     r"\s*(?:\w+:\s*)?(?:LDN?|STN?|CALC?N?|JMPC?N?|ANDN?|ORN?|XORN?|S|R)\s+[\w.%^\[\]]+\s*(?:\(\*.*)?$",
     re.IGNORECASE,
 )
+_CONFIGURATION = "Variable_Configuration"
+"""The name of the list of addresses in CoDeSys 2.3."""
 _COMMENTS = re.compile(r"\(\*|\*\)")
 
 
@@ -49,7 +51,10 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
         while index < len(paths) and paths[index][0] <= offset:
             path = tuple(part for part in re.split(r"\\?/", paths[index][1]) if part.strip())
             index += 1
-        pointers = pointers_of(draft.data.get("declaration", ""))
+        declaration = str(draft.data.get("declaration", ""))
+        if draft.kind == "gvl" and not split.list_names and "VAR_CONFIG" in declaration.upper():
+            draft.name = _CONFIGURATION  # TwinCAT 2 gives its list no name
+        pointers = pointers_of(declaration)
         for item in (draft, *draft.children):
             _tell_language(item, report)
             say_in_words_of_today(item, pointers, batch.places, report)
