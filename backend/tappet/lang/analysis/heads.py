@@ -279,6 +279,8 @@ class _Views:
         target = body.values.get(key) or body.names.get(key)
         span = variable.span
         assert span is not None
+        if variable.decl is not None:
+            variable.decl.type_ref.type = None
         if isinstance(target, VarSymbol):
             pou.locals[key] = target
             body.locals[key] = target
