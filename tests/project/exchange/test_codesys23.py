@@ -436,4 +436,4 @@ def test_the_addresses_that_twincat_2_writes_are_a_list_of_their_own() -> None:
     done = import_files({"A_CONFIG.EXP": configured.encode(), "GLOBALS.EXP": lists.encode()})
     assert ".motor AT %QX4.2" in part(done, "Variable_Configuration", "declaration")
     assert "motor AT %Q*" in part(done, "Global_Variables", "declaration")
-    assert done.report.noteworthy() == []
+    assert list(done.report.noteworthy()) == []
