@@ -114,6 +114,8 @@ class Run:
         self.r, self.now = r, now
         given = {name: bool(r >> a & 1 and r >> b & 1) for name, (a, b) in self.chart.inputs.items()}
         self.flags.update(given)
+        if "SFCTrans" in self.outputs:
+            self.outputs["SFCTrans"] = False
         if given.get("SFCInit"):
             self._initialise()
             self._reset_flags()
@@ -138,8 +140,6 @@ class Run:
                 state.since = now
         if given.get("SFCPause"):
             return
-        if "SFCTrans" in self.outputs:
-            self.outputs["SFCTrans"] = False
         self._steps()
         self._actions()
         self._transitions()
@@ -234,7 +234,7 @@ class Run:
             if not self.holds(t.condition):
                 continue
             for s in sources:
-                s.next_x, s.will_leave = False, True
+                s.next_x, s.will_leave = s.will_enter, True
             for name in t.targets:
                 self.states[name].next_x = self.states[name].will_enter = True
             if "SFCTrans" in self.outputs:
