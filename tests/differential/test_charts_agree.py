@@ -14,7 +14,7 @@ from tappet.codegen.jit import LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()
-COUNT, CALLS = 12, 40
+COUNT, CALLS = 8, 40
 """Charts of one program, and how often each is called."""
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from programs import ProgramMaker
 
 QUICK = settings(
-    max_examples=60,
+    max_examples=25,
     deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much],
@@ -38,7 +38,7 @@ def test_small_programs(r: Random, level: int) -> None:
     check(r, level, size=4)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(30))
 def test_programs(seed: int) -> None:
     check(Random(seed), 2 * (seed % 2))
 
