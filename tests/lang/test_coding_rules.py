@@ -6,6 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from edited_project import CHOICES, OBJECTS, messages, text_of, units_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from sample_stage import ALL_CODING_RULES
 
 from tappet import libraries
@@ -90,6 +93,26 @@ def test_after_an_edit_the_messages_are_those_of_a_fresh_analysis(static: frozen
         previous = analyse(units, options, previous)
         fresh = analyse([parse(source).unit for source in (_main(body), *OTHERS)], options)
         assert [str(d) for d in previous.diagnostics] == [str(d) for d in fresh.diagnostics]
+
+
+EDIT = st.sampled_from([(place, number) for place, texts in CHOICES.items() for number in range(len(texts))])
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(st.lists(EDIT, min_size=1, max_size=2), min_size=4, max_size=8))
+def test_after_edits_of_declarations_as_well(edits: list[list[tuple[str, int]]]) -> None:
+    options = AnalysisOptions(static=StaticAnalysis(ALL_CODING_RULES))
+    chosen: dict[str, int] = {}
+    units = units_of(chosen)
+    analysis = analyse(list(units.values()), options)
+    for edit in edits:
+        chosen |= dict(edit)
+        for name in OBJECTS:
+            source = text_of(name, chosen)
+            if source != units[name].source:
+                units[name] = parse(source).unit
+        analysis = analyse(list(units.values()), options, analysis)
+        assert messages(analysis) == messages(analyse(list(units_of(chosen).values()), options))
 
 
 @pytest.mark.parametrize("name", sorted(libraries.names()))

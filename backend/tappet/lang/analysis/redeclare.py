@@ -192,6 +192,8 @@ class _Again:
         session.before = {}
         if any(word.startswith(_CHART_FLAGS) for word in effects.all_words()):
             return None
+        for unit in self._units_again():
+            state.texts.pop(id(unit), None)
         state.units = tuple(self.units)
         state.words = self.words
         self._analyse_bodies(effects)
