@@ -9,7 +9,7 @@ from tappet.core.body import BUILTIN_PLACES, BUILTIN_STATEMENTS, BUILTIN_VALUES,
 from tappet.core.scalars import NULL, convert, require_scalar, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.symbols import BuiltinSymbol, PouSymbol
+from tappet.lang.symbols import BuiltinSymbol, PouSymbol, VarSymbol
 
 _LIBM = {
     "LN": "log", "LOG": "log10", "EXP": "exp", "SIN": "sin", "COS": "cos", "TAN": "tan",
@@ -189,8 +189,14 @@ def _adrinst(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
 
 
 def _isvalidref(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
-    slot = assign.reference_slot(b, arguments(e)[0])
-    return ir.Compare(ir.BOOL, "ne", ir.Load(ir.PTR, slot), NULL)
+    """Whether a reference is bound: a variable, a VAR_IN_OUT, what a property or call returns (LOPR-104)."""
+    operand = arguments(e)[0]
+    variable = getattr(operand, "symbol", None)
+    if isinstance(variable, VarSymbol) and isinstance(variable.type, t.Reference):
+        address: ir.Expr = ir.Load(ir.PTR, assign.reference_slot(b, operand))
+    else:
+        address = places.address_of(b.place(operand))
+    return ir.Compare(ir.BOOL, "ne", address, NULL)
 
 
 def _bound(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:

@@ -11,6 +11,7 @@ from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import evaluate, text_of, value
 from tappet.lang.analysis.fb_init import bind_fb_init
 from tappet.lang.analysis.places import is_place, mark_written, writable
+from tappet.lang.analysis.result import yields_reference
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, TypeSymbol, VarSymbol
@@ -153,7 +154,10 @@ def _isvalidref(b: Body, e: ast.Call, name: str) -> None:
     if operand is None or value(b, operand) is None:
         return
     symbol = getattr(operand, "symbol", None)
-    if isinstance(symbol, VarSymbol) and isinstance(symbol.type, t.Reference):
+    variable = isinstance(symbol, VarSymbol) and (
+        isinstance(symbol.type, t.Reference) or symbol.section == "VAR_IN_OUT"
+    )
+    if variable or yields_reference(operand):
         finish(e, name, [None], t.BOOL)
     else:
         hint = "Declare it as REFERENCE TO; a pointer is compared with 0."
