@@ -7,10 +7,18 @@ from typing import Any
 
 from il_rows import ARITHMETIC, COMPARISONS, Operand, Row
 from leaves import Leaves
-from typed_tree import BOOL, DINT, INT, INTEGERS, NUMBERS, ULINT, Scalar
+from typed_tree import BOOL, DINT, INT, INTEGERS, NUMBERS, ULINT, Scalar, Text
 from typing_rules import assignable, bit_type, common, comparable, meet
 
 _INSTANCES = ("i0", "i1")
+
+
+def is_text(type_: Any) -> bool:
+    return isinstance(type_, Text)
+
+
+def is_integer(type_: Any) -> bool:
+    return isinstance(type_, Scalar) and type_.integer
 
 
 class BodyMaker:
@@ -18,14 +26,15 @@ class BodyMaker:
 
     def __init__(self, r: Random) -> None:
         self.r = r
-        self.types: dict[str, Scalar] = {"g": DINT}
+        self.types: dict[str, Scalar | Text] = {"g": DINT}
         for number in range(6):
             self.types[f"n{number}"] = r.choice(NUMBERS)
         self.types |= {f"f{number}": BOOL for number in range(3)}
+        self.types |= {f"s{number}": Text(r.choice((3, 5, 20))) for number in range(3)}
         self.leaves = Leaves(r)
         self.initial = {n: self.leaves.literal_value(t) for n, t in self.types.items() if n != "g"}
         self.rows: list[Row] = []
-        self.type = BOOL
+        self.type: Any = BOOL
         self.constant = False
         """Whether the accumulator is a literal, which is not combined with another one."""
         self.depth = 0
@@ -49,22 +58,72 @@ class BodyMaker:
         found = self.variables(wanted)
         if found and (moving or self.chance(65)):
             return self.r.choice(found)
+        if moving and wanted(Text(20)):
+            return Operand(Text(20), "s0")
         if moving:
             return Operand(DINT, "g") if wanted(DINT) else Operand(BOOL, "f0")
-        type_ = self.r.choice([t for t in (BOOL, *NUMBERS) if wanted(t)])
+        type_ = self.r.choice([t for t in (BOOL, *NUMBERS, Text(20)) if wanted(t)])
         return Operand(type_, value=self.leaves.literal_value(type_))
 
     # -- rows ---------------------------------------------------------------------------------------
 
-    def load(self, wanted: Any = lambda t: True) -> None:
-        operand = self.operand(wanted)
+    def load(self) -> None:
+        if self.chance(20):
+            self.load_text()
+            return
+        operand = self.operand(lambda t: isinstance(t, Scalar))
         negated = operand.type.kind in ("bool", "bits") and operand.name and self.chance(25)
         self.add("LDN" if negated else "LD", operand, held=operand.type)
         self.type, self.constant = operand.type, not operand.name
 
+    def load_text(self) -> None:
+        operand = self.operand(is_text, moving=True)
+        self.add("LD", operand, held=operand.type)
+        self.type, self.constant = operand.type, False
+
+    def combine_text(self) -> None:
+        """A row on a text."""
+        choice = self.r.randrange(100)
+        long = Text(255)
+        text = self.operand(is_text)
+        if choice < 15:
+            self.add("function", held=INT, result=INT, target="LEN", taken=(long,))
+            self.type = INT
+        elif choice < 30:
+            self.apply(self.r.choice(tuple(COMPARISONS)), is_text)
+        elif choice < 60 and self.depth < 2:
+            at = len(self.rows)
+            self.add("function(", text)
+            self.depth += 1
+            self.type = text.type
+            for _ in range(self.r.randint(0, 2)):
+                if is_text(self.type):
+                    self.combine_text()
+                if self.chance(25):
+                    self.store()
+            if not is_text(self.type):
+                self.load_text()
+            self.depth -= 1
+            more = {"held": long, "result": long, "target": "CONCAT", "taken": (long, long)}
+            self.rows[at] = Row("function(", (text,), **more)
+            self.add(")")
+            self.type = long
+        elif choice < 80:
+            self.add("function", text, held=long, result=long, target="CONCAT", taken=(long, long))
+            self.type = long
+        else:
+            name = self.r.choice(("LEFT", "RIGHT"))
+            count = self.operand(lambda t: t == INT)
+            self.add("function", count, held=long, result=long, target=name, taken=(long, INT))
+            self.type = long
+        self.constant = False
+
     def combine(self) -> None:
         """A row or a deferred block on the accumulator."""
         choice = self.r.randrange(100)
+        if is_text(self.type):
+            self.combine_text()
+            return
         if self.type == BOOL:
             if choice < 15:
                 self.add("NOT", held=BOOL)
@@ -78,7 +137,7 @@ class BodyMaker:
             self.apply(self.r.choice(tuple(ARITHMETIC)), lambda t: t in NUMBERS)
         elif choice < 50 and self.type.integer:
             words = ("AND", "OR", "XOR", "ANDN", "ORN", "XORN")
-            self.apply(self.r.choice(words), lambda t: t.integer)
+            self.apply(self.r.choice(words), is_integer)
         elif choice < 60:
             self.apply(self.r.choice(tuple(COMPARISONS)), lambda t: t in NUMBERS)
         elif choice < 65 and self.type.integer:
@@ -109,6 +168,8 @@ class BodyMaker:
         if op in ARITHMETIC:
             result, held = meet(self.type, other)
             return held, result
+        if op in COMPARISONS and is_text(self.type):
+            return Text(255), BOOL
         if op in COMPARISONS:
             return (BOOL if self.type == BOOL else comparable(self.type, other)), BOOL
         found = BOOL if self.type == BOOL else bit_type(self.type, other)
@@ -165,7 +226,7 @@ class BodyMaker:
     def function(self) -> None:
         choice = self.r.randrange(100)
         if choice < 30 and assignable(self.type, DINT):
-            operand = self.operand(lambda t: t.integer and assignable(t, DINT))
+            operand = self.operand(lambda t: is_integer(t) and assignable(t, DINT))
             more: dict[str, Any] = {"held": DINT, "result": DINT, "taken": (DINT, DINT)}
             self.add("function", operand, target="F_Twice", **more)
             self.type = DINT
@@ -194,7 +255,7 @@ class BodyMaker:
         if self.constant or not found:
             return
         op = "ST"
-        if self.type.kind in ("bool", "bits") and self.chance(30):
+        if not is_text(self.type) and self.type.kind in ("bool", "bits") and self.chance(30):
             op = "STN"
         if self.type == BOOL and self.chance(40):
             op = self.r.choice("SR")
@@ -206,7 +267,7 @@ class BodyMaker:
         if self.type == BOOL and not self.constant and self.chance(60):
             word = self.r.choice(("CALC", "CALCN"))
         operands = [
-            self.operand(lambda t: t.integer and assignable(t, DINT)),
+            self.operand(lambda t: is_integer(t) and assignable(t, DINT)),
             self.operand(lambda t: t == BOOL),
         ]
         self.add(word, *operands[: self.r.randint(0, 2)], target=self.r.choice(_INSTANCES))
@@ -253,7 +314,7 @@ class BodyMaker:
         self.types_of_counters[counter] = INT
 
     def make(self) -> list[Row]:
-        self.types_of_counters: dict[str, Scalar] = {}
+        self.types_of_counters: dict[str, Scalar | Text] = {}
         names = [f"l{number}" for number in range(self.r.randint(0, 3))]
         self.network(names)
         for at, name in enumerate(names):

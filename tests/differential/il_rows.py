@@ -12,18 +12,23 @@ from typing import Any
 import typed_tree as tree
 from arithmetic import arithmetic, bitwise, compare, convert, wrap
 from builtin_functions import FUNCTIONS
-from typed_tree import BOOL, Scalar
+from typed_tree import BOOL, Scalar, Text
 from write_st import literal
 
 ARITHMETIC = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "MOD": "MOD"}
 COMPARISONS = {"GT": ">", "GE": ">=", "EQ": "=", "NE": "<>", "LE": "<=", "LT": "<"}
 
 
+def fitted(value: Any, type_: Scalar | Text) -> Any:
+    """A value as something of a type holds it."""
+    return value[: type_.length] if isinstance(type_, Text) else convert(value, type_)
+
+
 @dataclass(frozen=True)
 class Operand:
     """A variable, or a literal of a type."""
 
-    type: Scalar
+    type: Scalar | Text
     name: str = ""
     value: Any = None
 
@@ -37,19 +42,19 @@ class Row:
 
     op: str
     operands: tuple[Operand, ...] = ()
-    held: Scalar = BOOL
-    result: Scalar = BOOL
+    held: Any = BOOL
+    result: Any = BOOL
     target: str = ""
     """A label, a function, an instance."""
-    taken: tuple[Scalar, ...] = ()
+    taken: tuple[Any, ...] = ()
     """Types a function takes its operands in, that of the accumulator first."""
 
     def text(self) -> str:
         operands = ", ".join(o.text() for o in self.operands)
         if self.op == "label":
             return f"{self.target}:"
-        if self.op == "function":
-            return f"    {self.target} {operands}"
+        if self.op.startswith("function"):
+            return f"    {self.target}{self.op[8:]} {operands}"
         if self.op.startswith("CAL"):
             given = [f"{name} := {o.text()}" for name, o in zip(("a", "b"), self.operands, strict=False)]
             return f"    {self.op} {self.target}({', '.join(given)})"
@@ -72,7 +77,7 @@ class Counter:
 class Machine:
     """Variables, accumulator, and what waits for a closing parenthesis."""
 
-    types: dict[str, Scalar]
+    types: dict[str, Scalar | Text]
     memory: dict[str, Any]
     instances: dict[str, Counter] = field(default_factory=dict)
     value: Any = 0
@@ -86,7 +91,7 @@ class Machine:
         return self.memory[o.name] if o.name else o.value
 
     def store(self, name: str, value: Any) -> None:
-        self.memory[name] = convert(value, self.types[name])
+        self.memory[name] = fitted(value, self.types[name])
 
     def run(self, rows: list[Row]) -> None:
         """The body once."""
@@ -109,7 +114,10 @@ class Machine:
                     self._call(row)
             elif row.op == ")":
                 before, pending = self.stack.pop()
-                self.value = self._combined(pending, before, self.value)
+                if pending.op == "function(":
+                    self.value = FUNCTIONS[pending.target]([before, self.value], None)
+                else:
+                    self.value = self._combined(pending, before, self.value)
             elif row.op.endswith("("):
                 self.stack.append((self.value, row))
                 self.value = self.content(row.operands[0])
@@ -151,6 +159,8 @@ class Machine:
         held = row.held
         if op in ARITHMETIC:
             return arithmetic(ARITHMETIC[op], convert(left, held), convert(right, held), held)
+        if op in COMPARISONS and isinstance(held, Text):
+            return compare(COMPARISONS[op], left, right)
         if op in COMPARISONS:
             return compare(COMPARISONS[op], convert(left, held), convert(right, held))
         if op.endswith("N"):
@@ -160,9 +170,9 @@ class Machine:
     def _function(self, row: Row) -> None:
         values = [self.value, *(self.content(o) for o in row.operands)]
         if row.target == "SEL":
-            self.value = convert(values[2 if values[0] else 1], row.held)
+            self.value = fitted(values[2 if values[0] else 1], row.held)
             return
-        args = [convert(v, t) for v, t in zip(values, row.taken, strict=True)]
+        args = [fitted(v, t) for v, t in zip(values, row.taken, strict=True)]
         if row.target == "F_Twice":
             self.store("g", self.memory["g"] + args[1])
             self.value = wrap(args[0] * 2 + args[1], tree.DINT)
