@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
 from tappet.codegen.jit import LoadedApplication
-from tappet.codegen.package import CodePackage
+from tappet.codegen.package import CodePackage, left_behind
 from tappet.lang.source import Source
 
 SESSION = BuildSession()
@@ -34,21 +32,13 @@ def result(text: str, previous: CodePackage | None = None, **options: object) ->
     return Result(build_application([Source("test.st", text)], (), settings, previous, SESSION))
 
 
-@contextmanager
-def running(package: CodePackage) -> Iterator[LoadedApplication]:
-    application = LoadedApplication(package)
-    try:
-        application.start()
-        yield application
-    finally:
-        application.close()
-
-
 def change_over(application: LoadedApplication, package: CodePackage) -> LoadedApplication:
     """What a runtime does with an online change; the image of the new application keeps the old address."""
     change = package.online_change
     assert change is not None
     size = application.package.image_size
+    for function in left_behind(application.package, package):
+        application.call(function)
     before = bytes(application.image[:size])
     image = bytearray(before.ljust(package.image_size, b"\0"))
     for old, new, length in change.moves:

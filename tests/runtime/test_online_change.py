@@ -47,6 +47,42 @@ def test_data_moves_and_new_variables_are_initialised() -> None:
         assert [runtime.read(f"PLC_PRG.{v}") for v in ("n", "other", "fresh", "arr[99]")] == [13, 77, 2.5, 7]
 
 
+LIFE = """
+FUNCTION_BLOCK FB
+VAR n : INT; {more} END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR
+Calls.sum := Calls.sum * 10 + SEL(bInCopyCode, 1, 2);
+END_METHOD
+METHOD FB_Exit : BOOL
+VAR_INPUT bInCopyCode : BOOL; END_VAR
+Calls.sum := Calls.sum * 10 + SEL(bInCopyCode, 3, 4);
+END_METHOD
+METHOD FB_Reinit : BOOL
+Calls.sum := Calls.sum * 10 + 5; Calls.kept := n;
+END_METHOD
+n := n + 1;
+END_FUNCTION_BLOCK
+PROGRAM Calls
+VAR_INPUT sum : DINT; kept : INT; END_VAR
+END_PROGRAM
+PROGRAM PLC_PRG
+VAR fb : FB; END_VAR
+fb();
+END_PROGRAM
+"""
+
+
+def test_blocks_are_left_and_entered() -> None:
+    """LDEC-106: FB_Exit of the old instance, FB_Init of the new one, its values, FB_Reinit."""
+    with LocalRuntime(build(LIFE.format(more=""))) as runtime:
+        runtime.run(cycles=3)
+        assert runtime.read("Calls.sum") == 1
+        change(runtime, LIFE.format(more="x : LREAL;"))
+        runtime.run(cycles=1)
+        assert [runtime.read(path) for path in ("Calls.sum", "Calls.kept", "PLC_PRG.fb.n")] == [1425, 3, 4]
+
+
 def test_forces_and_traces_follow_their_variables() -> None:
     with LocalRuntime(build(ONE)) as runtime:
         trace = runtime.trace(["PLC_PRG.n"])

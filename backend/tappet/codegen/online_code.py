@@ -1,4 +1,5 @@
-"""Code an online change runs once: initial values of what is new, FB_Reinit, pointers that follow moves."""
+"""Code an online change runs once: initial values of what is new, FB_Init and FB_Reinit of what has moved,
+pointers that follow."""
 
 from __future__ import annotations
 
@@ -10,8 +11,8 @@ from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, DataObject
 from tappet.codegen.symbol_map import SymbolMap, TypeInfo
 from tappet.core import calls, initial, ir, places, templates
 from tappet.core.body import Body
-from tappet.core.life_cycle import life_cycle_methods
-from tappet.core.lower import Lowered, complete
+from tappet.core.life_cycle import init_methods, life_cycle_methods
+from tappet.core.lower import Lowered, complete, instances
 from tappet.core.program import Program
 from tappet.lang import types as t
 
@@ -33,6 +34,15 @@ class Fresh:
         """Whether the byte at `offset` is new."""
         at = bisect_right(self.starts, offset) - 1
         return at >= 0 and offset < self.ends[at]
+
+    def kept(self, offset: int, size: int) -> list[tuple[int, int]]:
+        """Parts of a range, by their offset inside it and length, that hold values of the running image."""
+        found = []
+        for start, end in zip(self.move_starts, self.move_ends, strict=True):
+            first, last = max(start, offset), min(end, offset + size)
+            if first < last:
+                found.append((first - offset, last - first))
+        return found
 
     def moved_into(self, offset: int, size: int) -> bool:
         """Whether any byte of a range was moved there."""
@@ -59,6 +69,8 @@ def add_online_change(
         base = ir.Place(ir.Data(item.symbol))
         b.own_data = base
         _run_new(b, base, item.template.steps, place.offset, fresh)
+        for offset, type_ in instances(item.owner):
+            _reinitialise_moved(b, places.at(base, offset), type_, place.offset + offset, fresh)
     if not b.out:
         return
     function.body = [*b.entry, *b.out]
@@ -67,7 +79,7 @@ def add_online_change(
 
 
 def _run_new(b: Body, base: ir.Place, steps: list[templates.Step], offset: int, fresh: Fresh) -> None:
-    """Dynamic initial values of new variables; blocks that kept values get FB_Reinit instead of FB_Init."""
+    """Dynamic initial values of new variables, and FB_Init of blocks that have moved."""
     initialiser = templates.initialiser_of(b.program)
     for step in steps:
         at = offset + step.offset
@@ -83,17 +95,71 @@ def _run_new(b: Body, base: ir.Place, steps: list[templates.Step], offset: int, 
         elif step.value is None and not step.after and isinstance(step.type, t.FunctionBlock):
             place = places.at(base, step.offset)
             outer, b.own_data = b.own_data, place
-            _run_new(b, place, initialiser.of_type(step.type).steps, at, fresh)
+            template = initialiser.of_type(step.type)
+            _run_new(b, place, template.steps, at, fresh)
+            if init_methods(step.type):
+                _initialise_moved(b, place, step, template, fresh.kept(at, extent))
             b.own_data = outer
-            if any(fresh.covers(at + m.offset) for m in step.type.members.values()):
-                _reinitialise(b, place, step.type)
 
 
-def _reinitialise(b: Body, place: ir.Place, type_: t.FunctionBlock) -> None:
-    for method in life_cycle_methods(type_, "FB_REINIT"):
-        prepared = calls.Prepared()
-        calls.finish(b, prepared, method, [], places.address_of(place), None)
-        b.out.extend(prepared.statements())
+def _initialise_moved(
+    b: Body, place: ir.Place, step: templates.Step, template: templates.Template, kept: list[tuple[int, int]]
+) -> None:
+    """FB_Init of a moved instance finds initial values; then those it had are put back (LDEC-106)."""
+    assert isinstance(step.type, t.FunctionBlock)
+    externals = b.program.module.externals
+    externals.setdefault("tappet_allocate", ir.External("tappet_allocate", [ir.U64, ir.U64], ir.PTR))
+    externals.setdefault("tappet_release", ir.External("tappet_release", [ir.PTR]))
+    pointer = b.temp(ir.PTR)
+    read = ir.Load(ir.PTR, ir.Place(pointer))
+    size = ir.Const(ir.U64, max(step.type.size, 1))
+    b.emit(ir.Store(ir.Place(pointer), ir.Call(ir.PTR, "tappet_allocate", [ir.Const(ir.U64, 1), size])))
+    bytes_ = b.program.string_constant(bytes(template.data), 8)
+    initial_values = ir.Place(ir.Data(bytes_.symbol))
+    aside = ir.Place(ir.Indirect(read))
+    with b.block_of() as body:
+        for offset, length in kept:
+            b.emit(ir.Copy(places.at(aside, offset), places.at(place, offset), length))
+            b.emit(ir.Copy(places.at(place, offset), places.at(initial_values, offset), length))
+        initial.run_steps(b, place, [s for s in template.steps if s.value is not None and not s.inner])
+        initial.construct_moved(b, place, step.type, step.args)
+        for offset, length in kept:
+            b.emit(ir.Copy(places.at(place, offset), places.at(aside, offset), length))
+        b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
+    b.emit(ir.If(ir.Compare(ir.BOOL, "ne", read, ir.Const(ir.PTR, 0)), body, []))
+
+
+def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh: Fresh) -> None:
+    """FB_Reinit of all instances inside an object that were copied, inner ones first (LDEC-104, LDEC-107)."""
+    if not _has_reinit(type_, set()):
+        return
+    if isinstance(type_, t.Array):
+        for number in range(type_.count):
+            shift = number * type_.element.size
+            _reinitialise_moved(b, places.at(place, shift), type_.element, at + shift, fresh)
+    if not isinstance(type_, t.FunctionBlock | t.Struct):
+        return
+    for member in type_.members.values():
+        if member.section != "VAR_IN_OUT":
+            inner = places.at(place, member.offset)
+            _reinitialise_moved(b, inner, member.type, at + member.offset, fresh)
+    if isinstance(type_, t.FunctionBlock) and fresh.moved_into(at, type_.size):
+        for method in life_cycle_methods(type_, "FB_REINIT"):
+            prepared = calls.Prepared()
+            calls.finish(b, prepared, method, [], places.address_of(place), None)
+            b.out.extend(prepared.statements())
+
+
+def _has_reinit(type_: t.Type, seen: set[int]) -> bool:
+    """Whether an object of a type contains an instance with FB_Reinit."""
+    if isinstance(type_, t.Array):
+        return _has_reinit(type_.element, seen)
+    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
+        return False
+    seen.add(id(type_))
+    if isinstance(type_, t.FunctionBlock) and life_cycle_methods(type_, "FB_REINIT"):
+        return True
+    return any(_has_reinit(m.type, seen) for m in type_.members.values() if m.section != "VAR_IN_OUT")
 
 
 # -- pointers ---------------------------------------------------------------------------------------

@@ -26,6 +26,9 @@ ONLINE_CHANGE_SYMBOL = "tappet.online_change"
 """`void()`: present with an online change; call it once after moves and `initialise` were done."""
 EXIT_SYMBOL = "tappet.exit"
 """`void()`: calls FB_Exit of all instances; call it before the application is replaced by a download."""
+COPY_EXIT_PREFIX = "tappet.copy_exit."
+"""`void()` for each data object with such instances, behind it the symbol of the object: calls FB_Exit with
+bInCopyCode TRUE; call it before an online change moves or removes the object (LDEC-105, LDEC-106)."""
 
 
 class PackageError(ValueError):
@@ -87,8 +90,9 @@ class RemanentRange:
 class OnlineChange:
     """How to get from the running application to this one without stopping it.
 
-    Order: copy `moves` from the old image into a fresh copy, fill `initialise` from `initial_image`, link,
-    call `ONLINE_CHANGE_SYMBOL`. With both lists empty only code changed and nothing but the code is swapped.
+    Order: link, call what `left_behind` names in the old code, copy `moves` from the old image into a fresh
+    copy, fill `initialise` from `initial_image`, call `ONLINE_CHANGE_SYMBOL`. With both lists empty only code
+    changed and nothing but the code is swapped.
     """
 
     base_code_id: str
@@ -329,3 +333,18 @@ def _online_from_list(row: list[Any] | None) -> OnlineChange | None:
         tuple((int(a), int(b)) for a, b in initialise),
         tuple(str(r) for r in reasons),
     )
+
+
+def left_behind(old: CodePackage, new: CodePackage) -> list[str]:
+    """Functions of the old code to call before its data objects are moved or removed, in their order."""
+    change = new.online_change
+    sources = sorted(start for start, _, _ in change.moves) if change is not None else []
+    found = []
+    for symbol, place in old.data_objects.items():
+        function = COPY_EXIT_PREFIX + symbol
+        if function not in old.exports:
+            continue
+        moved = any(place.offset <= start < place.offset + place.size for start in sources)
+        if moved or new.data_objects.get(symbol) != place:
+            found.append(function)
+    return found

@@ -9,7 +9,7 @@ from tappet.core.program import Program
 from tappet.core.templates import Step, Template, initialiser_of
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.symbols import PouSymbol
+from tappet.lang.symbols import PouSymbol, VarSymbol
 
 _UNROLL = 4
 """Arrays of more elements are initialised by a loop."""
@@ -90,8 +90,11 @@ def construct(b: Body, place: ir.Place, type_: t.FunctionBlock, args: list[ast.A
         b.out.extend(prepared.statements())
 
 
-def _init_call_arguments(method: PouSymbol, args: list[ast.Argument]) -> list[ast.Argument]:
-    """bInitRetains := TRUE, bInCopyCode := FALSE, and the user's arguments by name (LDEC-110)."""
+def _init_call_arguments(
+    method: PouSymbol, args: list[ast.Argument], in_copy: bool = False
+) -> list[ast.Argument]:
+    """bInitRetains := TRUE, bInCopyCode := FALSE, the contrary when an instance is moved, and the user's
+    arguments by name (LDEC-106, LDEC-110)."""
     by_name = {}
     for arg in args:
         name = getattr(arg.parameter, "name", None) or arg.name
@@ -101,38 +104,54 @@ def _init_call_arguments(method: PouSymbol, args: list[ast.Argument]) -> list[as
     for parameter in method.parameters:
         name = parameter.name.upper()
         if name == "BINITRETAINS" or name == "BINCOPYCODE":
-            constant = ast.Literal(text="", kind="bool", type=t.BOOL, is_constant=True)
-            constant.constant = name == "BINITRETAINS"
-            result.append(ast.Argument(name=parameter.name, value=constant, parameter=parameter))
+            result.append(_flag(parameter, (name == "BINCOPYCODE") is in_copy))
         elif name in by_name:
             given = by_name[name]
             result.append(ast.Argument(name=parameter.name, value=given.value, parameter=parameter))
     return result
 
 
-def destruct(b: Body, place: ir.Place, type_: t.FunctionBlock) -> None:
-    """Call FB_Exit of an instance, most derived first (LDEC-107)."""
-    _call_all(b, place, life_cycle_methods(type_, "FB_EXIT")[::-1])
+def _flag(parameter: VarSymbol, value: bool) -> ast.Argument:
+    constant = ast.Literal(text="", kind="bool", type=t.BOOL, is_constant=True)
+    constant.constant = value
+    return ast.Argument(name=parameter.name, value=constant, parameter=parameter)
 
 
-def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol]) -> None:
+def construct_moved(b: Body, place: ir.Place, type_: t.FunctionBlock, args: list[ast.Argument]) -> None:
+    """Call the FB_Init methods of an instance that an online change moves: bInCopyCode is TRUE."""
+    b.foreign_writes = True
     frozen = places.freeze(b, place, b.out)
-    for method in methods:
+    for method in init_methods(type_):
         prepared = calls.Prepared()
-        calls.finish(b, prepared, method, [], places.address_of(frozen), None)
+        given = _init_call_arguments(method, args, in_copy=True)
+        calls.finish(b, prepared, method, given, places.address_of(frozen), None)
         b.out.extend(prepared.statements())
 
 
-def destruct_all(b: Body, place: ir.Place, type_: t.Type) -> None:
+def destruct(b: Body, place: ir.Place, type_: t.FunctionBlock, in_copy: bool = False) -> None:
+    """Call FB_Exit of an instance, most derived first (LDEC-107); `in_copy`: an online change moves it."""
+    _call_all(b, place, life_cycle_methods(type_, "FB_EXIT")[::-1], in_copy)
+
+
+def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol], in_copy: bool = False) -> None:
+    frozen = places.freeze(b, place, b.out)
+    for method in methods:
+        prepared = calls.Prepared()
+        given = [_flag(p, True) for p in method.parameters if p.name.upper() == "BINCOPYCODE" and in_copy]
+        calls.finish(b, prepared, method, given, places.address_of(frozen), None)
+        b.out.extend(prepared.statements())
+
+
+def destruct_all(b: Body, place: ir.Place, type_: t.Type, in_copy: bool = False) -> None:
     """Call FB_Exit of all instances inside an object of any type."""
     if not has_exit(type_, set()):
         return
     if isinstance(type_, t.FunctionBlock):
-        destruct(b, place, type_)
+        destruct(b, place, type_, in_copy)
     if isinstance(type_, t.FunctionBlock | t.Struct):
         for member in type_.members.values():
             if member.section != "VAR_IN_OUT" and not without_exit(member.decl):
-                destruct_all(b, places.at(place, member.offset), member.type)
+                destruct_all(b, places.at(place, member.offset), member.type, in_copy)
     elif isinstance(type_, t.Array):
         counter = b.temp(ir.I64, once=False)
         sub = ir.Subscript(
@@ -140,7 +159,7 @@ def destruct_all(b: Body, place: ir.Place, type_: t.Type) -> None:
         )
         element = ir.Place(place.base, place.offset, (*place.subscripts, sub), place.root)
         with b.block_of() as body:
-            destruct_all(b, element, type_.element)
+            destruct_all(b, element, type_.element, in_copy)
         last = ir.Const(ir.I64, type_.count - 1)
         b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
 

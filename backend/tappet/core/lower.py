@@ -35,6 +35,7 @@ from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
 INIT = "tappet.init"
 EXIT = "tappet.exit"
+COPY_EXIT_PREFIX = "tappet.copy_exit."
 TASK_PREFIX = "tappet.task."
 
 
@@ -176,14 +177,30 @@ def _exit_function(program: Program, data: list[DataObject]) -> None:
     b = Body(program, function, None)
     for item in data:
         base = ir.Place(ir.Data(item.symbol))
-        for member in _instances(item.owner):
+        for member in instances(item.owner, leaving=True):
             initial.destruct_all(b, places.at(base, member[0]), member[1])
     if b.out:
         function.body = [*b.entry, *b.out]
         program.module.functions[EXIT] = function
+    for item in data:
+        _copy_exit_function(program, item)
 
 
-def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
+def _copy_exit_function(program: Program, item: DataObject) -> None:
+    """FB_Exit of the instances of one data object, for an online change that moves it (LDEC-106)."""
+    function = ir.Function(COPY_EXIT_PREFIX + item.symbol, exported=True, uri="", cold=True)
+    b = Body(program, function, None)
+    base = ir.Place(ir.Data(item.symbol))
+    for offset, type_ in instances(item.owner, leaving=True):
+        initial.destruct_all(b, places.at(base, offset), type_, in_copy=True)
+    if b.out:
+        function.body = [*b.entry, *b.out]
+        program.module.functions[function.name] = function
+
+
+def instances(owner: GvlSymbol | PouSymbol, leaving: bool = False) -> list[tuple[int, t.Type]]:
+    """Offsets and types of the variables of a list or program; `leaving`: without those that have no FB_Exit
+    by their attribute (LPRG-36)."""
     found = (
         [m for m in owner.members.values() if m.storage is Storage.GLOBAL]
         if isinstance(owner, GvlSymbol)
@@ -193,7 +210,7 @@ def _instances(owner: GvlSymbol | PouSymbol) -> list[tuple[int, t.Type]]:
     return [
         (m.offset, m.type)
         for m in members
-        if m.type is not None and m.section != "VAR_IN_OUT" and not initial.without_exit(m.decl)
+        if m.type is not None and m.section != "VAR_IN_OUT" and not (leaving and initial.without_exit(m.decl))
     ]
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, left_behind
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.faults import RawFault
 from tappet.runtime.places import Place, find_again
@@ -77,6 +77,8 @@ def apply_change(
         application.tasks.retire(old_code, old_code.close)
         return ChangeResult(None)
     with application.tasks.standing():
+        # what FB_Exit does with other objects is to be seen in what they keep
+        faults = [application.tasks.call(old_code[function]) for function in left_behind(running, package)]
         _rearrange(application, package)
         application.package = package
         application.connect_code(code)
@@ -84,11 +86,11 @@ def apply_change(
         remanence = (running.retain, running.persistent) != (package.retain, package.persistent)
         if remanence and retain_folder is not None:
             application.open_retain_file(retain_folder)
-        fault = None
         if ONLINE_CHANGE_SYMBOL in package.exports:
-            fault = application.tasks.call(code[ONLINE_CHANGE_SYMBOL])
-            if fault is not None:
-                application.mark_faulted()
+            faults.append(application.tasks.call(code[ONLINE_CHANGE_SYMBOL]))
+        fault = next((found for found in faults if found is not None), None)
+        if fault is not None:
+            application.mark_faulted()
         old_code.close()
         application.connect_flight()  # in what was kept, places would name other variables
     return ChangeResult(fault, tuple(lost), paused=True)

@@ -1,0 +1,170 @@
+"""FB_Exit, FB_Init and FB_Reinit around an online change (LDEC-44, LDEC-103..LDEC-108, LPRG-36)."""
+
+from __future__ import annotations
+
+import pytest
+from compiled_programs import build, change_over
+
+from tappet.codegen.jit import loaded
+from tappet.codegen.package import CodePackage
+
+BASE = """
+FUNCTION_BLOCK FB_Base
+VAR kept : INT := 1; {base} END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR
+Log.Note('I', bInCopyCode, bInitRetains);
+Log.found := kept;
+kept := 50;
+{init}
+END_METHOD
+METHOD FB_Exit : BOOL
+VAR_INPUT bInCopyCode : BOOL; END_VAR
+Log.Note('E', bInCopyCode, FALSE);
+Log.left := kept;
+END_METHOD
+METHOD FB_Reinit : BOOL
+Log.Note('R', FALSE, FALSE);
+Log.again := kept;
+END_METHOD
+kept := kept + {add};
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB_Derived EXTENDS FB_Base
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR
+Log.Note('i', bInCopyCode, bInitRetains);
+END_METHOD
+METHOD FB_Exit : BOOL
+VAR_INPUT bInCopyCode : BOOL; END_VAR
+Log.Note('e', bInCopyCode, FALSE);
+END_METHOD
+METHOD FB_Reinit : BOOL
+Log.Note('r', FALSE, FALSE);
+END_METHOD
+SUPER^();
+END_FUNCTION_BLOCK
+PROGRAM Log
+VAR_INPUT text : STRING(200); found, left, again : INT; END_VAR
+METHOD Note : BOOL
+VAR_INPUT what : STRING(1); copied, retains : BOOL; END_VAR
+VAR n : INT; END_VAR
+WHILE text[n] <> 0 DO n := n + 1; END_WHILE
+text[n] := what[0];
+IF copied THEN n := n + 1; text[n] := 16#2B; END_IF
+IF retains THEN n := n + 1; text[n] := 16#21; END_IF
+text[n + 1] := 0;
+END_METHOD
+END_PROGRAM
+PROGRAM PLC_PRG
+VAR
+    {first}
+    {fbs}
+    y : INT := 3;
+    z : POINTER TO INT := ADR(y);
+END_VAR
+{calls}
+END_PROGRAM
+"""
+
+
+def text(**changes: object) -> str:
+    values = {"base": "", "init": "", "add": 1, "first": "", "fbs": "fb : FB_Base;", "calls": "fb();"}
+    return BASE.format(**(values | changes))
+
+
+def log(package: CodePackage, changed: CodePackage, cycles: int = 2) -> dict[str, object]:
+    """What was called by the change alone, and values behind it."""
+    with loaded(package) as application:
+        for _ in range(cycles):
+            application.cycle()
+        application.write("Log.text", "''")
+        after = change_over(application, changed)
+        found = {name: after.read(f"Log.{name}") for name in ("text", "found", "left", "again")}
+        found["kept"] = after.read("PLC_PRG.fb.kept")
+        after.close()
+    return found
+
+
+def test_calls_around_a_moved_instance() -> None:
+    """LDEC-106: Exit of the old one, Init of the new one, the values are copied, Reinit."""
+    old = build(text())
+    found = log(old, build(text(first="more : LREAL;"), old))
+    assert found == {"text": "E+I+R", "found": 1, "left": 52, "again": 52, "kept": 52}
+
+
+def test_new_members_have_what_init_gave_them() -> None:
+    """LDEC-103, LDEC-106: the values of the old instance are copied over those of FB_Init, new ones stay."""
+    old = build(text())
+    new = build(text(base="fresh, plain : INT := 4;", init="fresh := 77;"), old)
+    with loaded(old) as application:
+        application.cycle()
+        changed = change_over(application, new)
+        values = [changed.read(f"PLC_PRG.fb.{name}") for name in ("kept", "fresh", "plain")]
+        changed.close()
+    assert values == [51, 77, 4]
+
+
+def test_order_with_inheritance() -> None:
+    """LDEC-107: Exit from the derived block to the base, Init and Reinit from the base."""
+    old = build(text(fbs="fb : FB_Derived;"))
+    found = log(old, build(text(fbs="fb : FB_Derived;", first="more : LREAL;"), old))
+    assert found["text"] == "e+E+I+i+Rr"
+
+
+def test_a_removed_instance_is_left() -> None:
+    """LDEC-105: FB_Exit of a deleted instance, nothing else."""
+    old = build(text(fbs="fb : FB_Base; other : FB_Base;"))
+    found = log(old, build(text(), old))
+    assert sorted(str(found["text"])) == sorted("E+E+I+R")
+
+
+def test_a_new_instance_is_initialised() -> None:
+    """LDEC-101, LDEC-110: what a change adds gets FB_Init only; nothing is copied to it, not even what is
+    retained."""
+    old = build(text(fbs="fb : INT;", calls=""))
+    new = build(text(fbs="fb : INT; fresh : FB_Base;", calls="fresh();"), old)
+    with loaded(old) as application:
+        application.cycle()
+        application.write("Log.text", "''")
+        changed = change_over(application, new)
+        assert changed.read("Log.text") == "I!"
+        assert changed.read("PLC_PRG.fresh.kept") == 50
+        changed.close()
+
+
+@pytest.mark.parametrize("attribute", ["'symbol' := 'no-exit'", "'no-exit'"])
+def test_instances_without_exit(attribute: str) -> None:
+    """LPRG-36, EX-10: FB_Exit of POU1 only."""
+    fbs = f"fb : FB_Base; {{attribute {attribute}}} POU2 : FB_Base;"
+    old = build(text(fbs=fbs))
+    found = log(old, build(text(fbs=fbs, first="more : LREAL;"), old))
+    assert str(found["text"]).count("E+") == 1
+    assert str(found["text"]).count("I+") == 2
+
+
+def test_nothing_is_called_when_code_alone_has_changed() -> None:
+    """LDEC-108."""
+    old = build(text())
+    assert log(old, build(text(add=10), old))["text"] == ""
+
+
+def test_a_download_initialises() -> None:
+    """LDEC-110."""
+    with loaded(build(text())) as application:
+        assert application.read("Log.text") == "I!"
+
+
+def test_a_pointer_keeps_what_it_has() -> None:
+    """LDEC-44: a pointer with ADR as initial value is not initialised again, it follows its target."""
+    main = """PROGRAM PLC_PRG
+    VAR {first} y : INT := 3; x : INT := 4; z : POINTER TO INT := ADR(y); END_VAR
+    {code}
+    END_PROGRAM"""
+    old = build(main.format(first="", code="z := ADR(x);"))
+    new = build(main.format(first="more : LREAL;", code="x := 9; y := z^;"), old)
+    with loaded(old) as application:
+        application.cycle()
+        changed = change_over(application, new)
+        changed.cycle()
+        assert changed.read("PLC_PRG.y") == 9
+        changed.close()
