@@ -250,6 +250,24 @@ VAR n : INT; u : USINT; w : UINT; d : DINT; b : BOOL; r : REAL; END_VAR
     assert [each for each, _ in found] == [code] * bool(code)
 
 
+@pytest.mark.parametrize(
+    ("statement", "advice"),
+    [
+        ("n := 3;", "Write INT#3."),
+        ("nSmall := 3;", "Write INT#3."),
+        ("r := 3;", "Write REAL#3."),
+        ("w := 16#FF;", "Write UINT#16#FF."),
+        ("n := INT#3;", ""),
+        ("n := a[3];", ""),
+        ("t := T#3S;", ""),
+    ],
+)
+def test_literals_without_a_type(statement: str, advice: str) -> None:
+    head = "VAR nSmall : INT(0..9); n : INT; w : UINT; r : REAL; a : ARRAY[0..9] OF INT; t : TIME; END_VAR\n"
+    found = [d.advice for d in diagnose(f"@static\n{head}{statement}\n") if d.code == "S1242"]
+    assert found == [advice] * bool(advice)
+
+
 def test_two_paths_to_a_function_of_a_library() -> None:
     text = """@references Standard
 PROGRAM Main

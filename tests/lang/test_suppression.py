@@ -45,6 +45,13 @@ def test_static_analysis_is_switched_off_in_the_text(text: str, lines: list[int]
     assert [d.span.line + 1 for d in found] == lines
 
 
+@pytest.mark.parametrize("number", [55, 56, 59])
+def test_each_of_several_numbers_switches_a_warning_off(number: int) -> None:
+    comparison = "x := u >= 0;\n"
+    assert "W1113" in {d.code for d in diagnose(BODY + comparison)}
+    assert "W1113" not in {d.code for d in diagnose(BODY + f"{{analysis -{number}}}\n" + comparison)}
+
+
 def test_attribute_switches_rules_off_in_an_object() -> None:
     text = "{attribute 'analysis' := '-54, -NC0007'}\n" + BODY + "x := a = b;\n"
     found = {d.code for d in diagnose("@static\n" + text)}

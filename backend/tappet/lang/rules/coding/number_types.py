@@ -83,8 +83,9 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 
 
 def _literal(b: Body, e: ast.Literal) -> None:
-    if e.kind in ("int", "real") and e.prefix is None:
-        b.report("S1242", e.span, text=e.text, type=e.type or "INT")
+    type_ = value_type(e.type) if e.type is not None else None
+    if e.kind in ("int", "real") and e.prefix is None and isinstance(type_, Elementary):
+        b.report("S1242", e.span, text=e.text, type=type_)
 
 
 def _operator(b: Body, e: ast.Call, target: BuiltinSymbol, chosen: frozenset[str]) -> None:
