@@ -64,7 +64,7 @@ def test_the_tree_says_what_came_of_each_test(tested: Page) -> None:
     expect(row(tested, "sum: expected 3, but was 2")).to_contain_text("FB_Sum_Test.Bad, line 3")
     expect(row(tested, "division by zero")).to_contain_text("FB_Sum_Test.Worse, line 2")
     panel = tested.get_by_role("tabpanel", name="Unit tests")
-    for count in ("1 passed", "1 failed", "1 with an exception", "0 not run"):
+    for count in ("1 passed", "1 failed", "1 with an error", "0 not run"):
         expect(panel.get_by_text(count, exact=True)).to_be_visible()
 
 

@@ -8,7 +8,7 @@ import type { Monaco } from '@/editors/st/monacoLoader';
 import { openObject } from '@/workbench/docking/dock';
 import { showDocumentation } from '@/workbench/libraries/show';
 import { publishDiagnostics } from '@/workbench/messages/store';
-import { objectPath } from '@/workbench/tree/model';
+import { treePath } from '@/workbench/tree/model';
 import { LanguageClient } from './client';
 import { adviceOf, parseLibraryUri, parsePartUri, type PartAddress } from './convert';
 import type { Diagnostic as ServerDiagnostic } from './protocol';
@@ -77,7 +77,7 @@ function publish(uri: string, diagnostics: readonly ServerDiagnostic[]): void {
     message: one.message,
     advice: adviceOf(one),
     object_id: objectId,
-    object_path: objectPath(objects, objectId),
+    object_path: treePath(objects, objectId),
     part,
     line: one.range.start.line + 1,
     column: one.range.start.character + 1,

@@ -33,9 +33,9 @@ export function InputAssistant({ projectId, object, category = null, typed = '',
   const row = selection.cursor?.row ?? 0;
   const entry = entries[row];
   const columns: GridColumn[] = [
-    { id: 'name', title: t('decl.column.name'), width: 190, grow: true, code: true },
-    { id: 'detail', title: t('decl.column.type'), width: 140, grow: true, code: true },
-    { id: 'group', title: t('assistant.origin'), width: 110 },
+    { id: 'name', title: t('decl.column.name'), width: 210, grow: true, code: true },
+    { id: 'detail', title: t('decl.column.type'), width: 210, grow: true, code: true },
+    { id: 'group', title: t('assistant.origin'), width: 120 },
     { id: 'comment', title: t('decl.column.comment'), width: 180, grow: true },
   ];
   const onKeyDown = (event: KeyboardEvent) => {
@@ -54,7 +54,7 @@ export function InputAssistant({ projectId, object, category = null, typed = '',
   return (
     <Dialog
       title={t('assistant.title')}
-      width={760}
+      width={980}
       onClose={() => close()}
       footer={
         <>

@@ -60,7 +60,7 @@ export function AddLibraryDialog({ references, installed, close }: AddLibraryPro
   return (
     <Dialog
       title={t('library.add')}
-      width={720}
+      width={860}
       onClose={() => close()}
       onSubmit={() => !refused && reference && close(reference)}
       footer={

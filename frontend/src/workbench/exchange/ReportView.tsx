@@ -69,7 +69,7 @@ export function ReportView({ entries, hide = [], open }: ReportViewProps) {
       <div className={styles.buttons}>
         {OUTCOMES.filter((outcome) => count[outcome] > 0).map((outcome) => (
           <FilterToggle key={outcome} shown={!hidden.has(outcome)} onToggle={() => toggle(outcome)}>
-            {count[outcome]} {t(`exchange.outcome.${outcome}`)}
+            {t('exchange.outcomeCount', { count: count[outcome], outcome: t(`exchange.outcome.${outcome}`) })}
           </FilterToggle>
         ))}
         <TextInput

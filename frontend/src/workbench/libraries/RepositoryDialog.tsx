@@ -85,7 +85,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
   return (
     <Dialog
       title={t('command.libraryRepository')}
-      width={820}
+      width={1000}
       onClose={close}
       footer={
         <>

@@ -75,7 +75,7 @@ export default function MessagesPanel() {
       {
         id: 'object',
         title: t('messages.object'),
-        width: 260,
+        width: 330,
         sort: ({ message: line }) => line.object_path,
         hint: ({ message: line }) => line.object_path,
         cell: ({ message: line }) => {

@@ -66,6 +66,14 @@ export function objectPath(objects: readonly ObjectSummary[] | Forest, id: strin
     .join('.');
 }
 
+/** All names from the root to the object, as the server tells the place of a message. */
+export function treePath(objects: readonly ObjectSummary[] | Forest, id: string): string {
+  return lineage(objects, id)
+    .map((object) => object.name)
+    .reverse()
+    .join('/');
+}
+
 /** The object and everything below it. */
 export function subtree(forest: Forest, id: string): ObjectSummary[] {
   const root = forest.byId.get(id);
