@@ -168,3 +168,46 @@ def test_a_pointer_keeps_what_it_has() -> None:
         changed.cycle()
         assert changed.read("PLC_PRG.y") == 9
         changed.close()
+
+
+DYNAMIC = """
+{{attribute 'enable_dynamic_creation'}}
+FUNCTION_BLOCK FB_Dynamic
+VAR n : INT; {more} END_VAR
+n := n + {add};
+END_FUNCTION_BLOCK
+TYPE Rec : STRUCT a : INT; {member} END_STRUCT END_TYPE
+PROGRAM PLC_PRG
+VAR {first} p : POINTER TO FB_Dynamic; q : POINTER TO Rec; END_VAR
+IF p = 0 THEN p := __NEW(FB_Dynamic); q := __NEW(Rec); END_IF
+p^();
+END_PROGRAM
+"""
+
+
+def dynamic(**changes: object) -> str:
+    return DYNAMIC.format(**({"more": "", "add": 1, "member": "", "first": ""} | changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "name"),
+    [({"more": "x : LREAL;"}, "FB_Dynamic"), ({"member": "b : LREAL;"}, "Rec")],
+)
+def test_what_new_has_made_keeps_its_form(changes: dict[str, str], name: str) -> None:
+    """LOPR-101: no online change after a change of the declaration: nothing moves what lies on the heap."""
+    old = build(dynamic())
+    change = build(dynamic(**changes), old).online_change
+    assert change is not None
+    assert f"'{name}' is created with __NEW" in change.refused
+    later = build(dynamic(**changes, add=5), old).online_change  # one more edit, of code alone
+    assert later is not None
+    assert later.refused == change.refused
+
+
+@pytest.mark.parametrize("changes", [{"add": 5}, {"first": "x : LREAL;"}])
+def test_what_new_has_made_lives_on(changes: dict[str, object]) -> None:
+    old = build(dynamic())
+    new = build(dynamic(**changes), old)
+    assert new.online_change is not None
+    assert new.online_change.refused == ""
+    assert CodePackage.from_bytes(new.to_bytes()).online_change == new.online_change

@@ -83,6 +83,28 @@ def test_blocks_are_left_and_entered() -> None:
         assert [runtime.read(path) for path in ("Calls.sum", "Calls.kept", "PLC_PRG.fb.n")] == [1425, 3, 4]
 
 
+def test_objects_of_the_heap_keep_their_form() -> None:
+    """LOPR-101: a block that __NEW has made cannot be moved; the running application goes on."""
+    text = """
+    {attribute 'enable_dynamic_creation'}
+    FUNCTION_BLOCK FB
+    VAR n : INT; MORE END_VAR
+    n := n + 1;
+    END_FUNCTION_BLOCK
+    PROGRAM PLC_PRG
+    VAR p : POINTER TO FB; n : INT; END_VAR
+    IF p = 0 THEN p := __NEW(FB); END_IF
+    p^(); n := n + 1;
+    END_PROGRAM
+    """
+    with LocalRuntime(build(text.replace("MORE", ""))) as runtime:
+        runtime.run(cycles=2)
+        with pytest.raises(PlcError, match="'FB' is created with __NEW"):
+            change(runtime, text.replace("MORE", "x : LREAL;"))
+        runtime.run(cycles=1)
+        assert runtime.read("PLC_PRG.n") == 3
+
+
 def test_forces_and_traces_follow_their_variables() -> None:
     with LocalRuntime(build(ONE)) as runtime:
         trace = runtime.trace(["PLC_PRG.n"])

@@ -29,6 +29,7 @@ from tappet.core.effects import EffectsTable
 from tappet.core.lower import Lowered, Task, lower
 from tappet.core.program import AREA_PREFIX
 from tappet.core.relower import relower
+from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.symbols import PouSymbol
@@ -101,6 +102,7 @@ class Generator:
             if previous is not None:
                 change = plan_online_change(previous, symbols, placed)
                 add_online_change(lowered, previous, change, placed.objects, symbols)
+                change = replace(change, refused=self.refusal(lowered))
         with self.timed("passes"):
             effects = passes.run(lowered.module)
         parts = partition(lowered.module)
@@ -121,7 +123,11 @@ class Generator:
                 exports=_exports(lowered),
                 type_ids=dict(lowered.type_ids),
                 online_change=change,
-                runtime={"byte_addressing": self.options.byte_addressing, "signatures": self.signatures},
+                runtime={
+                    "byte_addressing": self.options.byte_addressing,
+                    "signatures": self.signatures,
+                    "created": self.created(lowered),
+                },
             )
             _take_remanence(package, remanence)
             package.code_id = code_id(package, self.program)
@@ -163,6 +169,24 @@ class Generator:
             sizes[area] = max(sizes.get(area, 0), (used + 63) // 64 * 64)
         return sizes
 
+    def created(self, lowered: Lowered) -> dict[str, str]:
+        """Signatures of what __NEW makes: the memory of such objects keeps its form over online changes."""
+        assert lowered.program is not None
+        return {name: _signature(type_) for name, type_ in sorted(lowered.program.created.items())}
+
+    def refusal(self, lowered: Lowered) -> str:
+        """Why no online change leads here: objects made by __NEW would have another form (LOPR-101)."""
+        assert self.previous is not None
+        assert lowered.program is not None
+        analysis = lowered.program.analysis
+        known = {pou.qualified_name.upper(): pou.instance for pou in analysis.pous}
+        types: dict[str, t.Type | None] = {**known, **analysis.types}
+        for name, before in self.previous.runtime.get("created", {}).items():
+            type_ = types.get(name)
+            if type_ is not None and _signature(type_) != before:
+                return f"'{type_}' is created with __NEW and its declaration has changed; a download is needed"
+        return ""
+
     def image(self, lowered: Lowered, placed: image_layout.Layout) -> bytes:
         """Initial bytes of the whole image."""
         image = bytearray(placed.size)
@@ -186,6 +210,7 @@ class Generator:
             if self.previous.data_id != last.placed.data_id or self.previous.type_ids != program.type_ids:
                 return None
             change = code_change(self.previous, last.package.symbols)
+            change = replace(change, refused=self.refusal(lowered))
         with self.timed("lower"):
             lowered.module.functions.pop(ONLINE_CHANGE_SYMBOL, None)
             fresh = relower(lowered, last.effects, changed)
@@ -205,6 +230,7 @@ class Generator:
                 exports=_exports(lowered),
                 type_ids=dict(lowered.type_ids),
                 online_change=change,
+                runtime={**last.package.runtime, "created": self.created(lowered)},
             )
             package.code_id = code_id(package, self.program)
         return replace(last, parts=parts, keys=keys, objects=objects, package=package)
@@ -256,6 +282,11 @@ def _refreshed(lowered: Lowered, parts: list[Part], fresh: set[str]) -> tuple[li
         for number in dirty:
             result[number].copies = copies_for(lowered.module, result[number].names)
     return result, dirty
+
+
+def _signature(type_: t.Type) -> str:
+    """A short form of the layout of a type."""
+    return hashlib.blake2b(image_layout.Signatures().of(type_).encode(), digest_size=12).hexdigest()
 
 
 def _exports(lowered: Lowered) -> list[str]:

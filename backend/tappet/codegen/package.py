@@ -103,6 +103,8 @@ class OnlineChange:
     """(offset, size) in the new image that get their bytes from `initial_image`."""
     reasons: tuple[str, ...] = ()
     """What changed, one line each, for the user."""
+    refused: str = ""
+    """Why the running application cannot become this one; '' when it can."""
 
 
 @dataclass(slots=True)
@@ -319,19 +321,21 @@ def _online_to_list(change: OnlineChange | None) -> list[Any] | None:
         [list(m) for m in change.moves],
         [list(r) for r in change.initialise],
         list(change.reasons),
+        change.refused,
     ]
 
 
 def _online_from_list(row: list[Any] | None) -> OnlineChange | None:
     if row is None:
         return None
-    base_code, base_data, moves, initialise, reasons = row
+    base_code, base_data, moves, initialise, reasons, *refused = row
     return OnlineChange(
         str(base_code),
         str(base_data),
         tuple((int(a), int(b), int(c)) for a, b, c in moves),
         tuple((int(a), int(b)) for a, b in initialise),
         tuple(str(r) for r in reasons),
+        "".join(str(r) for r in refused),
     )
 
 

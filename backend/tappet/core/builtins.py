@@ -227,6 +227,8 @@ def _new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     read = ir.Load(ir.PTR, ir.Place(pointer))
     memory = ir.Call(ir.PTR, "tappet_allocate", [count, ir.Const(ir.U64, max(type_.size, 1))])
     body: list[ir.Stmt] = [ir.Store(ir.Place(pointer), memory)]
+    if isinstance(type_, t.FunctionBlock | t.Struct):
+        b.program.created[str(type_).upper()] = type_
     if scalar_of(type_) is None and len(operands) == 1:
         with b.block_of() as fill:
             made = operands[0] if isinstance(operands[0], ast.Call) else None

@@ -74,6 +74,8 @@ class Program:
     initial_functions: dict[int, str] = field(default_factory=dict)
     """id(FunctionBlock) to the function that runs the dynamic initial values of its members."""
     check_names: dict[str, PouSymbol | None] = field(default_factory=dict)
+    created: dict[str, t.Type] = field(default_factory=dict)
+    """Blocks and structures that __NEW makes, by upper-case name: an online change cannot move them."""
 
     def __post_init__(self) -> None:
         for gvl in self.analysis.gvls:

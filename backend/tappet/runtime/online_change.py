@@ -34,6 +34,8 @@ def check_change(running: CodePackage, package: CodePackage) -> None:
     change = package.online_change
     if change is None:
         raise OnlineChangeError("the package was not built as an online change; download it")
+    if change.refused:
+        raise OnlineChangeError(change.refused)
     if change.base_code_id != running.code_id or change.base_data_id != running.data_id:
         raise OnlineChangeError(
             "the package was built against another application than the running one; build again or download"

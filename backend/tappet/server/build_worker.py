@@ -14,7 +14,7 @@ import sys
 import time
 import traceback
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import FrameType
 from typing import Any, BinaryIO
@@ -125,14 +125,15 @@ class Compiler:
         result = build_application(sources, tasks, options, previous, session)
         self._partial = result.partial
         package = result.package
+        change = package.online_change if package else None
+        if change is not None and change.refused:
+            change = replace(change, base_code_id="", reasons=(change.refused,))
         return {
             "package": package.to_bytes() if package else None,
             "code_id": package.code_id if package else None,
             "data_id": package.data_id if package else None,
-            "change_base": package.online_change.base_code_id if package and package.online_change else None,
-            "change_reasons": (
-                list(package.online_change.reasons) if package and package.online_change else []
-            ),
+            "change_base": (change.base_code_id or None) if change else None,
+            "change_reasons": list(change.reasons) if change else [],
             "code_size": result.code_size,
             "data_size": result.data_size,
             "diagnostics": [_fields(diagnostic) for diagnostic in result.diagnostics],

@@ -83,7 +83,8 @@ class Commissioning:
         if built.change_base == info.code_id:
             reasons = list(built.change_reasons) or ["Only code has changed; all data stay in place."]
             return LoginReport(relation=Relation.ONLINE_CHANGE, reasons=reasons)
-        return LoginReport(relation=Relation.DOWNLOAD, reasons=["The running application is another one."])
+        reasons = list(built.change_reasons) or ["The running application is another one."]
+        return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons)
 
     async def download(
         self, project_id: str, application_id: str, link: RuntimeLink, mode: LoadMode, start: bool
