@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from compiled_programs import change_over, running
+from compiled_programs import change_over
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
+from tappet.codegen.jit import ApplicationFault, LoadedApplication, loaded
 from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.lang.source import Source
 
@@ -148,7 +148,7 @@ def values(application: LoadedApplication, cycles: int = 3) -> list[object]:
 
 def changed_over(old: CodePackage, new: CodePackage) -> list[object]:
     """Values after an online change in the third cycle."""
-    with running(old) as application:
+    with loaded(old) as application:
         values(application, 2)
         changed = change_over(application, new)
         try:
@@ -165,7 +165,7 @@ def agree(pair: Pair, partial: bool = True, previous: CodePackage | None = None)
     assert whole.package is not None
     assert after.partial == partial
     assert after.package.code_id == whole.package.code_id
-    with running(after.package) as a, running(whole.package) as b:
+    with loaded(after.package) as a, loaded(whole.package) as b:
         assert values(a) == values(b)
     return after
 

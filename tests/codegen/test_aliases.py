@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from compiled_programs import build, running
+from compiled_programs import build
+
+from tappet.codegen.jit import loaded
 
 TEXT = """
 FUNCTION_BLOCK FB
@@ -78,7 +80,7 @@ def test_every_way_to_an_instance_is_seen(body: str, n: int):
     text = TEXT % body
     if "pn := " in body or "Loop" in body:
         text = text.replace("p := ADR(fb); r REF= fb;", "")
-    with running(build(text)) as application:
+    with loaded(build(text)) as application:
         application.cycle()
         assert application.read("PLC_PRG.fb.n") == n
 
@@ -94,6 +96,6 @@ def test_variables_of_a_program_by_its_address():
     FOR i := 0 TO 9 DO Other.n := Other.n + 1; p^ := 100 + i; END_FOR
     END_PROGRAM
     """
-    with running(build(text)) as application:
+    with loaded(build(text)) as application:
         application.cycle()
         assert application.read("Other.n") == 109

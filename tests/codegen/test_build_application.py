@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgpack
 import pytest
-from compiled_programs import build, result, running
+from compiled_programs import build, result
 from elftools.elf.elffile import ELFFile
 
 from tappet.codegen.build import (
@@ -22,6 +22,7 @@ from tappet.codegen.build import (
     layout_of,
 )
 from tappet.codegen.check import check_application, format_diagnostic
+from tappet.codegen.jit import loaded
 from tappet.codegen.package import MAGIC, CodePackage, PackageError, WatchdogSpec
 from tappet.lang.source import Scope, Source
 
@@ -54,7 +55,7 @@ def test_package_survives_serialisation():
     package = build(PROGRAM)
     again = CodePackage.from_bytes(package.to_bytes())
     assert again == package
-    with running(again) as application:
+    with loaded(again) as application:
         application.cycle()
         assert application.read("PLC_PRG.a") == 6
 
@@ -224,7 +225,7 @@ def test_edit_compiles_one_module_again(tmp_path: Path):
     third = build_application(sources(2), (), options)
     assert third.package is not None
     assert third.cached_objects == len(third.package.objects)
-    with running(third.package) as application:
+    with loaded(third.package) as application:
         application.cycle()
         assert application.read("PLC_PRG.f4.a") == application.read("PLC_PRG.f5.a")
         assert application.read("PLC_PRG.f3.a") != application.read("PLC_PRG.f4.a")
@@ -241,7 +242,7 @@ def test_small_functions_of_other_modules_still_work():
         + blocks
         + "PROGRAM PLC_PRG\nVAR f0 : FB0; f7 : FB7; END_VAR\nf0(); f7();\nEND_PROGRAM"
     )
-    with running(build(text, level=1)) as application:
+    with loaded(build(text, level=1)) as application:
         application.cycle()
         x = 7
         for _ in range(300):

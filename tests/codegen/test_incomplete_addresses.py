@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from compiled_programs import build, running
+from compiled_programs import build
 
+from tappet.codegen.jit import loaded
 from tappet.codegen.symbol_map import SymbolMap
 
 BLOCKS = """
@@ -36,7 +37,7 @@ def test_places_are_in_the_symbol_map() -> None:
 
 
 def test_an_input_that_is_written_stays_written() -> None:
-    with running(build(BLOCKS.replace("{more}", ""))) as application:
+    with loaded(build(BLOCKS.replace("{more}", ""))) as application:
         application.write("PLC_PRG.doors[2].level", 5)
         application.write("PLC_PRG.doors[2].closed", True)
         for _ in range(3):

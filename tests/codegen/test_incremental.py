@@ -6,13 +6,13 @@ import io
 from collections.abc import Iterator
 
 import pytest
-from compiled_programs import running
 from edited_application import BODIES, OPTIONS, Pair, agree, changed_over, edited, messages, values
 from elftools.elf.elffile import ELFFile
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tappet.codegen.build import BuildSession, build_application
+from tappet.codegen.jit import loaded
 from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.core.lower import lower_pou
 from tappet.core.program import LoweringError, Program
@@ -50,22 +50,22 @@ edits = st.sampled_from(sorted(BODIES)).flatmap(
 @given(st.lists(st.tuples(st.lists(edits, min_size=1, max_size=2), st.booleans()), min_size=2, max_size=5))
 def test_every_build_says_and_does_what_a_whole_one_does(steps: list[tuple[list[tuple[str, str]], bool]]):
     pair = Pair()
-    loaded: CodePackage | None = None
+    running: CodePackage | None = None
     for changes, download in steps:
         pair.bodies |= dict(changes)
-        after, whole = pair.both(loaded)
+        after, whole = pair.both(running)
         assert messages(after) == messages(whole)
         assert after.ok == whole.ok
         if after.package is None or whole.package is None:
             continue
         assert after.package.data_id == whole.package.data_id
         assert after.package.code_id == whole.package.code_id
-        with running(after.package) as a, running(whole.package) as b:
+        with loaded(after.package) as a, loaded(whole.package) as b:
             assert values(a) == values(b)
-        if loaded is not None:
-            assert changed_over(loaded, after.package) == changed_over(loaded, whole.package)
-        if download or loaded is None:
-            loaded = after.package
+        if running is not None:
+            assert changed_over(running, after.package) == changed_over(running, whole.package)
+        if download or running is None:
+            running = after.package
 
 
 def test_edit_of_a_body_compiles_little():

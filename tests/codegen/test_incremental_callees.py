@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from compiled_programs import running
 from edited_application import OPTIONS, messages
 
 from tappet.codegen.build import BuildResult, BuildSession, build_application
+from tappet.codegen.jit import loaded
 from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 
@@ -35,7 +35,7 @@ def test_an_input_is_copied_once_a_called_function_writes_memory():
         sources = [Source("Reader", READER), Source("Aside", ASIDE.format(body=body))]
         built = build_application(sources, session=session)
         assert built.package is not None
-        with running(built.package) as application:
+        with loaded(built.package) as application:
             application.cycle()
             found.append((application.read("PLC_PRG.r"), built.partial))
     assert found == [("before", False), ("before", True), ("before", True)]
@@ -77,7 +77,7 @@ def test_an_edit_makes_the_first_instance_of_another_implementation():
         sources = [Source("Blocks", BLOCKS), Source("Maker", MAKER.replace("@", body))]
         built = build_application(sources, session=session)
         assert built.package is not None
-        with running(built.package) as application:
+        with loaded(built.package) as application:
             application.cycle()
             found.append((application.read("PLC_PRG.sum"), application.read("PLC_PRG.r"), built.partial))
     assert found == [(3, 3, False), (140, 480, True), (3, 3, True)]
@@ -122,7 +122,7 @@ def run_of(session: BuildSession, texts: dict[str, str], *paths: str, partial: b
     assert messages(built) == [m for m in messages(built) if "error" not in m]
     assert built.package is not None
     assert built.partial == partial
-    with running(built.package) as application:
+    with loaded(built.package) as application:
         application.cycle()
         return [application.read(path) for path in paths]
 
@@ -217,6 +217,6 @@ def test_block_type_known_from_the_running_application_gets_its_methods():
     after = build(session, without)
     assert after.partial
     assert after.package is not None
-    with running(after.package) as application:
+    with loaded(after.package) as application:
         application.cycle()
         assert application.read("PLC_PRG.sum") == 2

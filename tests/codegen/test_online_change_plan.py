@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from compiled_programs import build, change_over, running
+from compiled_programs import build, change_over
+
+from tappet.codegen.jit import loaded
 
 BASE = """
 FUNCTION_BLOCK FB_Counter
@@ -50,7 +52,7 @@ def test_code_only_keeps_the_layout():
     assert new.data_id == old.data_id
     assert new.code_id != old.code_id
     assert "tappet.online_change" not in new.exports
-    with running(old) as application:
+    with loaded(old) as application:
         application.cycle()
         changed = change_over(application, new)
         changed.cycle()
@@ -65,7 +67,7 @@ def test_new_variable_in_front_moves_the_others():
     assert change is not None
     assert change.reasons == ("declaration of PLC_PRG changed",)
     assert new.data_objects["tappet.data.OTHER"] == old.data_objects["tappet.data.OTHER"]
-    with running(old) as application:
+    with loaded(old) as application:
         for _ in range(3):
             application.cycle()
         changed = change_over(application, new)
@@ -88,7 +90,7 @@ def test_changed_block_keeps_values_and_is_reinitialised():
     old = build(text())
     method = "METHOD FB_Reinit : BOOL\nextra := extra + 1000;\nEND_METHOD"
     new = build(text(more="VAR extra : DINT := 5; twice : INT := 2 * step; END_VAR", methods=method), old)
-    with running(old) as application:
+    with loaded(old) as application:
         application.cycle()
         application.cycle()
         changed = change_over(application, new)
@@ -103,7 +105,7 @@ def test_changed_block_keeps_values_and_is_reinitialised():
 def test_arrays_grow_and_strings_shrink():
     old = build(text())
     new = build(text(rows=5, length=2), old)
-    with running(old) as application:
+    with loaded(old) as application:
         application.cycle()
         changed = change_over(application, new)
         values = [changed.read(f"PLC_PRG.row[{n}].value") for n in range(1, 6)]
@@ -117,7 +119,7 @@ def test_arrays_grow_and_strings_shrink():
 def test_pointer_to_a_removed_variable_becomes_null():
     old = build("PROGRAM PLC_PRG VAR x : INT; y : INT; p : POINTER TO INT; END_VAR p := ADR(x); END_PROGRAM")
     new = build("PROGRAM PLC_PRG VAR y : INT; p : POINTER TO INT; END_VAR END_PROGRAM", old)
-    with running(old) as application:
+    with loaded(old) as application:
         application.cycle()
         assert application.read("PLC_PRG.p") != 0
         changed = change_over(application, new)
@@ -155,7 +157,7 @@ def test_attributes_decide_what_an_online_change_initialises():
     for more, anew in (("", 3), ("x : LREAL;", 1)):
         old = build(ATTRIBUTED.format(more="", add=1))
         new = build(ATTRIBUTED.format(more=more, add=0), old)
-        with running(old) as application:
+        with loaded(old) as application:
             application.cycle()
             application.cycle()
             changed = change_over(application, new)

@@ -6,7 +6,7 @@ import pytest
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
 from tappet.codegen.display import Mode, display_text
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import loaded
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_export import exported
 from tappet.lang.source import Source
@@ -130,14 +130,10 @@ END_PROGRAM"""
     options = BuildOptions(level=1, libraries=(LibraryReference("Standard"), LibraryReference("Standard64")))
     result = build_application([Source("P", text)], session=BuildSession(), options=options)
     assert result.package is not None, [str(d) for d in result.diagnostics]
-    application = LoadedApplication(result.package)
-    try:
-        application.start()
+    with loaded(result.package) as application:
         application.cycle()
         names = ["n", "found", "none", "left", "right", "mid", "joined", "put", "cut", "swapped"]
         w = "Größe 12 µm"
         values = ["11", "10", "0", w[:5], w[-2:], w[6:8], w[:5] + "!", "Gr--öße", w[:2], "Grüe"]
         found = [application.literal(f"P.{name}").strip('"') for name in names]
         assert found == values
-    finally:
-        application.close()

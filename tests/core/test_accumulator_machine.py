@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 
 SESSION = BuildSession()
@@ -230,13 +230,9 @@ def test_compiled_rows_do_what_the_machine_does(seed: int) -> None:
     errors = [str(d) for d in result.diagnostics if d.severity == "error"]
     assert errors == []
     assert result.package is not None
-    application = LoadedApplication(result.package)
-    try:
-        application.start()
+    with loaded(result.package) as application:
         application.cycle()
         found = {path: application.literal(f"PLC_PRG.{path}") for path in wanted}
-    finally:
-        application.close()
     expected = {path: str(value).upper() for path, value in wanted.items()}
     wrong = {path: (found[path], value) for path, value in expected.items() if found[path] != value}
     assert not wrong, (wrong, texts[int(next(iter(wrong)).partition(".")[0][1:])])

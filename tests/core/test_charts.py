@@ -6,7 +6,7 @@ import pytest
 from chart_runs import SESSION, Run, chart
 
 from tappet.codegen.build import BuildOptions, build_application
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 
 
@@ -292,12 +292,10 @@ ACTION Other: LD n2\nADD 5\nST n2\nEND_ACTION""",
     result = build_application([Source("P", text), action], session=SESSION, options=BuildOptions(level=1))
     assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
     assert result.package is not None
-    application = LoadedApplication(result.package)
-    application.start()
-    for _ in range(3):
-        application.cycle()
-    assert [application.literal("P.n"), application.literal("P.n2")] == ["3", "10"]
-    application.close()
+    with loaded(result.package) as application:
+        for _ in range(3):
+            application.cycle()
+        assert [application.literal("P.n"), application.literal("P.n2")] == ["3", "10"]
 
 
 def test_ten_actions_at_a_step() -> None:

@@ -10,7 +10,7 @@ import random
 import pytest
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 
 _INTEGERS = {
@@ -123,9 +123,7 @@ def test_folded_and_compiled_values_agree(seed: int, level: int) -> None:
     errors = [str(d) for d in result.diagnostics if d.severity == "error"]
     assert errors == []
     assert result.package is not None
-    application = LoadedApplication(result.package)
-    try:
-        application.start()
+    with loaded(result.package) as application:
         application.cycle()
         wrong = [
             (folded, application.read(f"PLC_PRG.f{n}"), application.read(f"PLC_PRG.c{n}"))
@@ -133,6 +131,4 @@ def test_folded_and_compiled_values_agree(seed: int, level: int) -> None:
             if application.read(f"PLC_PRG.f{n}") != application.read(f"PLC_PRG.c{n}")
             or application.read(f"PLC_PRG.b{n}") != application.read(f"PLC_PRG.d{n}")
         ]
-    finally:
-        application.close()
     assert wrong == []

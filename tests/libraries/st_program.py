@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import LoadedApplication, loaded
 from tappet.lang.source import Source
 from tappet.libraries import names
 
@@ -33,12 +33,8 @@ def run(text: str, cycles: int, cycle_ms: int = CYCLE_MS) -> Iterator[Program]:
     result = build_application([Source("program", text)], options=options, session=SESSION)
     assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
     assert result.package is not None
-    application = LoadedApplication(result.package)
-    try:
-        application.start()
+    with loaded(result.package) as application:
         for _ in range(cycles):
             application.cycle()
             application.clock_ns += cycle_ms * 1_000_000
         yield Program(application)
-    finally:
-        application.close()

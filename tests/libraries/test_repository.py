@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.codegen.build import BuildOptions, LibraryReference, build_application
-from tappet.codegen.jit import LoadedApplication
+from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 from tappet.libraries import UnknownLibraryError, archive, every_version, load, names, repository, resolve
 from tappet.libraries.archive import LibraryFileError
@@ -112,17 +112,7 @@ def test_two_versions_in_one_application_under_two_namespaces() -> None:
         "a(); b(); b(); s.count := a.n;\nEND_PROGRAM"
     )
     old, new = LibraryReference("Plant", "1.0.0.0", "PlantOld"), LibraryReference("Plant")
-    result = build_application([Source("m", text)], options=BuildOptions(libraries=(old, new)))
-    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
-    assert result.package is not None
-    application = LoadedApplication(result.package)
-    try:
-        application.start()
-        application.cycle()
-        values = [application.literal(f"Main.{name}") for name in ("a.n", "b.n", "s.count")]
-    finally:
-        application.close()
-    assert values == ["1", "40", "1"]
+    assert _run(text, [old, new], ["a.n", "b.n", "s.count"]) == ["1", "40", "1"]
 
 
 def _run(text: str, libraries: list[LibraryReference], names: list[str]) -> list[str]:
@@ -130,13 +120,9 @@ def _run(text: str, libraries: list[LibraryReference], names: list[str]) -> list
     result = build_application([Source("m", text)], options=BuildOptions(libraries=tuple(libraries)))
     assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
     assert result.package is not None
-    application = LoadedApplication(result.package)
-    try:
-        application.start()
+    with loaded(result.package) as application:
         application.cycle()
         return [application.literal(f"Main.{name}") for name in names]
-    finally:
-        application.close()
 
 
 def _install_user(name: str, base: str, **requirement: str) -> None:
