@@ -184,7 +184,7 @@ class Generator:
         for name, before in self.previous.runtime.get("created", {}).items():
             type_ = types.get(name)
             if type_ is not None and _signature(type_) != before:
-                return f"'{type_}' is created with __NEW and its declaration has changed; a download is needed"
+                return f"'{type_}' is created with __NEW and its declaration has changed: download it"
         return ""
 
     def image(self, lowered: Lowered, placed: image_layout.Layout) -> bytes:
