@@ -89,6 +89,7 @@ class Run:
             f: "" if f in ("SFCCurrentStep", "SFCErrorStep") else False for f in chart.outputs
         }
         self.quit = False
+        self.tip = self.tip_before = False
         self.names = sorted({a.action for s in chart.steps for a in s.associations}, key=str.upper)
         self.started = False
         self._initialise()
@@ -96,6 +97,7 @@ class Run:
     def _initialise(self) -> None:
         self.states = {s.name: State() for s in self.chart.steps}
         self.controls = {name: Control() for name in self.names}
+        self.tip_before = False
         for name in self.chart.flags:
             if name in self.controls:
                 self.flags[name] = False
@@ -140,6 +142,8 @@ class Run:
                 state.since = now
         if given.get("SFCPause"):
             return
+        self.tip = given.get("SFCTip", False) and not self.tip_before
+        self.tip_before = given.get("SFCTip", False)
         self._steps()
         self._actions()
         self._transitions()
@@ -147,7 +151,7 @@ class Run:
     def _drop(self, given: dict[str, bool], reason: str) -> None:
         """The other flags are reset."""
         for name in given:
-            if name != reason:
+            if name not in (reason, "SFCEnableLimit"):
                 given[name] = self.flags[name] = False
 
     def _name_current(self) -> None:
@@ -177,6 +181,8 @@ class Run:
 
     def _check_time(self, step: Step) -> None:
         if "SFCError" not in self.outputs or step.maximum < 0 or self.outputs["SFCError"]:
+            return
+        if not self.flags.get("SFCEnableLimit", True):
             return
         state = self.states[step.name]
         if state.x and state.age > step.maximum:
@@ -231,7 +237,8 @@ class Run:
                 continue
             if any(self.states[name].age < times[name] for name in t.sources):
                 continue
-            if not self.holds(t.condition):
+            holds = self.holds(t.condition)
+            if not (self.tip if self.flags.get("SFCTipMode") else holds):
                 continue
             for s in sources:
                 s.next_x, s.will_leave = s.will_enter, True

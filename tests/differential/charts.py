@@ -116,11 +116,16 @@ class ChartMaker:
         for flag in ("SFCInit", "SFCReset", "SFCPause"):
             if self.chance(25):
                 self.chart.inputs[flag] = (self.r.randrange(8, 16), self.r.randrange(16, 24))
+        if self.chance(20):
+            for flag in ("SFCTipMode", "SFCTip"):
+                self.chart.inputs[flag] = self.r.choice(((0, 0), (8, 8), (9, 10)))
         for flag in ("SFCTrans", "SFCCurrentStep"):
             if self.chance(40):
                 self.chart.outputs.append(flag)
         if self.chance(40):
             self.chart.outputs += ["SFCError", *(["SFCErrorStep"] if self.chance(70) else [])]
+            if self.chance(30):
+                self.chart.inputs["SFCEnableLimit"] = (16, 16)
             if self.chance(50):
                 self.chart.inputs["SFCQuitError"] = (self.r.randrange(8, 16), self.r.randrange(16, 24))
         return self.chart

@@ -243,7 +243,6 @@ class Maker(Leaves):
     def bit_place(self, depth: int, writable: bool = False) -> Bit | None:
         """One bit of an integer variable."""
         found = self.places(lambda t: isinstance(t, Scalar) and t.integer, writable)
-        found = [e for e in found if not isinstance(e, tree.Get)]
         if not found:
             return None
         place = self.filled(self.r.choice(found), depth)

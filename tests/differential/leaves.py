@@ -119,14 +119,18 @@ class Leaves:
                 continue
             self._descend(Name(v.type, base_of(v.type), False, v.name), wanted, depth, found, writable)
         if not writable:
-            own = [p for p in self.properties if wanted(p.type)]
-            found += [Get(p.type, base_of(p.type), False, None, p.name, self.own_prefix()) for p in own]
+            for p in self.properties:
+                own = Get(p.type, base_of(p.type), False, None, p.name, self.own_prefix())
+                self._descend(own, wanted, depth, found, False)
         return found
 
-    def _read(self, e: Expr, properties: Iterable[tree.Property], wanted: Any, found: list[Expr]) -> None:
-        """Properties of an instance whose Get changes nothing."""
-        read = [p for p in properties if p.pure and wanted(p.type)]
-        found += [Get(p.type, base_of(p.type), False, e, p.name) for p in read]
+    def _read(
+        self, e: Expr, properties: Iterable[tree.Property], wanted: Any, depth: int, found: list[Expr]
+    ) -> None:
+        """Properties of an instance whose Get changes nothing, and their parts."""
+        for p in properties:
+            if p.pure:
+                self._descend(Get(p.type, base_of(p.type), False, e, p.name), wanted, depth, found, False)
 
     def own_prefix(self) -> str:
         return self.r.choice(("", "THIS"))
@@ -149,11 +153,11 @@ class Leaves:
             self._descend(inner, wanted, depth - 1, found, writable)
         elif isinstance(e.type, Pointer) and isinstance(e.type.target, Block) and not writable:
             inner = Deref(e.type.target, None, False, e)
-            self._read(inner, e.type.target.all_properties.values(), wanted, found)
+            self._read(inner, e.type.target.all_properties.values(), wanted, depth - 1, found)
         elif isinstance(e.type, tree.Interface) and not writable:
-            self._read(e, e.type.properties, wanted, found)
+            self._read(e, e.type.properties, wanted, depth - 1, found)
         elif isinstance(e.type, Block) and not writable:
-            self._read(e, e.type.all_properties.values(), wanted, found)
+            self._read(e, e.type.all_properties.values(), wanted, depth - 1, found)
             for v in e.type.outputs:
                 self._descend(
                     Member(v.type, base_of(v.type), False, e, v.name), wanted, depth - 1, found, writable

@@ -314,6 +314,8 @@ class Machine:
             return f.slot(e.name)
         if isinstance(e, tree.Member):
             return Slot(self.place(e.base, f).read(), e.name)
+        if isinstance(e, tree.Get):
+            return Slot([copied(self._get(e, f))], 0)
         if isinstance(e, tree.Deref):
             address = self.place(e.base, f).read()
             if address is None:
