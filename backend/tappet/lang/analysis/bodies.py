@@ -60,6 +60,8 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     for e in body.unreadable:
         body.report("E0424", e.span, name=e.name, what="Get", verb="read")
     body.unreadable.clear()
+    if node.language == "SFC":  # what a chart becomes has the same expression in several places
+        record.messages[:] = dict.fromkeys(record.messages)
     record.aggregates = session.aggregates
     return record
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from tappet.lang import ast
@@ -15,6 +16,7 @@ from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, val
 from tappet.lang.analysis.places import note_output, writable
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.rules import ASSIGN_RULES, LIST_RULES, STATEMENT_RULES
+from tappet.lang.source import NOWHERE
 from tappet.lang.symbols import PouSymbol, PropertySymbol, VarSymbol
 from tappet.lang.types import Elementary, Kind, Type
 
@@ -310,7 +312,12 @@ def _when_declared(b: Body, s: ast.WhenDeclared) -> None:
         s.chosen = []
     if s.described is not None:
         _describe(b, s.described)
+    messages = b.session.diagnostics
+    first = len(messages)
     statements(b, s.chosen)
+    for number, message in enumerate(messages[first:], first):
+        if message.span == NOWHERE:
+            messages[number] = replace(message, span=s.span)
 
 
 def _describe(b: Body, s: ast.Described) -> None:

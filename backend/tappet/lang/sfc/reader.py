@@ -28,7 +28,7 @@ def begins_step(parser: StatementParser) -> bool:
     kinds = parser.kinds
     if parser.word() not in ("STEP", "INITIAL_STEP"):
         return False
-    return kinds[i + 1] is ID and kinds[i + 2] == ":"
+    return kinds[i + 2] == ":" and (kinds[i + 1] is ID or kinds[i + 1][0].isalpha())
 
 
 def begins_transition(parser: StatementParser) -> bool:
@@ -49,8 +49,10 @@ def read_step(parser: StatementParser, chart: Chart) -> None:
     p = parser
     start = p.i
     initial = p.word() == "INITIAL_STEP"
-    p.i += 3
-    step = Step(p.texts[start + 1], p.span_at(start + 1), p.span_from(start), initial)
+    p.i += 1
+    name, place = p.name("step")
+    p.i = start + 3
+    step = Step(name, place, p.span_from(start), initial)
     while p.word() != "END_STEP":
         if p.kinds[p.i] is not ID or begins_step(p):
             if p.kinds[p.i] == ";":
