@@ -196,6 +196,15 @@ def test_the_body_of_a_block_appears() -> None:
     assert [d.uri for d in second.diagnostics if d.code == "W1221"] == ["t1"]
 
 
+def test_comments_follow_their_edits() -> None:
+    """A comment is no part of what a text declares, but of what an editor shows."""
+    text = "(* {0} *)\nFUNCTION_BLOCK FB\nVAR\n    a : INT; // {0}\nEND_VAR\na := 1;\nEND_FUNCTION_BLOCK"
+    first = analyse([parse(Source("t", text.format("old"))).unit])
+    second = analyse([parse(Source("t", text.format("new"))).unit], previous=first)
+    assert second.changed is not None
+    assert [second.pous[0].comment, second.pous[0].locals["A"].comment] == ["new", "new"]
+
+
 def test_nothing_changed() -> None:
     units = list(_units({}).values())
     first = analyse(units)

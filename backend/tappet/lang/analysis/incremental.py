@@ -120,7 +120,7 @@ def _rebind(
         owner = owner or _owner_of(state, source)
         found = owner.properties.get(old.name.upper()) if owner is not None else None
         if isinstance(found, PropertySymbol) and owner is not None:
-            found.source, found.span = source, new.name_span
+            found.source, found.span, found.comment = source, new.name_span, new.comment
             for accessor, head, prefix in (
                 (new.getter, found.getter, "__get"),
                 (new.setter, found.setter, "__set"),
@@ -154,6 +154,7 @@ def _rebind_pou(
     state.declarations.bodies[id(symbol)] = fresh
     node.symbol = symbol
     symbol.pou, symbol.source, symbol.span = node, source, node.name_span
+    symbol.comment = node.comment
     if symbol.instance is not None and symbol.owner is None:
         symbol.instance.pou = node
     if symbol.result is not None:
@@ -176,6 +177,7 @@ def _rebind_variable(
         return
     if variable.decl is before:
         variable.decl, variable.source, variable.span = after, source, after.name_span
+        variable.comment = after.comment
     state.declarations.type_of(body, after.type_ref, after.name)
     if after.initial is not None and variable.type is not None:
         session = state.session
