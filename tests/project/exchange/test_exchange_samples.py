@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from twincat_project import tcpou
 
 from tappet.project.exchange import ImportReport, import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
@@ -293,3 +294,20 @@ def test_twincat_parameters_of_libraries_and_empty_folders_of_functions() -> Non
         "changed TcUnit: parameters of libraries are not read: "
         "GVL_PARAM_TCUNIT.XUNITENABLEPUBLISH keep their own values"
     ]
+
+
+def test_what_is_in_an_excluded_folder_of_a_twincat_project_is_not_built() -> None:
+    project = b"""<Project><PropertyGroup><Name>Line</Name></PropertyGroup><ItemGroup>
+<Compile Include="POUs\\Tried\\More\\FB_Tried.TcPOU"/>
+<Compile Include="POUs\\FB_Used.TcPOU"><ExcludeFromBuild>false</ExcludeFromBuild></Compile>
+<Folder Include="POUs"/><Folder Include="POUs\\tried"><ExcludeFromBuild>true</ExcludeFromBuild></Folder>
+</ItemGroup></Project>"""
+    files = {
+        "Line.plcproj": project,
+        "POUs/Tried/More/FB_Tried.TcPOU": tcpou("FB_Tried"),
+        "POUs/FB_Used.TcPOU": tcpou("FB_Used"),
+    }
+    done = import_files(files)
+    blocks = {item.name: item.data.exclude_from_build for item in done.project.find_kind("pou")}
+    assert blocks == {"FB_Tried": True, "FB_Used": False}
+    assert list(done.report.noteworthy()) == []

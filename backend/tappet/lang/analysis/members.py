@@ -190,8 +190,20 @@ def _member_of_object(b: Body, e: ast.Member, symbol: Symbol) -> None:
             _member_of_pou(b, e, symbol, False)
         elif symbol.kind == "FUNCTION_BLOCK" and find_member(symbol, key) is not None:
             resolve_object(b, e, find_member(symbol, key) or symbol)
+        elif symbol.kind == "FUNCTION_BLOCK" and (constant := _constant_of(b, symbol, key)) is not None:
+            resolve_variable(b, e, constant)
         else:
             b.report("E0204", e.name_span, name=e.name, type=symbol.name, hint="Use an instance of it.")
+
+
+def _constant_of(b: Body, block: PouSymbol, key: str) -> VarSymbol | None:
+    """A constant of a block with a known value: it needs no instance, the name of the type will do."""
+    found = block.locals.get(key)
+    if found is None or found.section != "VAR" or "CONSTANT" not in found.flags:
+        return None
+    if found.type is None:
+        b.session.resolve(found)
+    return found if found.constant is not None else None
 
 
 def _member_of_type(b: Body, e: ast.Member, symbol: TypeSymbol, key: str) -> None:

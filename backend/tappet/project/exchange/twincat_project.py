@@ -44,8 +44,9 @@ def read_project(
         batch.devices.append(device)
     by_key = {path.casefold(): path for path in files}
     used = {source}
+    left_out = {_key(_include(item)) for item in root.walk() if item.tag == "Folder" and _is_excluded(item)}
     for item in root.walk():
-        include = unquote(item.get("Include")).replace("\\", "/")
+        include = _include(item)
         if item.tag == "Folder" and include:
             application.below(_folders(include), source)
         elif item.tag in ("Compile", "None", "Content", "EmbeddedResource") and include:
@@ -65,12 +66,14 @@ def read_project(
                 continue
             used.add(path)
             place = link.text().replace("\\", "/") if link is not None else include
-            excluded = item.child("ExcludeFromBuild")
+            folders = _folders(posixpath.dirname(place))
             drafts = _read(path, files[path], report)
-            if excluded is not None and excluded.text().strip().casefold() == "true":
+            if _is_excluded(item) or any(
+                _key("/".join(folders[:n])) in left_out for n in range(1, len(folders) + 1)
+            ):
                 for draft in drafts:
                     exclude(draft)
-            _add(application, _folders(posixpath.dirname(place)), path, drafts)
+            _add(application, folders, path, drafts)
         elif item.tag in ("PlaceholderReference", "LibraryReference") and include:
             _library(source, item, include, application, report)
     return used
@@ -111,6 +114,20 @@ def _library(source: str, item: Element, include: str, application: Draft, repor
         if (key := parameter.child("Key")) is not None
     ]
     tell_parameters(source, made["name"], given, report, item.line)
+
+
+def _include(item: Element) -> str:
+    return unquote(item.get("Include")).replace("\\", "/")
+
+
+def _is_excluded(item: Element) -> bool:
+    """Whether a file or a folder with all that is in it is left out of the build."""
+    mark = item.child("ExcludeFromBuild")
+    return mark is not None and mark.text().strip().casefold() == "true"
+
+
+def _key(path: str) -> str:
+    return "/".join(_folders(path)).casefold()
 
 
 def _folders(path: str) -> tuple[str, ...]:
