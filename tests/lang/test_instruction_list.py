@@ -135,6 +135,12 @@ def test_statements_are_no_rows(body: str) -> None:
     assert unit.declarations[0].language == "ST"
 
 
+@pytest.mark.parametrize("word", ["LD", "ST", "JMP", "CAL", "AND", "RET", "TIME"])
+def test_a_text_may_end_behind_any_word(word: str) -> None:
+    result = parse(Source("P", f"PROGRAM P {word}"))
+    assert [d.code for d in result.diagnostics if d.severity == "error"]
+
+
 def test_language_of_the_object_wins() -> None:
     """A body that says what it is needs no instruction to tell."""
     text = f"{_DECLARATION}a := 1;\nEND_PROGRAM"

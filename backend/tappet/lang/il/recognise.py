@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang.il.operators import INSTRUCTIONS
-from tappet.lang.lexer import ADDRESS, ID, INT, NUMBER, STRING
+from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, STRING
 from tappet.lang.parser_core import BODY_END
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def is_instruction_list(core: Core) -> bool:
 
 
 def _line_ends(core: Core, i: int) -> bool:
-    return core.lines[i + 1] != core.lines[i]
+    return core.lines[i + 1] != core.lines[i] or core.kinds[i + 1] is END
 
 
 def _is_row(core: Core, i: int, has_value: bool) -> bool:
