@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from sample_stage import ALL_CODING_RULES, stage
 from tests.spec.language_cases import load_cases, sources_of
 
@@ -67,6 +70,24 @@ def test_samples_of_all_messages() -> None:
     for sample in {sample.text for entries in samples().values() for sample in entries}:
         sources = stage(sample).sources
         _check_places(_analysed(sources), sources)
+
+
+TEXTS = sorted({sample.text for entries in samples().values() for sample in entries})
+PIECE = re.compile(r"\w+|\s+|[^\w\s]")
+WORDS = sorted({piece for text in TEXTS for piece in PIECE.findall(text) if piece.strip()})
+CHANGE = st.tuples(st.integers(0, 400), st.sampled_from(["", *WORDS]))
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.sampled_from(TEXTS), st.lists(CHANGE, min_size=1, max_size=4))
+def test_samples_with_some_words_changed(text: str, changes: list[tuple[int, str]]) -> None:
+    sources = []
+    for source in stage(text).sources:
+        pieces = PIECE.findall(source.text)
+        for place, word in changes:
+            pieces[place % len(pieces)] = word
+        sources.append(replace(source, text="".join(pieces)))
+    _check_places(_analysed(sources), sources)
 
 
 @pytest.mark.parametrize("name", sorted(libraries.names()))
