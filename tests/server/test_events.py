@@ -11,7 +11,7 @@ from server_clients import SOCKETS, browser
 from starlette.testclient import WebSocketDenialResponse
 from starlette.websockets import WebSocketDisconnect
 
-from tappet.server import project_events
+from tappet.server import project_events, sockets
 
 API = "/api/v1"
 
@@ -114,7 +114,7 @@ def test_a_socket_that_cannot_follow_is_closed(
 def test_the_end_of_the_session_closes_the_socket(
     app: FastAPI, admin: TestClient, pid: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(project_events, "CHECK_EVERY_S", 0.02)
+    monkeypatch.setattr(sockets, "CHECK_EVERY_S", 0.02)
     with connect(admin, pid) as socket:
         socket.receive_json()
         leaving = browser(app)
@@ -122,4 +122,4 @@ def test_the_end_of_the_session_closes_the_socket(
         assert leaving.post(f"{API}/auth/logout").status_code in (200, 204)
         with pytest.raises(WebSocketDisconnect) as closed:
             socket.receive_json()
-    assert closed.value.code == project_events.SESSION_ENDED
+    assert closed.value.code == sockets.SESSION_ENDED

@@ -261,7 +261,7 @@ def test_too_many_subscriptions_are_refused(admin: TestClient, runtime_id: str) 
 def test_a_socket_ends_with_its_session(
     admin: TestClient, runtime_id: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tappet.server.online.channel.CHECK_EVERY_S", 0.05)
+    monkeypatch.setattr("tappet.server.sockets.CHECK_EVERY_S", 0.05)
     with online(admin, runtime_id) as socket:
         subscribe(socket, "PLC_PRG.nCount")
         assert admin.post("/api/v1/auth/logout").status_code == 204

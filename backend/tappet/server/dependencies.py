@@ -6,7 +6,6 @@ Every route names its minimum role by taking `Viewer`, `Operator`, `Engineer` or
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
 from typing import Annotated
 
 from fastapi import Depends
@@ -22,9 +21,7 @@ from tappet.server.database import Database
 from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
-
-StillAllowed = Callable[[], Awaitable[bool]]
-"""Asked now and then by open sockets; False: close."""
+from tappet.server.sockets import StillAllowed
 
 
 async def services_of(connection: HTTPConnection) -> Services:

@@ -8,24 +8,23 @@ from __future__ import annotations
 
 import asyncio
 from collections import defaultdict
-from collections.abc import Awaitable, Callable, Iterable
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 
 import anyio
 from pydantic import BaseModel, ValidationError
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 
 from tappet.project.store import Store
 from tappet.project.store.records import ChangeEvent
+from tappet.server import sockets
 from tappet.server.project_shapes import object_summary
 from tappet.server.schemas.events import ObjectChanged, OpenObject, Presence, PresentUser
 
 LONGEST_QUEUE = 2000
 """Messages that may wait for one slow socket."""
-CHECK_EVERY_S = 30.0
-"""How soon a socket notices that its session has ended."""
-SESSION_ENDED = 4401
 TOO_SLOW = 4408
 """Close code for a socket that did not take its messages."""
 NOT_UNDERSTOOD = 1003
@@ -58,7 +57,7 @@ class ProjectEvents:
         socket: WebSocket,
         project_id: str,
         username: str,
-        still_allowed: Callable[[], Awaitable[bool]],
+        still_allowed: sockets.StillAllowed,
     ) -> None:
         """Serve one socket until it closes. Never raises for what the browser sends or how it leaves."""
         await socket.accept()
@@ -66,16 +65,11 @@ class ProjectEvents:
         self._members[project_id].append(member)
         self._tell_presence(project_id)
         try:
-            async with anyio.create_task_group() as group:
-
-                async def part(work: Awaitable[None]) -> None:
-                    with suppress(WebSocketDisconnect, OSError):
-                        await work
-                    group.cancel_scope.cancel()
-
-                group.start_soon(part, self._read(socket, project_id, member))
-                group.start_soon(part, _send(socket, member))
-                group.start_soon(part, _watch(socket, member, still_allowed))
+            await sockets.until_one_ends(
+                partial(self._read, socket, project_id, member),
+                partial(_send, socket, member),
+                partial(_watch, socket, member, still_allowed),
+            )
         finally:
             self._members[project_id].remove(member)
             if not self._members[project_id]:
@@ -129,14 +123,14 @@ async def _send(socket: WebSocket, member: _Member) -> None:
         await socket.send_text(await member.queue.get())
 
 
-async def _watch(socket: WebSocket, member: _Member, still_allowed: Callable[[], Awaitable[bool]]) -> None:
+async def _watch(socket: WebSocket, member: _Member, still_allowed: sockets.StillAllowed) -> None:
     """Close the socket when it cannot follow, or when its session ends."""
     while True:
-        with anyio.move_on_after(CHECK_EVERY_S):
+        with anyio.move_on_after(sockets.CHECK_EVERY_S):
             await member.overrun.wait()
         if member.overrun.is_set():
             await socket.close(TOO_SLOW, "too many changes to follow; read the project again")
             return
         if not await still_allowed():
-            await socket.close(SESSION_ENDED, "the session has ended")
+            await socket.close(sockets.SESSION_ENDED, "The session has ended.")
             return

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable
 from contextlib import suppress
+from functools import partial
 from typing import Annotated
 
 import anyio
 from fastapi import APIRouter, Query, WebSocket
 from starlette.concurrency import run_in_threadpool
-from starlette.websockets import WebSocketDisconnect
 
 from tappet.project.store.records import ChangeEvent
 from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
 from tappet.server.lsp.library_names import libraries_with
 from tappet.server.lsp.project_programs import ProjectPrograms
 from tappet.server.lsp.session import LanguageSession
+from tappet.server.sockets import close_with_session, until_one_ends
 
 router = APIRouter(tags=["language"])
 
-CHECK_EVERY_S = 30.0
-"""How soon a socket notices that its session has ended."""
-SESSION_ENDED = 4401
 NOT_TEXT = 1003
 
 
@@ -58,24 +55,9 @@ async def language_server(
                 return
             await session.receive(text)
 
-    async def watch() -> None:
-        while True:
-            await asyncio.sleep(CHECK_EVERY_S)
-            if not await still_allowed():
-                await socket.close(SESSION_ENDED, "the session has ended")
-                return
-
     stop = services.store.listen(changed)
     try:
-        async with anyio.create_task_group() as group:
-
-            async def part(work: Awaitable[None]) -> None:
-                with suppress(WebSocketDisconnect, OSError):
-                    await work
-                group.cancel_scope.cancel()
-
-            group.start_soon(part, read())
-            group.start_soon(part, watch())
+        await until_one_ends(read, partial(close_with_session, socket, still_allowed))
     finally:
         stop()
         with anyio.CancelScope(shield=True):

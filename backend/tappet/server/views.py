@@ -7,20 +7,19 @@ viser's page opens its WebSocket at the page's own URL without the trailing slas
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
-import anyio
 import httpx
 import websockets
 from starlette.concurrency import run_in_threadpool
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 from websockets.asyncio.client import ClientConnection
 
-from tappet.server.online.channel import CHECK_EVERY_S, SESSION_ENDED
 from tappet.server.problems import Problem, not_found
+from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
 
 MOST_VIEWS = 16
 """Views that run at the same time; the oldest one that nobody looks at makes room."""
@@ -113,9 +112,7 @@ class ViewRegistry:
         headers = {name: response.headers[name] for name in _PASSED_ON if name in response.headers}
         return httpx.Response(response.status_code, headers=headers, stream=httpx.ByteStream(raw))
 
-    async def connect(
-        self, view_id: str, socket: WebSocket, still_allowed: Callable[[], Awaitable[bool]]
-    ) -> None:
+    async def connect(self, view_id: str, socket: WebSocket, still_allowed: StillAllowed) -> None:
         """Passes messages between a browser and the view until one of them leaves."""
         view = self._get(view_id)
         offered = [websockets.Subprotocol(p) for p in socket.scope.get("subprotocols", [])]
@@ -148,9 +145,7 @@ def _unreachable(view_id: str, error: Exception) -> Problem:
     return Problem(502, "view-unreachable", f"The view '{view_id}' does not answer: {error}.")
 
 
-async def _pump(
-    socket: WebSocket, upstream: ClientConnection, still_allowed: Callable[[], Awaitable[bool]]
-) -> None:
+async def _pump(socket: WebSocket, upstream: ClientConnection, still_allowed: StillAllowed) -> None:
     async def to_view() -> None:
         while True:
             message = await socket.receive()
@@ -163,20 +158,9 @@ async def _pump(
             await (socket.send_text(message) if isinstance(message, str) else socket.send_bytes(message))
         await socket.close(upstream.close_code or 1000)
 
-    async def watch_session() -> None:
-        while True:
-            await anyio.sleep(CHECK_EVERY_S)
-            if not await still_allowed():
-                await socket.close(SESSION_ENDED, "The session has ended.")
-                return
-
-    async with anyio.create_task_group() as group:
-
-        async def until_end(work: Callable[[], Awaitable[None]]) -> None:
-            with suppress(WebSocketDisconnect, websockets.ConnectionClosed, OSError, RuntimeError):
-                await work()
-            group.cancel_scope.cancel()
-
-        group.start_soon(until_end, to_view)
-        group.start_soon(until_end, to_browser)
-        group.start_soon(until_end, watch_session)
+    await until_one_ends(
+        to_view,
+        to_browser,
+        partial(close_with_session, socket, still_allowed),
+        gone=(websockets.ConnectionClosed, RuntimeError),
+    )

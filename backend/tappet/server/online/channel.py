@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
-import anyio
 from pydantic import BaseModel, TypeAdapter, ValidationError
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 
 from tappet.runtime.recorder import Frame
 from tappet.server.online.layout import HEADER, lay_out
@@ -24,13 +23,10 @@ from tappet.server.schemas.online import (
     Subscribe,
     Subscribed,
 )
+from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
 
 MOST_SUBSCRIPTIONS = 100
 """Of one socket."""
-CHECK_EVERY_S = 30.0
-"""How soon a socket notices that its session has ended."""
-SESSION_ENDED = 4401
-"""Close code when the session behind the socket has ended."""
 _MESSAGE: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
 
 
@@ -48,7 +44,7 @@ class OnlineChannel:
         socket: WebSocket,
         link: RuntimeLink,
         pool: SamplerPool,
-        still_allowed: Callable[[], Awaitable[bool]],
+        still_allowed: StillAllowed,
     ) -> None:
         self._socket = socket
         self._link = link
@@ -64,19 +60,13 @@ class OnlineChannel:
         self._tell(self._forces())
         ignore = self._link.listen(self._on_change)
         try:
-            async with anyio.create_task_group() as group:
-                for work in (self._read, self._send, self._check):
-                    group.start_soon(self._until_end, work, group.cancel_scope)
+            await until_one_ends(
+                self._read, self._send, partial(close_with_session, self._socket, self._still_allowed)
+            )
         finally:
             ignore()
             for subscription in self._subscriptions.values():
                 subscription.detach()
-
-    async def _until_end(self, work: Callable[[], Awaitable[None]], scope: anyio.CancelScope) -> None:
-        """When one part of the channel ends, all do; a browser that went away is no error."""
-        with suppress(WebSocketDisconnect, OSError):
-            await work()
-        scope.cancel()
 
     # -- in ------------------------------------------------------------------------------------------
 
@@ -156,14 +146,6 @@ class OnlineChannel:
                 await self._socket.send_text(item)
             else:
                 await self._socket.send_bytes(item)
-
-    async def _check(self) -> None:
-        """Closes the socket when its session ends."""
-        while True:
-            await anyio.sleep(CHECK_EVERY_S)
-            if not await self._still_allowed():
-                await self._socket.close(SESSION_ENDED, "The session has ended.")
-                return
 
     def _tell(self, message: BaseModel) -> None:
         self.outbox.put_message(message.model_dump_json())
