@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
 from pathlib import Path
 
 import psycopg
 import pytest
 from live_server import RUNTIME, Script, process, station
+from tests.project import conftest as databases
 
-_PLACE = Path(__file__).parents[1] / "project" / "conftest.py"
-_SPEC = importlib.util.spec_from_file_location("databases_of_the_store", _PLACE)
-assert _SPEC is not None
-assert _SPEC.loader is not None
-_databases = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(_databases)
-postgres_server, postgres_url = _databases.postgres_server, _databases.postgres_url
+postgres_server, postgres_url = databases.postgres_server, databases.postgres_url
 
 pytestmark = pytest.mark.postgres
 BODY = "n := n + 1; // Zähler 计数器 🙂"

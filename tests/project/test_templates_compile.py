@@ -1,8 +1,8 @@
 """What "Add object" makes compiles as it is, each template of each kind (GVL-02, DUT-02, PERS-02)."""
 
+from tappet.codegen.build import as_source
 from tappet.lang.analysis import AnalysisOptions, analyse
 from tappet.lang.parser import parse
-from tappet.lang.source import Scope, Source
 from tappet.project import edit
 from tappet.project.model import Project
 from tappet.project.placement import RULES
@@ -32,16 +32,7 @@ def test_templates_compile() -> None:
     assert len(texts) > 15
     units = []
     for text in texts:
-        source = Source(
-            uri=text.uri,
-            text=text.text,
-            scope=Scope(text.scope),
-            owner=text.owner,
-            name=text.name,
-            body_line=text.body_line,
-            language=text.language,
-        )
-        parsed = parse(source)
+        parsed = parse(as_source(text))
         assert [found.message for found in parsed.diagnostics] == [], text.text
         units.append(parsed.unit)
     found = analyse(units, AnalysisOptions()).diagnostics

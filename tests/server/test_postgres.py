@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from alembic.autogenerate import compare_metadata
@@ -13,18 +11,13 @@ from alembic.migration import MigrationContext
 from fake_plc import FakePlc
 from fastapi import FastAPI
 from server_clients import PASSWORD, browser, script, serving
+from tests.project import conftest as databases
 
 from tappet.server import tables
 from tappet.server.app import create_app
 from tappet.server.settings import ServerSettings
 
-_PLACE = Path(__file__).parents[1] / "project" / "conftest.py"
-_SPEC = importlib.util.spec_from_file_location("databases", _PLACE)
-assert _SPEC is not None
-assert _SPEC.loader is not None
-_databases = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(_databases)
-postgres_server, postgres_url = _databases.postgres_server, _databases.postgres_url
+postgres_server, postgres_url = databases.postgres_server, databases.postgres_url
 
 pytestmark = pytest.mark.postgres
 

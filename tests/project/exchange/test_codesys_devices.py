@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from tappet.codegen.build import as_source
 from tappet.lang.analysis import AnalysisOptions, analyse
 from tappet.lang.parser import parse
-from tappet.lang.source import Scope, Source
 from tappet.project.exchange import Imported, import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.model import Project
@@ -34,16 +34,7 @@ def errors(project: Project) -> list[str]:
     (application,) = project.applications()
     units, found = [], []
     for text in application_sources(project, application.id):
-        source = Source(
-            uri=text.uri,
-            text=text.text,
-            scope=Scope(text.scope),
-            owner=text.owner,
-            name=text.name,
-            body_line=text.body_line,
-            language=text.language,
-        )
-        parsed = parse(source)
+        parsed = parse(as_source(text))
         found += parsed.diagnostics
         units.append(parsed.unit)
     found += analyse(units, AnalysisOptions()).diagnostics

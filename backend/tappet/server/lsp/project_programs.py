@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from tappet import libraries
+from tappet.codegen.build import as_source
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.services.documents import Program, Segment, Text, library_text
-from tappet.lang.source import Scope, Source
 from tappet.project import sources as project_sources
 from tappet.project.model import Project, ProjectObject
 from tappet.project.sources import SourceText
@@ -88,15 +88,7 @@ class ProjectPrograms:
         return texts
 
     def _text(self, project: Project, text: SourceText, uri: str) -> Text:
-        source = Source(
-            uri=uri,
-            text=text.text,
-            scope=Scope(text.scope),
-            owner=text.owner,
-            name=text.name,
-            body_line=text.body_line,
-            language=text.language,
-        )
+        source = replace(as_source(text), uri=uri)
         segments = tuple(
             Segment(
                 segment.line,
