@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.services.documents import Place, Position
 from tappet.lang.services.occurrences import (
@@ -130,12 +129,3 @@ def _interfaces(pou: PouSymbol) -> list[InterfaceSymbol]:
             found.append(interface)
             waiting += interface.bases
     return found
-
-
-def declaration_node(view_unit: ast.Unit, position: Position) -> ast.Declaration | None:
-    """The object of a text around a position."""
-    for declaration in view_unit.declarations:
-        span = declaration.span
-        if (span.line, span.column) <= position <= (span.end_line, span.end_column):
-            return declaration
-    return None

@@ -162,10 +162,6 @@ class Workspace:
         if self._unsaved.pop(document, None) is not None:
             self.refresh()
 
-    def is_open(self, document: str) -> bool:
-        """Whether a text of the editor stands for a document."""
-        return document in self._unsaved
-
     def unsaved(self, document: str) -> str | None:
         """The text of the editor for a document."""
         return self._unsaved.get(document)
