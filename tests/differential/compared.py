@@ -38,11 +38,13 @@ def compiled(program: Program, level: int) -> tuple[dict[str, Any], str | None]:
                 application.cycle()
         except ApplicationFault as raised:
             fault = str(raised)
-        return {
-            path: _value(application, path, t) for path, t, _ in write_st.paths(program.variables, "PLC_PRG")
-        }, fault
+        return {path: _value(application, path, t) for path, t, _ in _paths(program)}, fault
     finally:
         application.close()
+
+
+def _paths(program: Program) -> list[tuple[str, Any, list[Any]]]:
+    return write_st.paths(program.variables, "PLC_PRG.") + write_st.paths(program.globals, "")
 
 
 def _value(application: LoadedApplication, path: str, type_: Any) -> Any:
@@ -62,8 +64,8 @@ def expected(program: Program) -> tuple[dict[str, Any], bool]:
     except Fault:
         fault = True
     values = {}
-    for path, _, keys in write_st.paths(program.variables, "PLC_PRG"):
-        value: Any = machine.variables
+    for path, _, keys in _paths(program):
+        value: Any = machine.variables if path.startswith("PLC_PRG.") else machine.globals
         for key in keys:
             value = value[key]
         values[path] = value

@@ -48,6 +48,7 @@ class ProgramMaker(Statements):
         self.functions: list[Function] = []
         self.blocks: list[Block] = []
         self.interfaces: list[Interface] = []
+        self.globals: list[Variable] = []
 
     # -- declarations -------------------------------------------------------------------------------
 
@@ -119,7 +120,8 @@ class ProgramMaker(Statements):
             made.rank = self.number
         made.locals = [self.variable("l") for _ in range(self.r.randint(0, 3))]
         result = Variable(made.name, made.result)
-        maker = Maker(self.r, [*made.inputs, *made.in_outs, *made.locals, result], texts=self.texts)
+        seen = [*made.inputs, *made.in_outs, *made.locals, result, *self.globals]
+        maker = Maker(self.r, seen, texts=self.texts)
         if block is not None:
             known = block.all_properties.values()
             maker.properties = [p for p in known if p.pure and p.rank < made.rank]
@@ -146,7 +148,7 @@ class ProgramMaker(Statements):
             made.rank = rank
             shown = [v for v in block.members if not isinstance(v.type, Pointer | Interface)]
             own = [p for p in block.all_properties.values() if p.pure and p.rank < rank]
-            maker = Maker(self.r, [value, *shown], texts=self.texts, properties=own)
+            maker = Maker(self.r, [value, *shown, *self.globals], texts=self.texts, properties=own)
             effects = None if pure and made is getter else self.applied
             body = Body(maker, made.locals, list(self.functions), True, 0, block, rank, None, effects)
             if made is setter:
@@ -218,7 +220,8 @@ class ProgramMaker(Statements):
             known = self.r.sample(properties, self.r.randint(min(1, len(properties)), len(properties)))
             self.interfaces.append(Interface(self.fresh("I_"), some, known))
             made.interfaces.append(self.interfaces[-1])
-        maker = Maker(self.r, [v for v in made.members if not isinstance(v.type, Pointer)], texts=self.texts)
+        seen = [*(v for v in made.members if not isinstance(v.type, Pointer)), *self.globals]
+        maker = Maker(self.r, seen, texts=self.texts)
         maker.properties = [p for p in made.all_properties.values() if p.pure]
         body = Body(maker, made.locals, list(self.functions), returns=True, owner=made, effects=self.applied)
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 5), 2)]
@@ -228,6 +231,7 @@ class ProgramMaker(Statements):
 
     def program(self) -> Program:
         self.declare_types()
+        self.globals = [self.variable("gv") for _ in range(self.r.choice((0, 1, 3)))]
         for _ in range(self.r.randint(0, 2)):
             self.functions.append(self.function())
         for _ in range(self.r.randint(0, 3)):
@@ -235,7 +239,7 @@ class ProgramMaker(Statements):
         variables = [self.variable("p") for _ in range(self.r.randint(3, 8))]
         variables += [self.variable("n", t) for t in self.r.sample(NUMBERS, 3)]
         variables += [Variable(self.fresh("fb"), b) for b in self.blocks]
-        maker = Maker(self.r, variables, texts=self.texts)
+        maker = Maker(self.r, [*variables, *self.globals], texts=self.texts)
         body = Body(maker, variables, self.functions, effects=self.applied)
         first = self.pointers(body)
         for block in self.blocks:
@@ -246,5 +250,12 @@ class ProgramMaker(Statements):
         statements = [*first, *self.statements(body, self.r.randint(2, self.size), 3)]
         cycles = self.r.randint(1, 3)
         return Program(
-            self.types, self.functions, self.blocks, variables, statements, cycles, self.interfaces
+            self.types,
+            self.functions,
+            self.blocks,
+            variables,
+            statements,
+            cycles,
+            self.interfaces,
+            self.globals,
         )

@@ -153,13 +153,18 @@ class Machine:
     program: tree.Program
     steps: int = 20_000
     variables: dict[str, Any] = field(init=False)
+    globals: dict[str, Any] = field(init=False)
 
     def __post_init__(self) -> None:
         self.variables = fresh(self.program.variables)
+        self.globals = fresh(self.program.globals)
 
     def cycle(self) -> None:
         """One call of the program; raises Fault."""
-        self._body(self.program.body, Frame([self.variables]))
+        self._body(self.program.body, self._frame(self.variables))
+
+    def _frame(self, own: dict[str, Any], this: dict[str, Any] | None = None) -> Frame:
+        return Frame([own, *([this] if this is not None else []), self.globals], this)
 
     def _body(self, body: list[Any], frame: Frame) -> None:
         with contextlib.suppress(_Return):
@@ -256,7 +261,7 @@ class Machine:
         for variable, target in zip(function.in_outs, s.in_outs, strict=True):
             own[variable.name] = self.place(target, f)
         own[function.name] = default(function.result)
-        self._body(function.body, Frame([own] if this is None else [own, this], this))
+        self._body(function.body, self._frame(own, this))
         return own[function.name]
 
     def _instance(self, e: Any, f: Frame) -> Any:
@@ -279,17 +284,17 @@ class Machine:
     def _get(self, e: tree.Get, f: Frame) -> Any:
         getter, this = self._accessor(e, f, "getter")
         own = {**fresh(getter.locals), getter.name: default(getter.result)}
-        self._body(getter.body, Frame([own, this], this))
+        self._body(getter.body, self._frame(own, this))
         return own[getter.name]
 
     def _set(self, e: tree.Get, value: Any, f: Frame) -> None:
         setter, this = self._accessor(e, f, "setter")
         own = {**fresh(setter.locals), setter.name: stored(value, setter.inputs[0].type)}
-        self._body(setter.body, Frame([own, this], this))
+        self._body(setter.body, self._frame(own, this))
 
     def _callbase(self, s: tree.CallBase, f: Frame) -> None:
         assert f.this is not None
-        self._body(s.block.body, Frame([f.this], f.this))
+        self._body(s.block.body, self._frame(f.this, f.this))
 
     def _bind(self, s: tree.Bind, f: Frame) -> None:
         slot = self.place(s.place, f)
@@ -305,7 +310,7 @@ class Machine:
         types = {v.name: v.type for v in block.all_inputs}
         for name, value in s.inputs:  # one by one: a fault leaves those before it
             Slot(instance, name).write(self.value(value, f), types[name])
-        self._body(block.body, Frame([instance], instance))
+        self._body(block.body, self._frame(instance, instance))
 
     # -- places -------------------------------------------------------------------------------------
 

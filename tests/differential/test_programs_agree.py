@@ -8,7 +8,7 @@ import compared
 import pytest
 import reference
 import write_st
-from hypothesis import HealthCheck, Phase, assume, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from programs import ProgramMaker
 
@@ -25,8 +25,8 @@ def check(r: Random, level: int, size: int = 10) -> None:
     program = ProgramMaker(r, size=size).program()
     try:
         found = compared.differences(program, level)
-    except reference.TooLong:
-        assume(False)
+    except reference.TooLong:  # not worth comparing
+        return
     if found:
         raise AssertionError("\n".join([*found, write_st.program(program)]))
 

@@ -228,6 +228,7 @@ class Program:
     body: list[Any]
     cycles: int = 1
     interfaces: list[Interface] = field(default_factory=list)
+    globals: list[Variable] = field(default_factory=list)
 
 
 # -- expressions ------------------------------------------------------------------------------------

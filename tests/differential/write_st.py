@@ -227,6 +227,7 @@ def program(p: Program) -> str:
             assert isinstance(t, Struct)
             members = " ".join(f"{name} : {m.name};" for name, m in t.members)
             lines.append(f"TYPE {t.name} : STRUCT {members} END_STRUCT END_TYPE")
+    lines += _section("VAR_GLOBAL", p.globals)
     for f in p.functions:
         lines += _function(f, "FUNCTION")
     for i in p.interfaces:
@@ -253,7 +254,7 @@ def paths(variables: list[Variable], prefix: str) -> list[tuple[str, Type, list[
     """All simple variables: path, type, and the keys that lead to it in the reference."""
     found: list[tuple[str, Type, list[Any]]] = []
     for v in variables:
-        _paths(f"{prefix}.{v.name}", v.type, [v.name], found)
+        _paths(f"{prefix}{v.name}", v.type, [v.name], found)
     return found
 
 
