@@ -53,6 +53,7 @@ from tappet.lang.symbols import (
     NamespaceSymbol,
     PouSymbol,
     Storage,
+    Symbol,
     TypeSymbol,
     VarSymbol,
 )
@@ -86,10 +87,12 @@ def check_program(session: Session, chosen: frozenset[str]) -> None:
         _paths(session)
 
 
-def _what(symbol: object) -> str:
+def _what(symbol: Symbol) -> str:
+    """An object as its declaration begins."""
     if isinstance(symbol, PouSymbol):
-        return f"a {symbol.kind}"
-    return {GvlSymbol: "a variable list", InterfaceSymbol: "an interface"}.get(type(symbol), "a type")
+        return f"{symbol.kind} {symbol.name}"
+    keyword = {GvlSymbol: "VAR_GLOBAL", InterfaceSymbol: "INTERFACE"}.get(type(symbol), "TYPE")
+    return f"{keyword} {symbol.name}"
 
 
 def _values(session: Session) -> None:
@@ -102,8 +105,8 @@ def _values(session: Session) -> None:
         for entry in ref.values if isinstance(ref, ast.EnumType) else ():
             other = first.setdefault(entry.name.upper(), enum)
             if other is not enum and decl.source is not None:
-                name = f"a value of '{other.name}'"
-                session.report("S1010", decl.source.uri, entry.span, name=entry.name, other=name)
+                qualified = f"{other.name}.{entry.name}"
+                session.report("S1010", decl.source.uri, entry.span, name=entry.name, other=qualified)
 
 
 def _paths(session: Session) -> None:

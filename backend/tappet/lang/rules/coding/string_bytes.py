@@ -54,9 +54,9 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 
 def _suspicious(e: ast.Expr) -> str:
     if isinstance(e, ast.Index) and _is_bytes(e.base):
-        return "The index"
+        return f"{getattr(e.base, 'name', '')}[...]"
     if isinstance(e, ast.Literal) and e.kind == "string" and not e.text.isascii():
-        return f"The text {e.text}"
+        return e.text
     if not isinstance(e, ast.Call):
         return ""
     target = e.target
