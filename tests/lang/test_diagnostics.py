@@ -9,7 +9,7 @@ from string import Formatter
 import pytest
 
 from tappet.lang import diagnostic_pages
-from tappet.lang.diagnostic_translations import texts, translated_codes
+from tappet.lang.diagnostic_translations import Texts, language_of, said, texts, translated_codes
 from tappet.lang.diagnostics import TABLE, Related, report
 from tappet.lang.rules import ALL_RULES
 from tappet.lang.source import Span
@@ -58,9 +58,28 @@ def _fields(template: str) -> set[str]:
     return {name for _, name, _, _ in Formatter().parse(template) if name is not None}
 
 
-def test_every_coding_rule_is_described_in_chinese() -> None:
-    assert {code for code in TABLE if code[0] == "S"} == translated_codes("zh")
-    assert texts("E0201", "zh") == texts("E0201", "en")
+def test_messages_are_described_in_chinese() -> None:
+    """Every coding rule is; a message that has just come in is told in English until it has its words."""
+    assert {code for code in TABLE if code[0] == "S"} <= translated_codes("zh") <= set(TABLE)
+    assert len(translated_codes("zh")) > 0.95 * len(TABLE)
+
+
+def test_a_message_is_said_in_another_language() -> None:
+    span = Span(0, 0, 0, 1)
+    made = report("E0301", "PLC_PRG", span, source="INT", target="BYTE")
+    english = Texts(made.message, made.advice)
+    assert said(made.code, english, made.facts, "en") is english
+    assert said(made.code, english, made.facts, "zh").message == "不能将类型“INT”转换为类型“BYTE”"
+    hinted = report("E0201", "PLC_PRG", span, name="Spd", hint="Did you mean 'Speed'?")
+    told = said(hinted.code, Texts(hinted.message, hinted.advice), hinted.facts, "zh")
+    assert told == ("标识符“Spd”未定义", "Did you mean 'Speed'?")
+    assert [language_of(tag) for tag in ("zh-CN", "zh", "en-US", "de", None)] == [
+        "zh",
+        "zh",
+        "en",
+        "en",
+        "en",
+    ]
 
 
 def test_names_are_unique() -> None:

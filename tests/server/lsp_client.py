@@ -103,8 +103,9 @@ class Client:
     async def tell(self, method: str, params: Any) -> None:
         await self.raw(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
 
-    async def start(self) -> dict[str, Any]:
-        result = await self.ask("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
+    async def start(self, locale: str = "en") -> dict[str, Any]:
+        params = {"processId": None, "rootUri": None, "capabilities": {}, "locale": locale}
+        result = await self.ask("initialize", params)
         await self.tell("initialized", {})
         return result
 

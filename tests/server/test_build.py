@@ -43,10 +43,17 @@ def project(admin: TestClient, services: Services) -> Stored:
     return stored
 
 
-def _build(admin: TestClient, project: Stored) -> dict:
-    answer = admin.post(f"{project.url}/build")
+def _build(admin: TestClient, project: Stored, language: str = "en") -> dict:
+    answer = admin.post(f"{project.url}/build", params={"language": language})
     assert answer.status_code == 200, answer.text
     return answer.json()
+
+
+def test_messages_come_in_the_language_that_is_asked_for(admin: TestClient, project: Stored) -> None:
+    project.edit("PROGRAM PLC_PRG\nVAR\n  n : INT;\nEND_VAR", "n := nowhere;")
+    for language, message in (("en", "Identifier 'nowhere' not defined"), ("zh", "标识符“nowhere”未定义")):
+        (error,) = [d for d in _build(admin, project, language)["diagnostics"] if d["severity"] == "error"]
+        assert (error["message"], error["line"]) == (message, 1)
 
 
 def test_a_good_project_gives_a_package(admin: TestClient, project: Stored) -> None:

@@ -52,6 +52,18 @@ async def test_diagnostics_follow_the_typing() -> None:
         ) is not None
 
 
+async def test_diagnostics_speak_the_language_of_the_client() -> None:
+    async with start() as client:
+        await client.start(locale="zh-CN")
+        asked = await client.open(BODY, "iCont := 1;")
+        (found,) = [d for d in await client.published(BODY) if d["code"] == "E0201"]
+        assert found["message"] == "标识符“iCont”未定义"
+        asked |= {"range": found["range"], "context": {"diagnostics": [found]}}
+        actions = await client.ask("textDocument/codeAction", asked)
+        assert actions
+        assert all(action["diagnostics"] == [found] for action in actions)
+
+
 async def test_diagnostics_name_related_places_and_tags() -> None:
     async with start() as client:
         await client.start()

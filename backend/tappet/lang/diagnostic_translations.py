@@ -39,3 +39,23 @@ def texts(code: str, language: Language) -> Texts:
     """The templates of a code, the English ones where the language has none."""
     entry = TABLE[code]
     return _translated(language).get(code) or Texts(entry.message, entry.advice)
+
+
+def said(code: str, english: Texts, facts: Mapping[str, str], language: Language) -> Texts:
+    """A message and its advice in a language, made of the facts of its report.
+
+    They stay English where the language has no words for the code; advice that the place gave stays as it is.
+    """
+    own = _translated(language).get(code)
+    if own is None:
+        return english
+    try:
+        usual = TABLE[code].advice.format_map(facts) == english.advice
+        return Texts(own.message.format_map(facts), own.advice.format_map(facts) if usual else english.advice)
+    except KeyError:  # a fact that only the advice of its place has
+        return english
+
+
+def language_of(tag: str | None) -> Language:
+    """The language of our texts for a tag such as `zh-CN`; English for those that we do not speak."""
+    return "zh" if (tag or "").lower().startswith("zh") else "en"

@@ -157,6 +157,7 @@ def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
         "severity": diagnostic.severity,
         "message": diagnostic.message,
         "advice": diagnostic.advice,
+        "facts": dict(diagnostic.facts),
         "uri": diagnostic.uri,
         "line": span.line,
         "column": span.column,

@@ -342,6 +342,12 @@ def _report(application: Application, outcome: dict[str, Any]) -> BuildReport:
 
 def _diagnostic(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
     """The message with its place in the project; lines and columns then count from 1."""
+    found = _placed(application, by_uri, item)
+    found.keep_facts(item.get("facts", {}))
+    return found
+
+
+def _placed(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
     source = by_uri.get(item["uri"].upper())
     fields: dict[str, Any] = {
         "code": item["code"],

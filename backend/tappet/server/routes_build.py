@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
+from tappet.lang.diagnostic_translations import Language
 from tappet.server import audit
 from tappet.server.audit import Act
 from tappet.server.commissioning import Commissioning
@@ -42,9 +43,11 @@ async def build(
     who: Engineer,
     commissioning: CommissioningDep,
     services: ServicesDep,
+    language: Language = "en",
 ) -> BuildReport:
     """Build the application as it is stored. Errors of the program are diagnostics, not problems."""
-    return await _build(commissioning, services.metrics, project_id, application_id)
+    report = await _build(commissioning, services.metrics, project_id, application_id)
+    return report.in_language(language)
 
 
 @router.delete("/build", status_code=204)

@@ -34,7 +34,12 @@ def list_coding_rules(who: Viewer, language: Language = "en") -> list[CodingRule
 
 @router.post("/projects/{project_id}/applications/{application_id}/static-analysis")
 async def run_static_analysis(
-    project_id: str, application_id: str, who: Engineer, commissioning: CommissioningDep
+    project_id: str,
+    application_id: str,
+    who: Engineer,
+    commissioning: CommissioningDep,
+    language: Language = "en",
 ) -> BuildReport:
     """Check the application with the rules it has chosen, also with those that do not run with each build."""
-    return await commissioning.analyse(project_id, application_id)
+    report = await commissioning.analyse(project_id, application_id)
+    return report.in_language(language)

@@ -5944,7 +5944,9 @@ export interface operations {
     };
     build: {
         parameters: {
-            query?: never;
+            query?: {
+                language?: "en" | "zh";
+            };
             header?: never;
             path: {
                 project_id: string;
@@ -6153,7 +6155,9 @@ export interface operations {
     };
     run_static_analysis: {
         parameters: {
-            query?: never;
+            query?: {
+                language?: "en" | "zh";
+            };
             header?: never;
             path: {
                 project_id: string;

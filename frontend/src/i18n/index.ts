@@ -87,17 +87,18 @@ export async function setLanguage(next: Language): Promise<void> {
   document.documentElement.lang = next === 'zh' ? 'zh-CN' : 'en';
 }
 
-function subscribe(listener: () => void): () => void {
+/** Calls whenever the language changes. Answers the act that ends it. */
+export function onLanguageChange(listener: () => void): () => void {
   i18next.on('languageChanged', listener);
   return () => i18next.off('languageChanged', listener);
 }
 
 /** The text function, bound to the language: the component draws again when the language changes. */
 export function useText(): typeof t {
-  useSyncExternalStore(subscribe, language);
+  useSyncExternalStore(onLanguageChange, language);
   return t;
 }
 
 export function useLanguage(): Language {
-  return useSyncExternalStore(subscribe, language);
+  return useSyncExternalStore(onLanguageChange, language);
 }

@@ -7,6 +7,7 @@ import type { CancellationToken, editor, IDisposable } from 'monaco-editor/edito
 import { socketUrl } from '@/api/client';
 import { LANGUAGE_ID, TEXT_LANGUAGES } from '@/editors/st/language';
 import type { Monaco } from '@/editors/st/monacoLoader';
+import { language } from '@/i18n';
 import { fromDiagnostic, parsePartUri, toRange } from './convert';
 import type { Diagnostic, InitializeResult, ServerCapabilities } from './protocol';
 import { RpcConnection, RpcError, type RpcSocket } from './rpc';
@@ -114,6 +115,11 @@ export class LanguageClient {
     );
   }
 
+  /** Connects anew: what the server tells in words comes in the present language. */
+  renew(): void {
+    this.rpc?.close();
+  }
+
   close(): void {
     this.closed = true;
     clearTimeout(this.timer);
@@ -141,6 +147,7 @@ export class LanguageClient {
     const result = await rpc.request<InitializeResult>('initialize', {
       processId: null,
       clientInfo: { name: 'Tappet' },
+      locale: language(),
       rootUri: `tappet:/${this.projectId}`,
       capabilities: CLIENT_CAPABILITIES,
     });

@@ -6,6 +6,7 @@ import { openDocument, type TextDocument } from '@/editors/documents/documents';
 import { useEditorSettings } from '@/editors/settings';
 import type { Monaco } from '@/editors/st/monacoLoader';
 import { openObject } from '@/workbench/docking/dock';
+import { onLanguageChange } from '@/i18n';
 import { showDocumentation } from '@/workbench/libraries/show';
 import { publishDiagnostics } from '@/workbench/messages/store';
 import { treePath } from '@/workbench/tree/model';
@@ -17,6 +18,7 @@ import { registerProviders } from './providers';
 let client: LanguageClient | null = null;
 let providers: IDisposable[] = [];
 let opener: IDisposable | null = null;
+let languageChanges: (() => void) | null = null;
 
 /** Texts opened only so that a peek view can show them; held until the project changes. */
 const peeked = new Map<string, TextDocument>();
@@ -55,6 +57,7 @@ export function languageClient(monaco: Monaco, projectId: string): LanguageClien
     providers.forEach((provider) => provider.dispose());
     providers = registerProviders(monaco, made, source);
   });
+  languageChanges ??= onLanguageChange(() => client?.renew());
   opener ??= monaco.editor.registerEditorOpener({
     openCodeEditor: (_editor, resource, selection) =>
       openLocation(resource.toString(), selection === undefined ? undefined : rangeStart(selection)),

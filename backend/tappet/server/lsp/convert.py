@@ -7,6 +7,7 @@ from typing import Final
 
 from lsprotocol import types as lsp
 
+from tappet.lang.diagnostic_translations import Language, Texts, said
 from tappet.lang.services.documents import Place, Position
 from tappet.lang.services.formatting import Style
 from tappet.lang.services.results import (
@@ -203,10 +204,10 @@ def text_edits(edits: Iterable[Edit], lines: Lines) -> dict[str, list[lsp.TextEd
 
 
 def code_action(
-    item: CodeAction, document: str, lines: Lines, spelled: Callable[[str], str]
+    item: CodeAction, document: str, lines: Lines, spelled: Callable[[str], str], language: Language
 ) -> lsp.CodeAction:
     """Something that mends a message. What is more than an edit stands in `data`, for the client to do."""
-    (report,) = diagnostics([item.report], document, lines, False)
+    (report,) = diagnostics([item.report], document, lines, False, language)
     changes = {spelled(uri): edits for uri, edits in text_edits(item.edits, lines).items()}
     members = [
         {"kind": m.kind, "name": m.name, "declaration": m.declaration, "accessors": list(m.accessors)}
@@ -272,14 +273,16 @@ def folding_ranges(found: Iterable[Fold]) -> list[lsp.FoldingRange]:
     return [lsp.FoldingRange(fold.start, fold.end, kind=_FOLD_KINDS.get(fold.kind)) for fold in found]
 
 
-def diagnostics(reports: Iterable[Report], document: str, lines: Lines, advise: bool) -> list[lsp.Diagnostic]:
+def diagnostics(
+    reports: Iterable[Report], document: str, lines: Lines, advise: bool, language: Language = "en"
+) -> list[lsp.Diagnostic]:
     """The messages of a document; with `advise` the advice is in the text, for clients that show no data."""
     line = lines(document)
     found = []
     for report in reports:
-        message = report.message
-        if advise and report.advice:
-            message = f"{message}. {report.advice}"
+        message, advice = said(report.code, Texts(report.message, report.advice), report.facts, language)
+        if advise and advice:
+            message = f"{message}. {advice}"
         tag = _TAGS.get(report.code)
         related = [
             lsp.DiagnosticRelatedInformation(location(item.place, lines), item.message)
@@ -294,7 +297,7 @@ def diagnostics(reports: Iterable[Report], document: str, lines: Lines, advise: 
                 source="tappet",
                 tags=[tag] if tag is not None else None,
                 related_information=related or None,
-                data={"advice": report.advice, "facts": dict(report.facts)},
+                data={"advice": advice, "facts": dict(report.facts)},
             )
         )
     return found

@@ -262,7 +262,9 @@ def code_action(session: LanguageSession, params: lsp.CodeActionParams) -> list[
     lines = session.lines(uri)
     begin, end = to_position(lines, params.range.start), to_position(lines, params.range.end)
     actions = code_actions.code_actions(session.snapshot(uri), uri, Span(*begin, *end), session.offering)
-    found = [convert.code_action(item, uri, session.lines, session.spelled) for item in actions]
+    found = [
+        convert.code_action(item, uri, session.lines, session.spelled, session.language) for item in actions
+    ]
     return [item for item in found if session.asks or item.edit is not None]
 
 

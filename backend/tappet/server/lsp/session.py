@@ -18,6 +18,7 @@ from lsprotocol import converters
 from lsprotocol import types as lsp
 
 from tappet import __version__
+from tappet.lang.diagnostic_translations import Language, language_of
 from tappet.lang.room_for_trees import room_for_trees
 from tappet.lang.services import documents as docs
 from tappet.lang.services.documents import Position, Programs
@@ -91,6 +92,8 @@ class LanguageSession:
         self.asks = not advise
         """Whether the client can do what no edit of texts does: ask for a declaration, make objects."""
         self.style = Style()
+        self.language: Language = "en"
+        """Of the messages, as the client has asked for when it began."""
         self._state: _State = "new"
         self._open: dict[str, _Document] = {}
         self._names: dict[str, str] = {}
@@ -147,6 +150,7 @@ class LanguageSession:
 
     def initialize(self, params: lsp.InitializeParams) -> lsp.InitializeResult:
         """Tell what is served."""
+        self.language = language_of(params.locale)
         self._state = "initialized"
         full = lsp.SemanticTokensLegend(list(TOKEN_TYPES), list(TOKEN_MODIFIERS))
         return lsp.InitializeResult(
@@ -339,7 +343,7 @@ class LanguageSession:
             now = found.get(document, [])
             if now != self._published.get(document, []) or document in opened:
                 version = self._open[document].version if document in self._open else None
-                diagnostics = convert.diagnostics(now, document, self.lines, self._advise)
+                diagnostics = convert.diagnostics(now, document, self.lines, self._advise, self.language)
                 params = lsp.PublishDiagnosticsParams(self.spelled(document), diagnostics, version)
                 out.append(_CONVERTER.unstructure(params))
         self._published = found

@@ -5,8 +5,9 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, PrivateAttr
 
+from tappet.lang.diagnostic_translations import Language, Texts, said
 from tappet.server.schemas.base import Reply, Request
 
 
@@ -39,6 +40,16 @@ class Diagnostic(Reply):
     column: int | None
     end_line: int | None
     end_column: int | None
+    _facts: dict[str, str] = PrivateAttr(default_factory=dict)
+
+    def keep_facts(self, facts: dict[str, str]) -> None:
+        """What the message is about, for `in_language`."""
+        self._facts = facts
+
+    def in_language(self, language: Language) -> Diagnostic:
+        """The message in the words of a language."""
+        message, advice = said(self.code, Texts(self.message, self.advice or ""), self._facts, language)
+        return self.model_copy(update={"message": message, "advice": advice or None})
 
 
 class BuildReport(Reply):
@@ -51,6 +62,10 @@ class BuildReport(Reply):
     code_size: int | None = Field(description="Bytes of machine code and constants.")
     data_size: int | None = Field(description="Bytes of the variable image.")
     seconds: float
+
+    def in_language(self, language: Language) -> BuildReport:
+        """The report with its messages in the words of a language."""
+        return self.model_copy(update={"diagnostics": [d.in_language(language) for d in self.diagnostics]})
 
 
 class Relation(StrEnum):

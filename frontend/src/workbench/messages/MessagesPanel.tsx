@@ -75,7 +75,7 @@ export default function MessagesPanel() {
       {
         id: 'object',
         title: t('messages.object'),
-        width: 330,
+        width: 320,
         sort: ({ message: line }) => line.object_path,
         hint: ({ message: line }) => line.object_path,
         cell: ({ message: line }) => {
@@ -91,7 +91,7 @@ export default function MessagesPanel() {
       {
         id: 'position',
         title: t('messages.position'),
-        width: 205,
+        width: 240,
         cell: ({ message: line }) => <span className="digits">{positionText(line, t)}</span>,
       },
     ],

@@ -2,7 +2,7 @@
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { BuildReport, DeviceData, LoginAnswer, ObjectSummary, ProjectObject, RuntimeState } from '@/api/types';
-import { t } from '@/i18n';
+import { language, t } from '@/i18n';
 import { saveObject } from '@/api/queries';
 import { commandContext, type CommandContext } from '../context';
 import { saveEditors } from '../docking/close';
@@ -46,7 +46,11 @@ export async function build(context: CommandContext): Promise<BuildReport | null
   const applicationName = nameOf(context);
   try {
     const report = await busy(t('busy.build', { name: applicationName }), (signal) =>
-      api.post<BuildReport>(`/projects/${projectId}/applications/${applicationId}/build`, undefined, { signal }),
+      api.post<BuildReport>(
+        `/projects/${projectId}/applications/${applicationId}/build?language=${language()}`,
+        undefined,
+        { signal },
+      ),
     );
     buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
     if (!report.ok) showPanel('messages', false);
@@ -65,9 +69,11 @@ export async function analyse(context: CommandContext): Promise<BuildReport | nu
   const applicationName = nameOf(context);
   try {
     const report = await busy(t('busy.analysis', { name: applicationName }), (signal) =>
-      api.post<BuildReport>(`/projects/${projectId}/applications/${applicationId}/static-analysis`, undefined, {
-        signal,
-      }),
+      api.post<BuildReport>(
+        `/projects/${projectId}/applications/${applicationId}/static-analysis?language=${language()}`,
+        undefined,
+        { signal },
+      ),
     );
     buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
     showPanel('messages', false);
