@@ -112,15 +112,19 @@ class ProgramMaker(Statements):
     def function(self, block: Block | None = None, overrides: Function | None = None) -> Function:
         if overrides is not None:
             made = Function(overrides.name, overrides.result, overrides.inputs, overrides.in_outs)
+            made.outputs = overrides.outputs
             made.rank = overrides.rank
         else:
             made = Function(self.fresh("M" if block else "F"), self.given())
             made.inputs = [Variable(self.fresh("a"), self.given()) for _ in range(self.r.randint(0, 3))]
             made.in_outs = [Variable(self.fresh("io"), self.type(1)) for _ in range(self.r.randint(0, 2))]
+            made.outputs = [
+                Variable(self.fresh("o"), self.given()) for _ in range(self.r.choice((0, 0, 1, 2)))
+            ]
             made.rank = self.number
         made.locals = [self.variable("l") for _ in range(self.r.randint(0, 3))]
         result = Variable(made.name, made.result)
-        seen = [*made.inputs, *made.in_outs, *made.locals, result, *self.globals]
+        seen = [*made.inputs, *made.in_outs, *made.outputs, *made.locals, result, *self.globals]
         maker = Maker(self.r, seen, texts=self.texts)
         if block is not None:
             known = block.all_properties.values()

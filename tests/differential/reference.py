@@ -261,7 +261,10 @@ class Machine:
         for variable, target in zip(function.in_outs, s.in_outs, strict=True):
             own[variable.name] = self.place(target, f)
         own[function.name] = default(function.result)
+        own |= fresh(function.outputs)
         self._body(function.body, self._frame(own, this))
+        for name, target in s.outputs:
+            self.place(target, f).write(copied(own[name]), target.type)
         return own[function.name]
 
     def _instance(self, e: Any, f: Frame) -> Any:
@@ -311,6 +314,8 @@ class Machine:
         for name, value in s.inputs:  # one by one: a fault leaves those before it
             Slot(instance, name).write(self.value(value, f), types[name])
         self._body(block.body, self._frame(instance, instance))
+        for name, target in s.outputs:
+            self.place(target, f).write(copied(instance[name]), target.type)
 
     # -- places -------------------------------------------------------------------------------------
 

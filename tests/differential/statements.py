@@ -263,7 +263,8 @@ class Statements:
             assert isinstance(place.type, Block)
             inputs = [v for v in place.type.all_inputs if self.chance(80)]
             inputs = [v for v in inputs if self.can_give(m, v.type)]
-            return tree.CallBlock(place, [(v.name, self.value(b, v.type, 2)) for v in inputs])
+            given = [(v.name, self.value(b, v.type, 2)) for v in inputs]
+            return tree.CallBlock(place, given, self._outputs(b, place.type.outputs))
         return self._call_function(b, functions, place, via)
 
     def _property(self, b: Body) -> tree.Assign | None:
@@ -313,7 +314,17 @@ class Statements:
             return None
         in_outs = [m.filled(self.r.choice(found), 1) for found in places]
         inputs = [self.value(b, v.type, depth) for v in function.inputs]
-        return tree.CallFunction(None, function, inputs, in_outs, place, via)
+        outputs = self._outputs(b, function.outputs)
+        return tree.CallFunction(None, function, inputs, in_outs, place, via, outputs)
+
+    def _outputs(self, b: Body, outputs: list[Variable]) -> list[tuple[str, Expr]]:
+        """Where some outputs go."""
+        found = []
+        for v in outputs:
+            places = b.maker.places(lambda t, v=v: t == v.type, writable=True)
+            if places and self.chance(60):
+                found.append((v.name, b.maker.filled(self.r.choice(places), 1)))
+        return found
 
     def applied(self, b: Body, type_: Type, depth: int) -> Expr | None:
         """A call inside an expression, whose result counts as a type."""

@@ -182,6 +182,7 @@ class Function:
     result: Type
     inputs: list[Variable] = field(default_factory=list)
     in_outs: list[Variable] = field(default_factory=list)
+    outputs: list[Variable] = field(default_factory=list)
     locals: list[Variable] = field(default_factory=list)
     body: list[Any] = field(default_factory=list)
     rank: int = 0
@@ -404,12 +405,15 @@ class CallFunction:
     """The block instance, or the interface, of a method."""
     via: str = ""
     """THIS or SUPER instead of an instance."""
+    outputs: list[tuple[str, Expr]] = field(default_factory=list)
+    """Outputs, and where they go after the call."""
 
 
 @dataclass
 class CallBlock:
     instance: Expr
     inputs: list[tuple[str, Expr]]
+    outputs: list[tuple[str, Expr]] = field(default_factory=list)
 
 
 @dataclass

@@ -91,6 +91,7 @@ def expression(e: Any) -> str:
 def _called(s: tree.CallFunction) -> str:
     args = [f"{v.name} := {expression(e)}" for v, e in zip(s.function.inputs, s.inputs, strict=True)]
     args += [f"{v.name} := {expression(e)}" for v, e in zip(s.function.in_outs, s.in_outs, strict=True)]
+    args += [f"{name} => {expression(e)}" for name, e in s.outputs]
     owner = f"{s.via}^" if s.via else expression(s.instance) if s.instance else ""
     callee = f"{owner}.{s.function.name}" if owner else s.function.name
     return f"{callee}({', '.join(args)})"
@@ -136,6 +137,7 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
             lines.append(indent + _bind(s))
         else:
             args = [f"{name} := {expression(e)}" for name, e in s.inputs]
+            args += [f"{name} => {expression(e)}" for name, e in s.outputs]
             lines.append(f"{indent}{expression(s.instance)}({', '.join(args)});")
     return lines
 
@@ -181,6 +183,7 @@ def _head(f: Function, word: str) -> list[str]:
         f"{word} {f.name} : {f.result.name}",
         *_section("VAR_INPUT", f.inputs),
         *_section("VAR_IN_OUT", f.in_outs),
+        *_section("VAR_OUTPUT", f.outputs),
     ]
 
 
