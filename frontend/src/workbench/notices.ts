@@ -62,6 +62,11 @@ export function notifyError(error: unknown): void {
   notify({ tone: 'error', ...explain(error) });
 }
 
+/** Why the server refused what a form asked for, in its own words when it has answered. */
+export function refusalOf(error: unknown): string {
+  return error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title;
+}
+
 /** Runs an act of a click or a command; a failure becomes a notice. Answers undefined then. */
 export async function guard<Answer>(act: () => Promise<Answer>): Promise<Answer | undefined> {
   try {

@@ -1,11 +1,12 @@
 import { useState, type FormEvent } from 'react';
-import { api, ApiError } from '@/api/client';
+import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
 import type { User } from '@/api/types';
 import { useText } from '@/i18n';
-import { explain } from '@/workbench/notices';
+import { refusalOf } from '@/workbench/notices';
 import { Button } from '@/workbench/ui/Button';
 import { Field, TextInput } from '@/workbench/ui/Field';
+import { PasswordField } from '@/workbench/ui/PasswordField';
 import { setUser } from '../session';
 import styles from './Login.module.css';
 import { LoginFrame } from './LoginFrame';
@@ -38,7 +39,7 @@ export function FirstAccountPage() {
       await queryClient.invalidateQueries({ queryKey: ['auth'] });
       setUser(user);
     } catch (error) {
-      setRefused(error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title);
+      setRefused(refusalOf(error));
     } finally {
       setBusy(false);
     }
@@ -69,22 +70,19 @@ export function FirstAccountPage() {
             />
           )}
         </Field>
-        <Field label={t('signIn.password')}>
-          {(attributes) => (
-            <TextInput
-              {...attributes}
-              type="password"
-              autoComplete="new-password"
-              value={password}
-              onValue={setPassword}
-            />
-          )}
-        </Field>
-        <Field label={t('firstAccount.again')} error={differs}>
-          {(attributes) => (
-            <TextInput {...attributes} type="password" autoComplete="new-password" value={again} onValue={setAgain} />
-          )}
-        </Field>
+        <PasswordField
+          label={t('signIn.password')}
+          autoComplete="new-password"
+          value={password}
+          onValue={setPassword}
+        />
+        <PasswordField
+          label={t('firstAccount.again')}
+          error={differs}
+          autoComplete="new-password"
+          value={again}
+          onValue={setAgain}
+        />
         <Button type="submit" variant="primary" disabledReason={missing}>
           {t('firstAccount.action')}
         </Button>

@@ -5,6 +5,7 @@ import { useText } from '@/i18n';
 import { explain } from '@/workbench/notices';
 import { Button } from '@/workbench/ui/Button';
 import { Field, TextInput } from '@/workbench/ui/Field';
+import { PasswordField } from '@/workbench/ui/PasswordField';
 import { adoptPreferences } from '../preferences';
 import { setUser } from '../session';
 import styles from './Login.module.css';
@@ -58,18 +59,13 @@ export function LoginPage() {
             />
           )}
         </Field>
-        <Field label={t('signIn.password')}>
-          {(attributes) => (
-            <TextInput
-              {...attributes}
-              type="password"
-              autoComplete="current-password"
-              name="password"
-              value={password}
-              onValue={setPassword}
-            />
-          )}
-        </Field>
+        <PasswordField
+          label={t('signIn.password')}
+          autoComplete="current-password"
+          name="password"
+          value={password}
+          onValue={setPassword}
+        />
         <Button
           type="submit"
           variant="primary"

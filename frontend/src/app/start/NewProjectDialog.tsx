@@ -1,10 +1,10 @@
 import { useState } from 'react';
-import { api, ApiError } from '@/api/client';
+import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { openDialog } from '@/workbench/dialogs';
-import { explain } from '@/workbench/notices';
+import { refusalOf } from '@/workbench/notices';
 import { freeName } from '@/workbench/tree/model';
 import { Button } from '@/workbench/ui/Button';
 import { Dialog } from '@/workbench/ui/Dialog';
@@ -38,7 +38,7 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
       void queryClient.invalidateQueries({ queryKey: keys.projects });
       close(project);
     } catch (error) {
-      setRefused(error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title);
+      setRefused(refusalOf(error));
     }
   };
 

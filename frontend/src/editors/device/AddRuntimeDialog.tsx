@@ -1,11 +1,12 @@
 import { useState } from 'react';
-import { api, ApiError } from '@/api/client';
+import { api } from '@/api/client';
 import type { RuntimeState } from '@/api/types';
 import { useText } from '@/i18n';
-import { explain } from '@/workbench/notices';
+import { refusalOf } from '@/workbench/notices';
 import { Button } from '@/workbench/ui/Button';
 import { Dialog } from '@/workbench/ui/Dialog';
 import { Field, TextInput } from '@/workbench/ui/Field';
+import { PasswordField } from '@/workbench/ui/PasswordField';
 
 /** Connects the server to a running soft PLC. */
 export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => void }) {
@@ -22,7 +23,7 @@ export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => v
     try {
       close(await api.post<RuntimeState>('/runtimes', { name: name.trim(), url, token }));
     } catch (error) {
-      setRefused(error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title);
+      setRefused(refusalOf(error));
     }
   };
 
@@ -47,11 +48,13 @@ export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => v
       <Field label={t('runtime.url')} error={url === 'ws://' ? null : urlFault} hint="ws://192.168.0.10:11740">
         {(attributes) => <TextInput {...attributes} className="code" value={url} onValue={setUrl} />}
       </Field>
-      <Field label={t('runtime.token')} hint={t('runtime.tokenHint')}>
-        {(attributes) => (
-          <TextInput {...attributes} type="password" autoComplete="off" value={token} onValue={setToken} />
-        )}
-      </Field>
+      <PasswordField
+        label={t('runtime.token')}
+        hint={t('runtime.tokenHint')}
+        autoComplete="off"
+        value={token}
+        onValue={setToken}
+      />
     </Dialog>
   );
 }

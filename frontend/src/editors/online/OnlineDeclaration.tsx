@@ -1,5 +1,5 @@
 import { Boxes } from 'lucide-react';
-import { useEffect, useMemo, useRef, useState } from 'react';
+import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
@@ -38,18 +38,15 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
 
   // An FB that is opened while logged in asks for its instance once.
   const asked = useRef(false);
+  const choose = useCallback(() => {
+    const type = target.needsInstanceOf;
+    if (type === null || tree === null) return false;
+    void chooseInstance({ panelId, objectId: object.id, name: object.name, type, tree, session });
+    return true;
+  }, [target.needsInstanceOf, tree, panelId, object, session]);
   useEffect(() => {
-    if (asked.current || !visible || target.needsInstanceOf === null || tree === null) return;
-    asked.current = true;
-    void chooseInstance({
-      panelId,
-      objectId: object.id,
-      name: object.name,
-      type: target.needsInstanceOf,
-      tree,
-      session,
-    });
-  }, [visible, target.needsInstanceOf, tree, panelId, object, session]);
+    if (!asked.current && visible) asked.current = choose();
+  }, [visible, choose]);
 
   useEffect(() => () => setPanelChosen(panelId, null), [panelId]);
 
@@ -99,17 +96,6 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
     { id: 'address', title: t('online.column.address'), width: 80, code: true },
     { id: 'comment', title: t('online.column.comment'), width: 180, grow: true },
   ];
-  const choose = () =>
-    target.needsInstanceOf !== null &&
-    tree !== null &&
-    void chooseInstance({
-      panelId,
-      objectId: object.id,
-      name: object.name,
-      type: target.needsInstanceOf,
-      tree,
-      session,
-    });
   return (
     <div className={online.panel}>
       <LostBar session={session} />

@@ -2,7 +2,7 @@ import { useId, useRef, useState, type KeyboardEvent } from 'react';
 import type { LibraryItem, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/icons/objects';
-import { findTyped, moveFocus, type Motion, type Row } from '../tree/model';
+import { findTyped, MOTION_OF_KEY, moveFocus, type Row } from '../tree/model';
 import { Twist } from '../ui/Twist';
 import { groupsOf, idOf, objectKindOf } from './model';
 import styles from './Libraries.module.css';
@@ -28,15 +28,6 @@ interface LibraryTreeProps {
   onChoose: (library: LibrarySummary, item: LibraryItem | null) => void;
   onOpen?: (library: LibrarySummary, item: LibraryItem | null) => void;
 }
-
-const MOTIONS: Record<string, Motion> = {
-  ArrowUp: 'up',
-  ArrowDown: 'down',
-  ArrowLeft: 'left',
-  ArrowRight: 'right',
-  Home: 'home',
-  End: 'end',
-};
 
 /** Libraries in their versions, what they require, folders by kind, items. */
 export function LibraryTree({ label, libraries, search = '', flat, onChoose, onOpen }: LibraryTreeProps) {
@@ -140,7 +131,7 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
       position: 1,
       siblings: 1,
     })) as unknown as Row[];
-    const motion = MOTIONS[event.key];
+    const motion = MOTION_OF_KEY[event.key];
     const node = nodes.find((candidate) => candidate.id === focused);
     if (motion && !event.ctrlKey && !event.altKey) {
       event.preventDefault();

@@ -1,11 +1,12 @@
 import { useState } from 'react';
-import { api, ApiError } from '@/api/client';
+import { api } from '@/api/client';
 import type { Account, Role } from '@/api/types';
 import { useText } from '@/i18n';
-import { explain } from '../notices';
+import { refusalOf } from '../notices';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';
 import { Field, Select, TextInput } from '../ui/Field';
+import { PasswordField } from '../ui/PasswordField';
 
 const ROLES: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
 
@@ -23,7 +24,7 @@ export function NewUserDialog({ close }: { close: (account?: Account) => void })
     try {
       close(await api.post<Account>('/users', { username, password, role }));
     } catch (error) {
-      setRefused(error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title);
+      setRefused(refusalOf(error));
     }
   };
 
@@ -45,17 +46,7 @@ export function NewUserDialog({ close }: { close: (account?: Account) => void })
       <Field label={t('signIn.username')} error={refused}>
         {(attributes) => <TextInput {...attributes} autoComplete="off" value={username} onValue={setUsername} />}
       </Field>
-      <Field label={t('signIn.password')}>
-        {(attributes) => (
-          <TextInput
-            {...attributes}
-            type="password"
-            autoComplete="new-password"
-            value={password}
-            onValue={setPassword}
-          />
-        )}
-      </Field>
+      <PasswordField label={t('signIn.password')} autoComplete="new-password" value={password} onValue={setPassword} />
       <Field label={t('users.role')} hint={t(`role.${role}Text`)}>
         {(attributes) => (
           <Select<Role>

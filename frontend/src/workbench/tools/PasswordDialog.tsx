@@ -1,10 +1,10 @@
 import { useState } from 'react';
-import { api, ApiError } from '@/api/client';
+import { api } from '@/api/client';
 import { useText } from '@/i18n';
-import { explain, notify } from '../notices';
+import { notify, refusalOf } from '../notices';
 import { Button } from '../ui/Button';
 import { Dialog } from '../ui/Dialog';
-import { Field, TextInput } from '../ui/Field';
+import { PasswordField } from '../ui/PasswordField';
 
 /** A new password for oneself. */
 export function PasswordDialog({ close }: { close: () => void }) {
@@ -23,7 +23,7 @@ export function PasswordDialog({ close }: { close: () => void }) {
       notify({ tone: 'ok', title: t('password.changed') });
       close();
     } catch (error) {
-      setRefused(error instanceof ApiError && error.status !== 0 ? error.message : explain(error).title);
+      setRefused(refusalOf(error));
     }
   };
 
@@ -43,27 +43,21 @@ export function PasswordDialog({ close }: { close: () => void }) {
         </>
       }
     >
-      <Field label={t('password.current')} error={refused}>
-        {(attributes) => (
-          <TextInput
-            {...attributes}
-            type="password"
-            autoComplete="current-password"
-            value={current}
-            onValue={setCurrent}
-          />
-        )}
-      </Field>
-      <Field label={t('password.new')}>
-        {(attributes) => (
-          <TextInput {...attributes} type="password" autoComplete="new-password" value={next} onValue={setNext} />
-        )}
-      </Field>
-      <Field label={t('firstAccount.again')} error={differs}>
-        {(attributes) => (
-          <TextInput {...attributes} type="password" autoComplete="new-password" value={again} onValue={setAgain} />
-        )}
-      </Field>
+      <PasswordField
+        label={t('password.current')}
+        error={refused}
+        autoComplete="current-password"
+        value={current}
+        onValue={setCurrent}
+      />
+      <PasswordField label={t('password.new')} autoComplete="new-password" value={next} onValue={setNext} />
+      <PasswordField
+        label={t('firstAccount.again')}
+        error={differs}
+        autoComplete="new-password"
+        value={again}
+        onValue={setAgain}
+      />
     </Dialog>
   );
 }

@@ -15,6 +15,7 @@ import { pasteInto, treeHandlers } from './handlers';
 import {
   findTyped,
   lineage,
+  MOTION_OF_KEY,
   moveFocus,
   opensFor,
   rangeOf,
@@ -37,12 +38,7 @@ const ROW_HEIGHT = 24;
 const TYPING_MS = 700;
 
 const MOTIONS: Record<string, Motion> = {
-  ArrowUp: 'up',
-  ArrowDown: 'down',
-  ArrowLeft: 'left',
-  ArrowRight: 'right',
-  Home: 'home',
-  End: 'end',
+  ...MOTION_OF_KEY,
   PageUp: 'pageUp',
   PageDown: 'pageDown',
 };

@@ -142,6 +142,16 @@ export function opensFor(forest: Forest, id: string): string[] {
 
 export type Motion = 'up' | 'down' | 'left' | 'right' | 'home' | 'end' | 'pageUp' | 'pageDown';
 
+/** Keys that move the focus in every tree. */
+export const MOTION_OF_KEY: Readonly<Record<string, Motion>> = {
+  ArrowUp: 'up',
+  ArrowDown: 'down',
+  ArrowLeft: 'left',
+  ArrowRight: 'right',
+  Home: 'home',
+  End: 'end',
+};
+
 export interface Move {
   /** Row that gets the focus. */
   focus?: string;
