@@ -41,6 +41,10 @@ class ExpressionParser(Core):
 
     __slots__ = ()
 
+    def type_reference(self, what: str = "type") -> ast.TypeRef:
+        """A type; see `parser_types`."""
+        raise NotImplementedError
+
     def expression(self) -> ast.Expr:
         """A whole expression, assignments included (LST-41)."""
         start = self.i
@@ -236,10 +240,12 @@ class ExpressionParser(Core):
             return ast.Literal(span=self.span_at(start), text=self.texts[start], kind="null")
         if kind in _CALLABLE_OPERATORS and self.kinds[self.i] == "(":
             return ast.Name(span=self.span_at(start), name=kind)
-        if kind == "[":
-            self.i = start
-            return self.array_initial()
         self.i = start
+        if kind == "[":
+            return self.array_initial()
+        if kind == "POINTER" and self.kinds[start + 1] == "TO":
+            ref = self.type_reference()
+            return ast.TypeOperand(span=self.span_from(start), ref=ref)
         return self.missing_expression()
 
     def missing_expression(self) -> ast.Expr:

@@ -66,6 +66,8 @@ class Session:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     resolve: Callable[[Symbol], None] = lambda symbol: None
     """Gives a variable its type, and its value when it is constant; set by the declarations pass."""
+    type_of: Callable[[Body, ast.TypeRef, str], Type | None] = lambda body, ref, name: None
+    """The type that a body writes; set by the declarations pass."""
     complete: Callable[[Type], object] = lambda type_: None
     """Makes sure that size and members of a type are known; set by the declarations pass."""
     used: set[int] = field(default_factory=set)

@@ -385,6 +385,12 @@ def _aggregate(b: Body, e: ast.ArrayInit | ast.StructInit | ast.Repeat) -> None:
     b.report("E0333", e.span, what=what)
 
 
+def _type_operand(b: Body, e: ast.TypeOperand) -> None:
+    clear(e)
+    hint = "Declare a variable of this type."
+    b.report("E0210", e.span, name="POINTER TO", what="type", hint=hint)
+
+
 def _error(b: Body, e: ast.ErrorExpr) -> None:
     clear(e)
 
@@ -405,6 +411,7 @@ EXPRESSIONS.update(
         ast.ArrayInit: _aggregate,
         ast.StructInit: _aggregate,
         ast.Repeat: _aggregate,
+        ast.TypeOperand: _type_operand,
         ast.ErrorExpr: _error,
     }
 )

@@ -21,7 +21,9 @@ _UNSIGNED = (t.USINT, t.UINT, t.UDINT, t.ULINT)
 
 
 def named_type(b: Body, e: ast.Expr) -> Type | None:
-    """The type that an operand names (`INT`, a user type, an FB), None when it names none."""
+    """The type that an operand names (`INT`, a user type, an FB, POINTER TO one), None when it names none."""
+    if isinstance(e, ast.TypeOperand):
+        return b.session.type_of(b, e.ref, "")
     if isinstance(e, ast.Name) and not e.leading_dot:
         key = e.name.upper()
         if key in b.locals:

@@ -56,6 +56,7 @@ def analyse(
     found = collect(session, units)
     declarations = Declarations(session, found)
     session.resolve = declarations.resolve
+    session.type_of = declarations.type_of
     session.complete = declarations.complete
     declare(session, found, declarations, found)
     state = State(tuple(units), session, found, declarations)

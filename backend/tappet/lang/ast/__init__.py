@@ -47,6 +47,7 @@ from tappet.lang.ast.expressions import (
     StructInit,
     Super,
     This,
+    TypeOperand,
     Unary,
 )
 from tappet.lang.ast.node import (
@@ -135,6 +136,7 @@ __all__ = [
     "This",
     "Try",
     "TypeDecl",
+    "TypeOperand",
     "TypeRef",
     "Unary",
     "Unit",

@@ -9,6 +9,7 @@ from tappet.lang.ast.node import Constant, Node
 from tappet.lang.source import NOWHERE, Span
 
 if TYPE_CHECKING:
+    from tappet.lang.ast.declarations import TypeRef
     from tappet.lang.symbols import Symbol
     from tappet.lang.types import Type
 
@@ -183,6 +184,13 @@ class Held(Expr):
     # resolved
     carried: Type | None = None
     """Type in which the value is kept."""
+
+
+@dataclass(slots=True, kw_only=True)
+class TypeOperand(Expr):
+    """`POINTER TO X` where an operator takes a type: __NEW, SIZEOF."""
+
+    ref: TypeRef
 
 
 @dataclass(slots=True, kw_only=True)
