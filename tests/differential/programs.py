@@ -90,9 +90,25 @@ class ProgramMaker(Statements):
     def variable(self, prefix: str, type_: Type | None = None) -> Variable:
         type_ = type_ or self.type()
         maker = Maker(self.r)
-        simple = not isinstance(type_, Array | Struct | Block | Pointer | Interface)
-        initial = maker.literal_value(type_) if simple and self.chance(75) else None
+        simple = not isinstance(type_, Block | Pointer | Interface)
+        initial = self.initial(maker, type_) if simple and self.chance(75) else None
         return Variable(self.fresh(prefix), type_, initial)
+
+    def initial(self, maker: Maker, type_: Type) -> Any:
+        """An initial value; arrays and structures may leave parts open."""
+        if isinstance(type_, Struct):
+            given = [(n, t) for n, t in type_.members if self.chance(70)] or [type_.members[0]]
+            return {n: self.initial(maker, t) for n, t in given}
+        if not isinstance(type_, Array):
+            return maker.literal_value(type_)
+        size = 1
+        for low, high in type_.bounds:
+            size *= high - low + 1
+        value = self.initial(maker, type_.element)
+        return [
+            value if self.chance(40) else self.initial(maker, type_.element)
+            for _ in range(self.r.randint(1, size))
+        ]
 
     def declare_types(self) -> None:
         for _ in range(self.r.randint(0, 2)):

@@ -65,7 +65,22 @@ def default(type_: Type) -> Any:
 
 def fresh(variables: list[Variable]) -> dict[str, Any]:
     """A set of variables with their initial values."""
-    return {v.name: default(v.type) if v.initial is None else v.initial for v in variables}
+    return {v.name: default(v.type) if v.initial is None else initial(v.type, v.initial) for v in variables}
+
+
+def initial(type_: Type, given: Any) -> Any:
+    """An initial value; what an array or structure leaves open has its default."""
+    if isinstance(type_, Struct):
+        return {n: initial(t, given[n]) if n in given else default(t) for n, t in type_.members}
+    if not isinstance(type_, Array):
+        return given
+    found = default(type_)
+    rest = type_.bounds[1:]
+    width = rest[0][1] - rest[0][0] + 1 if rest else 1
+    for number, value in enumerate(given):
+        row = found[number // width] if rest else found
+        row[number % width if rest else number] = initial(type_.element, value)
+    return found
 
 
 def copied(value: Any) -> Any:

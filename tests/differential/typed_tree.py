@@ -211,7 +211,10 @@ Type = Scalar | Text | Enum | Subrange | Array | Struct | Block | Pointer | Inte
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable; `initial` is a plain value of a simple type or None for the default."""
+    """A variable; `initial` is a plain value or None for the default.
+
+    Of an array a list of its first elements, of a structure a dict of some members.
+    """
 
     name: str
     type: Type

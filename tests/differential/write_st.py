@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import itertools
 from typing import Any
 
 import typed_tree as tree
@@ -23,7 +24,14 @@ from typed_tree import (
 
 
 def literal(type_: Type, value: Any, untyped: bool = False) -> str:
-    """A literal of a simple type."""
+    """A literal, also an initial value of an array or structure; equal elements are counted."""
+    if isinstance(type_, Struct):
+        members = dict(type_.members)
+        return f"({', '.join(f'{name} := {literal(members[name], v)}' for name, v in value.items())})"
+    if isinstance(type_, Array):
+        texts = [literal(type_.element, v) for v in value]
+        runs = [(text, len(list(run))) for text, run in itertools.groupby(texts)]
+        return f"[{', '.join(text if count == 1 else f'{count}({text})' for text, count in runs)}]"
     if isinstance(type_, Enum):
         names = {number: name for name, number in type_.members}
         return f"{type_.name}.{names[value]}"
