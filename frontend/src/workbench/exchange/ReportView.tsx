@@ -42,7 +42,8 @@ export function ReportView({ entries, hide = [], open }: ReportViewProps) {
     {
       id: 'object',
       title: t('exchange.object'),
-      width: 170,
+      width: 220,
+      grow: true,
       sort: ({ entry }) => entry.object,
       cell: ({ entry }) => <span className="code">{entry.object}</span>,
       hint: ({ entry }) => entry.object,
