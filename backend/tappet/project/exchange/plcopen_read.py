@@ -239,7 +239,7 @@ class _Reader:
         if tag in ("action", "transition"):
             child = self._draft(tag, item, self._body(item, name))
             if tag == "transition":
-                text = "transitions belong to SFC, which is not compiled yet"
+                text = "transitions belong to a drawn chart, which is kept with them"
                 self.report.add("kept", self.source, text, name=name, line=item.line)
         elif tag == "method":
             child = self._draft("method", item, {"declaration": self._declaration("METHOD", item)})

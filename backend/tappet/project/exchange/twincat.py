@@ -76,7 +76,11 @@ def _child(source: str, item: Element, report: ImportReport, owner: Draft) -> Dr
     _implementation(draft, item, report, name)
     if draft.kind == "transition":
         report.add(
-            "kept", source, "transitions belong to SFC, which is not compiled yet", name=name, line=item.line
+            "kept",
+            source,
+            "transitions belong to a drawn chart, which is kept with them",
+            name=name,
+            line=item.line,
         )
     return draft
 
