@@ -114,6 +114,7 @@ def test_case(case: Case) -> None:
         expected.values or course.rows or expected.fault or expected.errors or expected.warnings or wanted
     ), "expects nothing"
     assert not (course.rows and expected.values), "rows of values, or values at the end"
+    assert course.rows or not (course.writes or course.resets), "SET and RESET need rows of values (OVER)"
     options = BuildOptions(level=1, libraries=LIBRARIES)
     result = build_application(case.sources(), session=SESSION, options=options)
     texts = [str(d) for d in result.diagnostics]
