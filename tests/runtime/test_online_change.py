@@ -39,6 +39,7 @@ def test_code_changes_while_values_stay() -> None:
 
 
 def test_data_moves_and_new_variables_are_initialised() -> None:
+    """LDEC-47, LDEC-60: contents move, only what is new gets its initial value."""
     with LocalRuntime(build(ONE)) as runtime:
         runtime.run(cycles=3)
         runtime.write("PLC_PRG.other", 77)
