@@ -136,6 +136,24 @@ def test_in_texts_with_closing_keywords_the_marks_are_comments() -> None:
     assert notes == []
 
 
+lines = st.sampled_from(
+    ["METHOD M", "PROPERTY P : INT", "VAR", "END_VAR", "x := 1;", "", "END_METHOD"]
+    + [f"// {line} {mark} {line}" for line in ("===", "---") for mark in ("IMPLEMENTATION", "GET", "SET")]
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(lines, max_size=12))
+def test_taking_marks_out_keeps_the_lines(given_lines: list[str]) -> None:
+    text = "\n".join(given_lines)
+    parted = unmarked(text)
+    assert parted.text.count("\n") == text.count("\n")
+    for end in parted.declaration_ends:
+        assert "IMPLEMENTATION" in given_lines[parted.text.count("\n", 0, end)]
+    done = import_files({"P.st": b"PROGRAM P\nEND_PROGRAM", "P.M.st": text.encode()})
+    assert at(done.project, "P").kind == "pou"
+
+
 names = st.text(string.ascii_uppercase, min_size=1, max_size=3).map(lambda text: f"{text}_{len(text)}")
 
 
