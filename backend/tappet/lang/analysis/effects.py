@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from tappet.lang import types as t
@@ -129,29 +129,18 @@ def _texts(pragmas: Iterable[Any]) -> tuple[str, ...]:
 # -- what has changed -------------------------------------------------------------------------------
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Inside:
-    """Changed names inside one object, and who can have an instance of it."""
+    """Changed names inside one object."""
 
     words: set[str]
     """Names of its members."""
     whole: bool
     """Whether those who name none of them are concerned, too."""
-    texts: set[str]
-    """Its own texts and those of derived objects."""
-    leading: set[str] = field(default_factory=set)
-    """Names that stand for it, or for what yields an instance."""
-    variables: set[int] = field(default_factory=set)
-    """id() of the variables that hold or refer to an instance."""
 
-    def concerns(self, uri: str, words: frozenset[str], record: Record) -> bool:
-        if not self.whole and self.words.isdisjoint(words):
-            return False
-        return (
-            uri in self.texts
-            or not self.leading.isdisjoint(words)
-            or not self.variables.isdisjoint(record.used)
-        )
+    def concerns(self, words: frozenset[str]) -> bool:
+        """Whether a body with these words, which can have an instance, can tell a difference."""
+        return self.whole or not self.words.isdisjoint(words)
 
 
 class Effects:
@@ -189,7 +178,12 @@ class Effects:
                 self._tell(key, thing)
         self._spread()
         self._enums_moved()
-        self._inside = list(self._insides())
+        self._by_text: defaultdict[str, list[_Inside]] = defaultdict(list)
+        self._by_word: defaultdict[str, list[_Inside]] = defaultdict(list)
+        """Names that stand for a changed object, or for what yields an instance."""
+        self._by_variable: defaultdict[int, list[_Inside]] = defaultdict(list)
+        """id() of the variables that hold or refer to an instance."""
+        self._find_instances()
 
     def note(self, words: Iterable[str]) -> None:
         """Other global names that mean something else now."""
@@ -216,7 +210,10 @@ class Effects:
         for message in record.messages:
             if message.severity == "error" or any(r.uri in self.edited for r in message.related):
                 return True
-        return any(inside.concerns(uri, words.all, record) for inside in self._inside)
+        reached = list(self._by_text.get(uri, ()))
+        reached += [i for word in self._by_word.keys() & words.all for i in self._by_word[word]]
+        reached += [i for key in self._by_variable.keys() & record.used for i in self._by_variable[key]]
+        return any(inside.concerns(words.all) for inside in reached)
 
     # -- names
 
@@ -246,10 +243,10 @@ class Effects:
                     continue
                 if isinstance(thing, PouSymbol):
                     changed = any(id(p) in told for p in thing.parameters)
-                    changed = changed or mentions(thing.return_type, self._shapes)
+                    changed = changed or _mentions(thing.return_type, self._shapes)
                 else:
                     type_ = getattr(thing, "type", None) if isinstance(thing, Symbol) else None
-                    changed = type_ is not None and mentions(type_, self._shapes)
+                    changed = type_ is not None and _mentions(type_, self._shapes)
                 if changed:
                     self._tell(key, thing)
         for pou, _ in self._found.pous:
@@ -266,49 +263,45 @@ class Effects:
 
     # -- who can have an instance
 
-    def _insides(self) -> Iterator[_Inside]:
-        objects: list[tuple[str, Type | None, set[str]]] = []
+    def _find_instances(self) -> None:
+        """Enters for each object that has changed inside how a body can have an instance of it."""
+        inside: dict[int, _Inside] = {}
+        for key, thing in self._things:
+            words, whole = self._members.get(key[2], set()), id(thing) in self._shapes
+            if (words or whole) and not isinstance(thing, Symbol):
+                inside[id(thing)] = _Inside(words, whole)
+        reach: defaultdict[int, list[_Inside]] = defaultdict(list)
+        for name, types, texts in self._objects() if inside else ():
+            found = [inside[id(type_)] for type_ in types if id(type_) in inside]
+            if found:
+                reach[id(types[0])] += found
+                self._by_word[name.upper()] += found
+                for text in texts:
+                    self._by_text[text] += found
+        for key, thing in self._things if reach else ():
+            if isinstance(thing, VarSymbol):
+                found = reach.get(id(_inner(thing.type)), [])
+                if found:
+                    self._by_variable[id(thing)] += found
+            elif isinstance(thing, (PouSymbol, TypeSymbol, PropertySymbol)):
+                type_ = thing.return_type if isinstance(thing, PouSymbol) else thing.type
+                found = reach.get(id(_inner(type_)), [])
+                if found:
+                    self._by_word[key[2].removeprefix("__GET")] += found
+
+    def _objects(self) -> Iterator[tuple[str, list[Type | None], set[str]]]:
+        """Every object with its type, those of its bases, and its texts."""
         for pou, _ in self._found.pous:
-            objects.append((pou.name, pou.instance, _texts_of(pou)))
-        for type_symbol, _, source in self._found.types:
-            objects.append((type_symbol.name, type_symbol.type, {source.uri}))
+            if pou.instance is not None:
+                yield pou.name, [block.instance for block in (pou, *_bases(pou))], _texts_of(pou)
+        for symbol, _, source in self._found.types:
+            types: list[Type | None] = [symbol.type]
+            while isinstance(types[-1], t.Struct):
+                types.append(types[-1].base)
+            yield symbol.name, types, {source.uri}
         for interface, _, source in self._found.interfaces:
             texts = {source.uri} | {m.source.uri for m in interface.methods.values() if m.source is not None}
-            objects.append((interface.name, interface.type, texts))
-        for name, type_, texts in objects:
-            words = self._members.get(name.upper(), set())
-            whole = id(type_) in self._shapes
-            if (words or whole) and type_ is not None:
-                yield self._inside_of(name, type_, _Inside(words, whole, texts))
-
-    def _inside_of(self, name: str, type_: Type, inside: _Inside) -> _Inside:
-        types = {id(type_)}
-        inside.leading.add(name.upper())
-        for pou, _ in self._found.pous:
-            if any(base.instance is type_ for base in _bases(pou)):
-                types.add(id(pou.instance))
-                inside.leading.add(pou.name.upper())
-                inside.texts |= _texts_of(pou)
-        for symbol, _, _ in self._found.types:
-            base = symbol.type.base if isinstance(symbol.type, t.Struct) else None
-            while base is not None:
-                if base is type_:
-                    types.add(id(symbol.type))
-                base = base.base
-        for interface, _, _ in self._found.interfaces:
-            if any(base.type is type_ for base in _base_interfaces(interface)):
-                types.add(id(interface.type))
-                inside.leading.add(interface.name.upper())
-        for key, thing in self._things:
-            if isinstance(thing, VarSymbol):
-                if thing.type is not None and mentions(thing.type, types):
-                    inside.variables.add(id(thing))
-            elif isinstance(thing, PouSymbol):
-                if mentions(thing.return_type, types):
-                    inside.leading.add(key[2].removeprefix("__GET"))
-            elif isinstance(thing, (TypeSymbol, PropertySymbol)) and mentions(thing.type, types):
-                inside.leading.add(key[2])
-        return inside
+            yield interface.name, [one.type for one in (interface, *_base_interfaces(interface))], texts
 
 
 def _object_of(owner: str) -> str:
@@ -333,12 +326,13 @@ def _base_interfaces(interface: InterfaceSymbol) -> Iterator[InterfaceSymbol]:
         yield from _base_interfaces(base)
 
 
-def mentions(type_: Type | None, types: set[int]) -> bool:
-    """Whether a type is one of `types`, by id(), or is made of one: array, pointer, reference."""
-    while True:
-        if isinstance(type_, t.Array):
-            type_ = type_.element
-        elif isinstance(type_, (t.Pointer, t.Reference)):
-            type_ = type_.base
-        else:
-            return id(type_) in types
+def _inner(type_: Type | None) -> Type | None:
+    """What arrays, pointers and references are made of."""
+    while isinstance(type_, (t.Array, t.Pointer, t.Reference)):
+        type_ = type_.element if isinstance(type_, t.Array) else type_.base
+    return type_
+
+
+def _mentions(type_: Type | None, types: set[int]) -> bool:
+    """Whether a type is made of one of `types`, given by id()."""
+    return id(_inner(type_)) in types
