@@ -218,24 +218,44 @@ def _new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     assert type_ is not None
     operands = arguments(e)
     count: ir.Expr = ir.Const(ir.U64, 1)
-    if len(operands) > 1:
-        count = convert(b.value(operands[1]), ir.U64)
+    several = len(operands) > 1
+    body: list[ir.Stmt] = []
+    if several:
+        length = b.temp(ir.U64)
+        body.append(ir.Store(ir.Place(length), convert(b.value(operands[1]), ir.U64)))
+        count = ir.Load(ir.U64, ir.Place(length))
     b.program.module.externals.setdefault(
         "tappet_allocate", ir.External("tappet_allocate", [ir.U64, ir.U64], ir.PTR)
     )
     pointer = b.temp(ir.PTR)
     read = ir.Load(ir.PTR, ir.Place(pointer))
     memory = ir.Call(ir.PTR, "tappet_allocate", [count, ir.Const(ir.U64, max(type_.size, 1))])
-    body: list[ir.Stmt] = [ir.Store(ir.Place(pointer), memory)]
+    body.append(ir.Store(ir.Place(pointer), memory))
     if isinstance(type_, t.FunctionBlock | t.Struct):
         b.program.created[str(type_).upper()] = type_
-    if scalar_of(type_) is None and len(operands) == 1:
+    if scalar_of(type_) is None:
+        made = operands[0] if isinstance(operands[0], ast.Call) else None
         with b.block_of() as fill:
-            made = operands[0] if isinstance(operands[0], ast.Call) else None
-            initial.initialise_place(b, ir.Place(ir.Indirect(read)), type_, made)
+            if several:
+                _initialise_elements(b, read, type_, count, made)
+            else:
+                initial.initialise_place(b, ir.Place(ir.Indirect(read)), type_, made)
         body.append(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), fill, []))
     b.program.expose(ir.Place(ir.Data("")), type_)
     return ir.Sequence(ir.PTR, body, read)
+
+
+def _initialise_elements(
+    b: Body, start: ir.Expr, type_: t.Type, count: ir.Expr, made: ast.Expr | None
+) -> None:
+    """Initial values of `count` elements that follow each other from an address."""
+    counter = b.temp(ir.I64, once=False)
+    number = ir.Load(ir.I64, ir.Place(counter))
+    sub = ir.Subscript(number, 0, (1 << 62) - 1, type_.size, checked=False)
+    with b.block_of() as body:
+        initial.initialise_place(b, ir.Place(ir.Indirect(start), 0, (sub,)), type_, made)
+    last = ir.Binary(ir.I64, "sub", convert(count, ir.I64), ir.Const(ir.I64, 1))
+    b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
 
 
 def _delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
