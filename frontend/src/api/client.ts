@@ -44,7 +44,7 @@ export function setUnauthorisedListener(listener: () => void): void {
   onUnauthorised = listener;
 }
 
-export function apiUrl(path: string, query?: Query): string {
+function apiUrl(path: string, query?: Query): string {
   const search = new URLSearchParams();
   for (const [name, value] of Object.entries(query ?? {})) if (value != null) search.set(name, String(value));
   const text = search.toString();

@@ -40,7 +40,6 @@ export interface TextData {
 export type TaskData = Schemas['TaskData'];
 export type TaskType = TaskData['type'];
 export type TaskPou = Schemas['ProgramCall'];
-export type Watchdog = Schemas['WatchdogData'];
 export type LibraryReference = Omit<Schemas['LibraryReference'], 'placeholder'> & { placeholder?: string | null };
 export interface LibraryManagerData {
   references: LibraryReference[];
@@ -66,7 +65,6 @@ export type BuildReport = Schemas['BuildReport'];
 
 export type ImagePlace = Schemas['ImagePlace'];
 export type RuntimeState = Schemas['RuntimeState'];
-export type RuntimeActivity = NonNullable<RuntimeState['state']>;
 export type RuntimeException = Schemas['RuntimeException'];
 export type CallFrame = Schemas['CallFrame'];
 export type TaskState = Schemas['TaskState'];

@@ -22,7 +22,7 @@ interface Change {
   after: string;
 }
 
-export function editsByUri(edit: WorkspaceEdit): Map<string, TextEdit[]> {
+function editsByUri(edit: WorkspaceEdit): Map<string, TextEdit[]> {
   const all = new Map<string, TextEdit[]>(Object.entries(edit.changes ?? {}));
   for (const change of edit.documentChanges ?? []) {
     all.set(change.textDocument.uri, [...(all.get(change.textDocument.uri) ?? []), ...change.edits]);

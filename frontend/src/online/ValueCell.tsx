@@ -7,7 +7,7 @@ import styles from './OnlineTable.module.css';
 import { isExpandable, type OnlineRow } from './treeRows';
 import { useForced, useLiveValue } from './useLive';
 
-export const CHANGED_MS = 1000;
+const CHANGED_MS = 1000;
 
 interface ValueCellProps {
   runtimeId: string | null;

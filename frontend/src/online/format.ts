@@ -62,7 +62,7 @@ export function formatAll(value: PlcValue, item: FormatItem): { format: NumberFo
 }
 
 /** Name of an enumeration value, or null when the number has none. */
-export function enumName(value: PlcValue, item: Pick<SubscribedItem, 'enum'>): string | null {
+function enumName(value: PlcValue, item: Pick<SubscribedItem, 'enum'>): string | null {
   for (const [name, number] of Object.entries(item.enum ?? {})) if (BigInt(number) === BigInt(value)) return name;
   return null;
 }

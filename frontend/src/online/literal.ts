@@ -88,7 +88,7 @@ export function wholeNumber(text: string): bigint | null {
 }
 
 /** Smallest and largest number of an integer type of this size. */
-export function wholeRange(size: number, signed: boolean): readonly [bigint, bigint] {
+function wholeRange(size: number, signed: boolean): readonly [bigint, bigint] {
   const bits = BigInt(size * 8);
   return signed ? [-(1n << (bits - 1n)), (1n << (bits - 1n)) - 1n] : [0n, (1n << bits) - 1n];
 }

@@ -27,7 +27,7 @@ export function LoginFrame({ title, text, children }: { title: string; text: Rea
 }
 
 /** Language and theme by one click each, for pages without the user menu. */
-export function PreferenceButtons() {
+function PreferenceButtons() {
   const t = useText();
   const language = useLanguage();
   const shown = usePreferences((state) => state.shown);

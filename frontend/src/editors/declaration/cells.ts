@@ -5,8 +5,6 @@ import { lineBreakOf, type DeclarationModel, type Range, type Row } from './mode
 import { parseDeclaration } from './parse';
 import { indentationAt, removeRange, replaceRange, startsLine, type TextChange } from './text';
 
-export type EditableColumn = 'name' | 'address' | 'type' | 'initial' | 'comment';
-
 export class RowNotEditable extends Error {
   constructor(public readonly row: number) {
     super(`row ${String(row + 1)} can only be edited in the text view`);
@@ -24,7 +22,7 @@ export function editableRow(model: DeclarationModel, index: number): Row {
  * Gives a variable of `A, B, C : T;` a statement of its own, in place: attributes, type, initial value and
  * comments are repeated, so that each variable keeps what was said of all.
  */
-export function separateShared(text: string, index: number): string {
+function separateShared(text: string, index: number): string {
   const model = parseDeclaration(text);
   const row = editableRow(model, index);
   if (row.shared === 1) return text;

@@ -1,7 +1,7 @@
 /** Comment texts between their delimiters and the cell that shows them (DECL-29). */
 
 /** The plain text of one comment token, without delimiters and the blank next to them. */
-export function commentText(token: string): string {
+function commentText(token: string): string {
   if (token.startsWith('//')) return token.slice(2).replace(/^ /, '').trimEnd();
   const inner = token.replace(/^\(\*/, '').replace(/\*\)$/, '');
   return inner

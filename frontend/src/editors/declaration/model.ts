@@ -97,7 +97,6 @@ export interface DeclarationModel {
 }
 
 export const VARIABLE_FLAGS = ['CONSTANT', 'RETAIN', 'PERSISTENT'] as const;
-export type VariableFlag = (typeof VARIABLE_FLAGS)[number];
 
 /** Scopes that may be chosen for a variable of an object of this kind (DECL-26, LDEC-20..LDEC-32). */
 export function scopesFor(headerKeyword: string | null): readonly string[] {

@@ -26,12 +26,12 @@ export interface NewVariable {
 }
 
 /** All of a row that moves with it: leading trivia, declaration, separator and what stands behind in the line. */
-export function extentOf(row: Row): Range {
+function extentOf(row: Row): Range {
   return { start: row.core.start, end: Math.max(row.trail.end, row.separator?.end ?? row.core.end) };
 }
 
 /** The declaration statement of `variable` in one line, without indentation (DECL-70). */
-export function declarationLine(variable: NewVariable): string {
+function declarationLine(variable: NewVariable): string {
   const address = variable.address ? ` AT ${variable.address}` : '';
   const initial = variable.initial ? ` := ${variable.initial}` : '';
   return `${variable.name}${address} : ${variable.type}${initial};`;

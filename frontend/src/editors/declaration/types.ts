@@ -31,7 +31,7 @@ export function formatArrayType(array: ArrayType): string {
 }
 
 /** Index texts of all elements in storage order, `0, 1` ...; null when a bound is no number. */
-export function elementLabels(dimensions: readonly ArrayDimension[]): string[] | null {
+function elementLabels(dimensions: readonly ArrayDimension[]): string[] | null {
   let labels: string[] = [''];
   for (const { low, high } of dimensions) {
     const from = Number(low);
@@ -54,12 +54,12 @@ export function baseName(type: string): string {
   return (/^[A-Za-z_][\w.]*/.exec(type.trim())?.[0] ?? '').toUpperCase();
 }
 
-export function isElementary(type: string): boolean {
+function isElementary(type: string): boolean {
   return ELEMENTARY.has(baseName(type));
 }
 
 /** The value a variable of this type has without an initial value (LDEC-40). */
-export function defaultLiteral(type: string): string {
+function defaultLiteral(type: string): string {
   const name = baseName(type);
   if (name === 'BOOL' || name === 'BIT') return 'FALSE';
   if (name === 'REAL' || name === 'LREAL') return '0.0';

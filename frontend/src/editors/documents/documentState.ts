@@ -39,7 +39,7 @@ export function opened(base: StoredVersion): DocumentState {
   return { base, text: base.parts, sent: null, theirs: null, failure: null };
 }
 
-export function sameParts(a: TextParts, b: TextParts): boolean {
+function sameParts(a: TextParts, b: TextParts): boolean {
   return a.declaration === b.declaration && a.implementation === b.implementation;
 }
 

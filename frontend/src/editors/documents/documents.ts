@@ -301,8 +301,3 @@ export async function openDocument(monaco: Monaco, projectId: string, objectId: 
   document.hold();
   return document;
 }
-
-/** Stores the unsaved text of all open objects: before a build, a download, or leaving. */
-export async function saveAllDocuments(): Promise<void> {
-  await Promise.all([...open.values()].map(async (document) => (await document).save()));
-}

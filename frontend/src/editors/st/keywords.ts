@@ -178,7 +178,7 @@ const RESERVED: ReadonlySet<string> = new Set<string>([
 const CONTEXTUAL: ReadonlySet<string> = new Set(['GET', 'SET', 'BIT', 'PARAMS', 'NULL', 'INDEXOF']);
 
 /** Whether `name` may not be declared by a user (LDEC-10), in any spelling. */
-export function isReserved(name: string): boolean {
+function isReserved(name: string): boolean {
   const upper = name.toUpperCase();
   if (CONTEXTUAL.has(upper)) return false;
   return RESERVED.has(upper) || isConversion(upper);

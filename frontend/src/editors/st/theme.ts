@@ -9,11 +9,11 @@ interface ThemeTarget {
 export type TokenReader = (name: string) => string;
 
 /** `#fff` as `#ffffff`: minified style sheets shorten colours, and Monaco does not take short ones. */
-export function longHex(colour: string): string {
+function longHex(colour: string): string {
   return /^#[0-9a-f]{3,4}$/i.test(colour) ? `#${[...colour.slice(1)].map((digit) => digit + digit).join('')}` : colour;
 }
 
-export function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeData {
+function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeData {
   const token = (name: string) => longHex(read(name));
   const plain = (name: string) => token(name).replace('#', '');
   const rule = (scope: string, name: string, fontStyle = ''): editor.ITokenThemeRule => ({

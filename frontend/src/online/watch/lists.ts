@@ -33,7 +33,7 @@ const newId = () => `w${String((serial += 1))}-${String(Date.now())}`;
 /** Stored form: only the expressions, since the ids mean something in this page alone. */
 type Stored = Partial<Record<WatchList, readonly string[]>>;
 
-export function fromStored(stored: Stored | null): Lists {
+function fromStored(stored: Stored | null): Lists {
   const list = (number: WatchList) =>
     (stored?.[number] ?? []).filter((e) => typeof e === 'string').map((expression) => ({ id: newId(), expression }));
   return { 1: list(1), 2: list(2), 3: list(3), 4: list(4) };

@@ -27,7 +27,7 @@ function objectsOf(projectId: string): readonly ObjectSummary[] {
 }
 
 /** Panel that shows an object: Devices or POUs. */
-export function viewOf(objects: readonly ObjectSummary[], id: string): TreeView {
+function viewOf(objects: readonly ObjectSummary[], id: string): TreeView {
   return lineage(objects, id).at(-1)?.kind === 'device' ? 'devices' : 'pous';
 }
 

@@ -150,7 +150,7 @@ export function resetLayout(): void {
   applyLayout(layout);
 }
 
-export function applyLayout(layout: SerializedDockview): void {
+function applyLayout(layout: SerializedDockview): void {
   api?.fromJSON(layout);
 }
 

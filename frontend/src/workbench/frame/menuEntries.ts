@@ -7,7 +7,7 @@ import type { MenuEntry } from '../ui/Menu';
 import { menuOf } from './menuModel';
 
 /** One command as a menu entry. */
-export function commandEntry(command: Command, context: CommandContext, argument?: unknown): MenuEntry {
+function commandEntry(command: Command, context: CommandContext, argument?: unknown): MenuEntry {
   const keys = command.keys?.[0];
   return {
     kind: 'item',

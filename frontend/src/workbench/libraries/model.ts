@@ -56,7 +56,7 @@ export function libraryFaults(
   };
 }
 
-export const GROUPS = ['function_block', 'function', 'interface', 'data', 'global'] as const;
+const GROUPS = ['function_block', 'function', 'interface', 'data', 'global'] as const;
 export type Group = (typeof GROUPS)[number];
 
 /** Which folder an item stands in. */

@@ -46,7 +46,7 @@ function item(
 }
 
 /** Symbols as entries; what is an object of the tree is in the list of objects already. */
-export function symbolItems(found: readonly ProjectSymbol[], objects: readonly ObjectSummary[]): PaletteItem[] {
+function symbolItems(found: readonly ProjectSymbol[], objects: readonly ObjectSummary[]): PaletteItem[] {
   return found.flatMap((symbol) => {
     const [, objectId, part] = PART.exec(symbol.location.uri) ?? [];
     const object = objects.find((candidate) => candidate.id === objectId);
@@ -59,7 +59,7 @@ export function symbolItems(found: readonly ProjectSymbol[], objects: readonly O
 }
 
 /** What the texts of one object declare, without the sections around it. */
-export function memberItems(
+function memberItems(
   outlines: Readonly<Record<Target['part'], readonly DocumentSymbol[]>>,
   objectId: string,
   objects: readonly ObjectSummary[],

@@ -77,7 +77,7 @@ export async function pasteInto(projectId: string, view: TreeView, rules: readon
 }
 
 /** Asks, then deletes the selected objects with everything below them. */
-export async function deleteChosen(projectId: string): Promise<void> {
+async function deleteChosen(projectId: string): Promise<void> {
   const forest = present(projectId);
   const ids = chosen(forest);
   if (ids.length === 0 || commandContext().online) return;

@@ -21,7 +21,7 @@ function scopeOf(forest: Forest, ownerId: string | null): ObjectSummary[] {
 }
 
 /** Whether an object of the kind may be below the parent. `present` is there already and does not count as another. */
-export function mayPlace(
+function mayPlace(
   rule: PlacementRule,
   forest: Forest,
   parentId: string | null,

@@ -1,6 +1,6 @@
 import type { OnlineTone } from '../onlineSession';
 
-export const TONE_COLORS: Record<OnlineTone, string> = {
+const TONE_COLORS: Record<OnlineTone, string> = {
   running: 'var(--ok)',
   stopped: 'var(--error)',
   exception: 'var(--error)',
