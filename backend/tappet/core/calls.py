@@ -17,11 +17,11 @@ from tappet.core.body import (
 from tappet.core.program import attribute_value
 from tappet.core.scalars import NULL, require_scalar, scalar_of
 from tappet.core.virtual_calls import BODY, Static, call_virtual, is_fixed
-from tappet.lang import any_type, ast
+from tappet.lang import any_type, ast, walk
 from tappet.lang import types as t
 from tappet.lang.analysis.result import yields_reference
 from tappet.lang.any_type import is_any
-from tappet.lang.symbols import BuiltinSymbol, PouSymbol, VarSymbol
+from tappet.lang.symbols import BuiltinSymbol, PouSymbol, PropertySymbol, VarSymbol
 
 
 @dataclass(slots=True)
@@ -232,8 +232,10 @@ def finish(
         else:
             scalar = require_scalar(result)
     given = {id(a.parameter): a for a in args if a.parameter is not None}
-    for parameter in target.parameters:
-        values.append(_argument(b, prepared, parameter, given.get(id(parameter))))
+    ordered = [given.get(id(parameter)) for parameter in target.parameters]
+    last = max((n for n, a in enumerate(ordered) if a is not None and _has_effects(a.value)), default=-1)
+    for number, (parameter, argument) in enumerate(zip(target.parameters, ordered, strict=True)):
+        values.append(_argument(b, prepared, parameter, argument, number < last))
     prepared.call = _call(b, target, scalar, values, static)
 
 
@@ -266,10 +268,36 @@ def declare_external(b: Body, pou: PouSymbol, name: str) -> None:
 # -- arguments --------------------------------------------------------------------------------------
 
 
-def _argument(b: Body, prepared: Prepared, parameter: VarSymbol, given: ast.Argument | None) -> ir.Expr:
+def _has_effects(value: ast.Expr | None) -> bool:
+    """Whether evaluating an argument may write to variables of the caller.
+
+    Functions of libraries change only what they are handed as VAR_IN_OUT.
+    """
+    for e in walk.expressions(value):
+        symbol = getattr(e, "symbol", None)
+        if isinstance(e, ast.AssignExpr) or isinstance(symbol, PropertySymbol):
+            return True
+        if isinstance(e, ast.Call) and isinstance(e.target, PouSymbol):
+            pou = e.target
+            if pou.kind != "FUNCTION" or pou.source is None or pou.source.library is None:
+                return True
+            if any(p.section == "VAR_IN_OUT" for p in pou.parameters):
+                return True
+    return False
+
+
+def _argument(
+    b: Body, prepared: Prepared, parameter: VarSymbol, given: ast.Argument | None, disturbed: bool
+) -> ir.Expr:
+    """The value handed over; arguments are evaluated from left to right.
+
+    `disturbed`: a later one may change the variables that this one is read from.
+    """
     value = given.value if given is not None else None
     if parameter.section == "VAR_IN_OUT":
-        return NULL if value is None else in_out_address(b, prepared.before, parameter, value)
+        fill: list[ir.Stmt] = []
+        address = NULL if value is None else in_out_address(b, fill, parameter, value)
+        return ir.Sequence(ir.PTR, fill, address) if fill else address
     type_ = parameter.type
     assert type_ is not None
     if parameter.section == "VAR_OUTPUT":
@@ -289,8 +317,8 @@ def _argument(b: Body, prepared: Prepared, parameter: VarSymbol, given: ast.Argu
             return ir.Const(require_scalar(type_), default_number(type_))
         return b.value_as(value, type_)
     if value is not None and is_any(type_) and not is_any(value.type):
-        return _any_argument(b, prepared, value)
-    return _aggregate_argument(b, prepared, type_, value)
+        return _any_argument(b, value)
+    return _aggregate_argument(b, type_, value, disturbed)
 
 
 def default_number(type_: t.Type) -> int:
@@ -298,13 +326,13 @@ def default_number(type_: t.Type) -> int:
     return type_.default if isinstance(type_, t.Enum) else 0
 
 
-def _aggregate_argument(b: Body, prepared: Prepared, type_: t.Type, value: ast.Expr | None) -> ir.Expr:
+def _aggregate_argument(b: Body, type_: t.Type, value: ast.Expr | None, disturbed: bool) -> ir.Expr:
     """An input of string or aggregate type: the variable itself where it fits, else a copy."""
     if value is not None and value.type is not None and places.is_place(value):
         fits = value.type == type_
         if isinstance(type_, t.String) and isinstance(value.type, t.String):
             fits = value.type.length == type_.length
-        if fits or isinstance(type_, t.FunctionBlock):
+        if (fits and not disturbed) or isinstance(type_, t.FunctionBlock):
             return places.address_of(b.place(value))
     local = b.space(type_.size, type_.align)
     with b.block_of() as before:
@@ -312,14 +340,14 @@ def _aggregate_argument(b: Body, prepared: Prepared, type_: t.Type, value: ast.E
             INITIALISERS[0](b, ir.Place(local), type_, None)
         else:
             assign.copy_value(b, ir.Place(local), type_, value)
-    prepared.before += before
-    return ir.Address(ir.PTR, ir.Place(local))
+    return ir.Sequence(ir.PTR, before, ir.Address(ir.PTR, ir.Place(local)))
 
 
-def _any_argument(b: Body, prepared: Prepared, value: ast.Expr) -> ir.Expr:
+def _any_argument(b: Body, value: ast.Expr) -> ir.Expr:
     """The structure that stands for a value of any type: class, address, size."""
     type_ = value.type
     assert type_ is not None
+    fill: list[ir.Stmt] = []
     if places.is_place(value) and not _is_bit(value):
         place = b.place(value)
         b.program.expose(place, type_)
@@ -328,15 +356,14 @@ def _any_argument(b: Body, prepared: Prepared, value: ast.Expr) -> ir.Expr:
         place = ir.Place(b.space(type_.size, type_.align))
         with b.block_of() as fill:
             assign.copy_value(b, place, type_, value)
-        prepared.before += fill
     record = b.space(any_type.SIZE, 8)
     kind = ir.Const(ir.I32, any_type.class_of(type_))
-    prepared.before += [
+    fill += [
         ir.Store(ir.Place(record, any_type.CLASS_OFFSET), kind),
         ir.Store(ir.Place(record, any_type.VALUE_OFFSET), places.address_of(place)),
         ir.Store(ir.Place(record, any_type.SIZE_OFFSET), ir.Const(ir.I32, type_.size)),
     ]
-    return ir.Address(ir.PTR, ir.Place(record))
+    return ir.Sequence(ir.PTR, fill, ir.Address(ir.PTR, ir.Place(record)))
 
 
 def _is_bit(e: ast.Expr) -> bool:
