@@ -19,11 +19,17 @@ def test_the_project_is_what_the_bar_speaks_of():
 def test_report_has_the_cold_build_the_edit_and_their_own_stages():
     report = build.run(12)
     names = [row.name for row in report.rows]
-    assert names == ["cold build", "one POU edited", "program of all calls edited"]
-    cold, edit = report.remarks
+    assert names == [
+        "cold build",
+        "one POU edited",
+        "program of all calls edited",
+        "variable added to one POU",
+    ]
+    cold, edit, declared = report.remarks
     assert cold.startswith("cold build by stage: parse ")
     assert all(
         stage in cold for stage in ("analyse", "lower", "layout", "passes", "emit", "compile", "package")
     )
     assert "layout" not in edit, "an edited body is no build of everything"
-    assert json.loads(report.json())["remarks"] == [cold, edit]
+    assert "layout" in declared, "a new variable moves others"
+    assert json.loads(report.json())["remarks"] == [cold, edit, declared]
