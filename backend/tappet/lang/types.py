@@ -207,8 +207,25 @@ class Struct:
         return self.name
 
 
+class _StoredAsBase:
+    """A type whose values are stored as those of its base type."""
+
+    __slots__ = ()
+    base: Elementary
+
+    @property
+    def size(self) -> int:
+        """Bytes of the base type."""
+        return self.base.size
+
+    @property
+    def align(self) -> int:
+        """Alignment of the base type."""
+        return self.base.align
+
+
 @dataclass(eq=False, slots=True)
-class Enum:
+class Enum(_StoredAsBase):
     """Enumeration with its base type and named values. Compared by identity."""
 
     name: str
@@ -222,22 +239,12 @@ class Enum:
     default: int = 0
     """Value a variable starts with: the first one, unless the declaration says otherwise (LTYP-112)."""
 
-    @property
-    def size(self) -> int:
-        """Bytes of the base type."""
-        return self.base.size
-
-    @property
-    def align(self) -> int:
-        """Alignment of the base type."""
-        return self.base.align
-
     def __str__(self) -> str:
         return self.name
 
 
 @dataclass(frozen=True, slots=True)
-class Subrange:
+class Subrange(_StoredAsBase):
     """Integer type with bounds; they are checked at run time only through the CheckRange functions
     (LTYP-122)."""
 
@@ -245,16 +252,6 @@ class Subrange:
     low: int
     high: int
     name: str | None = None
-
-    @property
-    def size(self) -> int:
-        """Bytes of the base type."""
-        return self.base.size
-
-    @property
-    def align(self) -> int:
-        """Alignment of the base type."""
-        return self.base.align
 
     def __str__(self) -> str:
         return self.name or f"{self.base} ({self.low}..{self.high})"

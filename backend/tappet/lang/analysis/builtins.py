@@ -180,6 +180,13 @@ def _number(b: Body, e: ast.Expr, name: str) -> Elementary | None:
     return None
 
 
+def _only_number(b: Body, e: ast.Call, name: str) -> tuple[ast.Expr, Elementary] | None:
+    """The one operand of a call, which has to be a number, and its type."""
+    found = operands(b, e, name, 1, 1)
+    base = _number(b, found[0], name) if found is not None else None
+    return None if found is None or base is None else (found[0], base)
+
+
 def _real_of(base: Elementary) -> Elementary:
     """REAL for what REAL holds exactly, else LREAL."""
     return (
@@ -188,13 +195,10 @@ def _real_of(base: Elementary) -> Elementary:
 
 
 def _mathematics(b: Body, e: ast.Call, name: str) -> None:
-    found = operands(b, e, name, 1, 1)
-    if found is None:
+    number = _only_number(b, e, name)
+    if number is None:
         return
-    operand = found[0]
-    base = _number(b, operand, name)
-    if base is None:
-        return
+    operand, base = number
     result = t.LREAL if operand.untyped else _real_of(base)
     constant: ast.Constant = None
     if operand.is_constant and isinstance(operand.constant, (int, float)):
@@ -234,13 +238,10 @@ def _atan2(b: Body, e: ast.Call, name: str) -> None:
 
 
 def _abs(b: Body, e: ast.Call, name: str) -> None:
-    found = operands(b, e, name, 1, 1)
-    if found is None:
+    number = _only_number(b, e, name)
+    if number is None:
         return
-    operand = found[0]
-    base = _number(b, operand, name)
-    if base is None:
-        return
+    operand, base = number
     untyped = operand.untyped
     finish(e, name, [base], base)
     if operand.is_constant and isinstance(operand.constant, (int, float)):
@@ -258,13 +259,10 @@ def _abs(b: Body, e: ast.Call, name: str) -> None:
 
 
 def _trunc(b: Body, e: ast.Call, name: str) -> None:
-    found = operands(b, e, name, 1, 1)
-    if found is None:
+    number = _only_number(b, e, name)
+    if number is None:
         return
-    operand = found[0]
-    base = _number(b, operand, name)
-    if base is None:
-        return
+    operand, base = number
     result = t.DINT if name == "TRUNC" else t.INT
     constant: ast.Constant = None
     if operand.is_constant and isinstance(operand.constant, (int, float)):
