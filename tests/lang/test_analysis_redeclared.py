@@ -22,7 +22,7 @@ EDITS = st.lists(
 )
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(EDITS, st.lists(EDITS, min_size=8, max_size=12))
 def test_every_edit_leads_to_what_a_full_analysis_knows(
     begin: list[tuple[str, int]], edits: list[list[tuple[str, int]]]
