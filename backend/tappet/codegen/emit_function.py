@@ -11,6 +11,8 @@ from tappet.codegen.emit_text import constant, function_symbol, llvm_type, memor
 from tappet.core import ir
 
 _ATTRIBUTES = {"": "#0", "cold": "#4", "never": "#5", "always": "#6", "twice": "#7"}
+_KEPT = 'call void asm sideeffect "", "r,~{{memory}}"(ptr {})'
+"""Locals of a function that faults come back to stay in memory: a register would have its old value."""
 
 
 class FunctionEmitter(ExpressionEmitter):
@@ -38,6 +40,8 @@ class FunctionEmitter(ExpressionEmitter):
             f"define {linkage}{result} {function_symbol(function)}({parameters}) {attributes(function)} "
             f"!dbg !{self.subprogram} {{"
         )
+        if function.returns_twice:
+            self.prologue += [_KEPT.format(name) for name in self.locals.values() if name.startswith("%l")]
         return [head, "entry:", *self.prologue, "br label %start", "start:", *self.out, "}"]
 
     def statements(self, body: list[ir.Stmt]) -> None:

@@ -21,6 +21,7 @@ from tappet.codegen.values import Value
 
 SUPPORT = r"""
 @tappet.jump = internal global [512 x i8] zeroinitializer, align 16
+@tappet.target = internal global ptr @tappet.jump, align 8
 @tappet.fault = global [4 x i64] zeroinitializer, align 8
 @tappet.clock = global i64 0, align 8
 declare i32 @_setjmp(ptr) returns_twice
@@ -31,8 +32,37 @@ define void @tappet_fault(i32 %code, i64 %a, i64 %b, i64 %c) noreturn {
   store i64 %a, ptr getelementptr (i8, ptr @tappet.fault, i64 8)
   store i64 %b, ptr getelementptr (i8, ptr @tappet.fault, i64 16)
   store i64 %c, ptr getelementptr (i8, ptr @tappet.fault, i64 24)
-  call void @longjmp(ptr @tappet.jump, i32 1)
+  call void @tappet_rethrow(i32 %code)
   unreachable
+}
+define void @tappet_rethrow(i32 %code) noreturn {
+  %target = load ptr, ptr @tappet.target
+  call void @longjmp(ptr %target, i32 %code)
+  unreachable
+}
+define i64 @tappet_guard(i64 %buffer) {
+  %before = load i64, ptr @tappet.target
+  store i64 %buffer, ptr @tappet.target
+  ret i64 %before
+}
+define i32 @tappet_exception_code(i32 %code) {
+  switch i32 %code, label %unknown [
+    i32 1, label %division
+    i32 2, label %bounds
+    i32 3, label %access
+    i32 4, label %access
+    i32 9, label %user
+  ]
+division:
+  ret i32 258
+bounds:
+  ret i32 257
+access:
+  ret i32 81
+user:
+  ret i32 65536
+unknown:
+  ret i32 -1
 }
 declare ptr @calloc(i64, i64)
 declare void @free(ptr)
@@ -49,6 +79,7 @@ define i64 @tappet_now_ns() {
   ret i64 %now
 }
 define i32 @tappet.guard(ptr %function) returns_twice {
+  store ptr @tappet.jump, ptr @tappet.target
   %landed = call i32 @_setjmp(ptr @tappet.jump) returns_twice
   %first = icmp eq i32 %landed, 0
   br i1 %first, label %run, label %failed

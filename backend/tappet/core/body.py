@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from tappet.core import ir
 from tappet.core.program import LoweringError, Program
@@ -13,6 +14,9 @@ from tappet.lang import types as t
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.source import Scope, Source
 from tappet.lang.symbols import PouSymbol, VarSymbol
+
+if TYPE_CHECKING:
+    from tappet.core.guarded import Guard
 
 VALUES: dict[type, Callable[..., ir.Expr]] = {}
 """Lowering of an expression to a scalar value, by node class."""
@@ -57,6 +61,10 @@ class Body:
         """Whether implicit check functions apply: to sources of the application, not to libraries."""
         self.leave: Callable[[], None] | None = None
         """Emits what is done wherever the body is left."""
+        self.guards: list[Guard] = []
+        """Open parts of `__TRY`, the innermost last."""
+        self.loop_guards: list[int] = []
+        """How many of them were open where each open loop began."""
         self.writing = False
         """Whether the place that is being worked out is written to; CheckPointer is told."""
         self.temporaries = 0

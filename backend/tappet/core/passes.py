@@ -23,6 +23,9 @@ def run_on(module: ir.Module, effects: EffectsTable, names: Iterable[str]) -> No
     promotion = Promotion(module, effects)
     for name in names:
         function = module.functions[name]
+        if function.returns_twice:
+            # A fault leaves any statement: what holds behind it is not known.
+            continue
         if function.input_copies:
             drop_input_copies(module, effects, function)
         if function.loops:

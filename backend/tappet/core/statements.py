@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from tappet.core import assign, calls, ir, places
+from tappet.core import assign, calls, guarded, ir, places
 from tappet.core.body import PLACES, VALUES, Body
 from tappet.core.scalars import convert, require_scalar, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import carried_type
+from tappet.lang.walk import statements as every_statement
 
 
 def lower_statements(b: Body, statements: Sequence[ast.Stmt]) -> None:
@@ -28,6 +29,13 @@ def body_of(b: Body, statements: Sequence[ast.Stmt]) -> list[ir.Stmt]:
     with b.block_of() as out:
         lower_statements(b, statements)
     return out
+
+
+def _loop_body(b: Body, statements: Sequence[ast.Stmt]) -> list[ir.Stmt]:
+    """The body of a loop, which EXIT and CONTINUE inside are of."""
+    b.function.loops = True
+    with guarded.loop(b):
+        return body_of(b, statements)
 
 
 def _assign(b: Body, s: ast.Assign) -> None:
@@ -89,8 +97,7 @@ def _for(b: Body, s: ast.For) -> None:
     if s.step is not None:
         amount = convert(b.value(s.step), scalar)
         step = int(amount.value) if isinstance(amount, ir.Const) else amount
-    body = body_of(b, s.body)
-    b.function.loops = True
+    body = _loop_body(b, s.body)
     b.emit(ir.For(counter, scalar, start, stop, step, body, s.span[0] + 1))
 
 
@@ -117,32 +124,32 @@ def _checked_for(b: Body, s: ast.For, scalar: ir.Scalar) -> None:
         ir.If(running, [ir.Store(ir.Place(first), ir.Const(ir.BOOL, 0))], [ir.Store(counter, advance)]),
         ir.If(test, [], [ir.Break()]),
     ]
-    b.function.loops = True
-    b.emit(ir.While(ir.Const(ir.BOOL, 1), [*head, *body_of(b, s.body)], s.span[0] + 1))
+    b.emit(ir.While(ir.Const(ir.BOOL, 1), [*head, *_loop_body(b, s.body)], s.span[0] + 1))
 
 
 def _while(b: Body, s: ast.While) -> None:
-    b.function.loops = True
-    b.emit(ir.While(b.value(s.condition), body_of(b, s.body), s.span[0] + 1))
+    b.emit(ir.While(b.value(s.condition), _loop_body(b, s.body), s.span[0] + 1))
 
 
 def _repeat(b: Body, s: ast.RepeatUntil) -> None:
-    b.function.loops = True
-    b.emit(ir.Repeat(body_of(b, s.body), b.value(s.condition), s.condition.span[0] + 1))
+    b.emit(ir.Repeat(_loop_body(b, s.body), b.value(s.condition), s.condition.span[0] + 1))
 
 
 def _exit(b: Body, s: ast.Exit) -> None:
-    b.emit(ir.Break())
+    guarded.leave_loop(b, ir.Break())
 
 
 def _continue(b: Body, s: ast.Continue) -> None:
-    b.emit(ir.Continue())
+    guarded.leave_loop(b, ir.Continue())
 
 
 def _return(b: Body, s: ast.Return) -> None:
-    if b.leave is not None:
-        b.leave()
-    b.emit(ir.Return())
+    def leave() -> None:
+        if b.leave is not None:
+            b.leave()
+        b.emit(ir.Return())
+
+    guarded.leave(b, b.guards, leave)
 
 
 def _hold(b: Body, s: ast.Hold) -> None:
@@ -173,11 +180,37 @@ def _held_place(b: Body, e: ast.Held) -> ir.Place:
 
 
 def _jump(b: Body, s: ast.Jump) -> None:
-    b.emit(ir.Goto(s.target.upper()))
+    guarded.leave_by_jump(b, s.target.upper())
 
 
 def _try(b: Body, s: ast.Try) -> None:
-    raise b.error("__TRY is not supported", s)
+    def caught(_: guarded.Guard, fault: ir.Local) -> None:
+        if s.exception is not None:
+            code = convert(guarded.exception_code(fault), require_scalar(s.exception.type))
+            assign.store_scalar(b, s.exception, code)
+        lower_statements(b, s.handler)
+
+    def attempt() -> None:
+        if s.caught:
+            guarded.guarded(b, labels_of(s.body), lambda: lower_statements(b, s.body), caught)
+        else:
+            lower_statements(b, s.body)
+
+    if not s.final:
+        attempt()
+        return
+    guarded.guarded(
+        b,
+        labels_of([*s.body, *s.handler]),
+        attempt,
+        lambda guard, fault: guarded.pass_on(b, guard, fault),
+        lambda: lower_statements(b, s.final),
+    )
+
+
+def labels_of(body: Sequence[ast.Stmt]) -> frozenset[str]:
+    """Labels of statements and of all inside them."""
+    return frozenset(s.label.upper() for s in every_statement(body) if s.label is not None)
 
 
 _STATEMENTS: dict[type, Callable[..., None]] = {

@@ -290,7 +290,8 @@ class StatementParser(StatementRecovery):
         exception: ast.Expr | None = None
         handler: list[ast.Stmt] = []
         final: list[ast.Stmt] = []
-        if self.kinds[self.i] == "__CATCH":
+        caught = self.kinds[self.i] == "__CATCH"
+        if caught:
             self.i += 1
             if self.kinds[self.i] == "(":
                 self.i += 1
@@ -305,7 +306,12 @@ class StatementParser(StatementRecovery):
         self.close(opener)
         self.optional_semicolon()
         return ast.Try(
-            span=self.span_from(start), body=body, exception=exception, handler=handler, final=final
+            span=self.span_from(start),
+            body=body,
+            caught=caught,
+            exception=exception,
+            handler=handler,
+            final=final,
         )
 
     # -- simple statements

@@ -22,7 +22,7 @@ _numbers = itertools.count(1)
 
 _MEMORY = [
     "memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", "strcmp", "strncmp", "strtod",
-    "gcvt",
+    "gcvt", "_setjmp",
 ]  # fmt: skip
 _DOUBLE = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",

@@ -26,6 +26,7 @@ from tappet.lang.analysis.scope import Level, describe
 from tappet.lang.any_type import ANY_TYPES, TYPE_CLASS_SYMBOL
 from tappet.lang.attributes import attribute
 from tappet.lang.diagnostics import Related
+from tappet.lang.exceptions import EXCEPTION_CODE_SYMBOL
 from tappet.lang.source import Source
 from tappet.lang.symbols import (
     GvlSymbol,
@@ -72,7 +73,11 @@ def collect(session: Session, units: Sequence[ast.Unit]) -> Collected:
 def _add_system_interface(session: Session) -> None:
     query = InterfaceSymbol("IQueryInterface")
     query.type = t.Interface("IQueryInterface", pou=ast.Interface(name="IQueryInterface", symbol=query))
-    members: dict[str, Symbol] = {"IQUERYINTERFACE": query, "TYPE_CLASS": TYPE_CLASS_SYMBOL}
+    members: dict[str, Symbol] = {
+        "IQUERYINTERFACE": query,
+        "TYPE_CLASS": TYPE_CLASS_SYMBOL,
+        "EXCEPTIONCODE": EXCEPTION_CODE_SYMBOL,
+    }
     members["ANYTYPE"] = TypeSymbol("AnyType", type=ANY_TYPES["ANY"])
     session.levels.system["__SYSTEM"] = NamespaceSymbol("__System", members=members)
 

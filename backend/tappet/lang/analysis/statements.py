@@ -347,10 +347,19 @@ def _jump(b: Body, s: ast.Jump) -> None:
     b.jumps.append(s)
 
 
+_EXCEPTION_CODES = (t.DWORD, t.UDINT)
+"""What the value of the variable of a __CATCH may be; UDINT is that of __SYSTEM.ExceptionCode."""
+
+
 def _try(b: Body, s: ast.Try) -> None:
     statements(b, s.body)
     if s.exception is not None:
         value(b, s.exception)
+        given = s.exception.type
+        if writable(b, s.exception) and given is not None and t.value_type(given) not in _EXCEPTION_CODES:
+            b.report("E0831", s.exception.span, given=str(given))
+    if not s.caught and not s.final:
+        b.report("E0832", s.span)
     statements(b, s.handler)
     statements(b, s.final)
 

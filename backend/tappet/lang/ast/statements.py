@@ -179,6 +179,8 @@ class Try(Stmt):
     """__TRY ... __CATCH(variable) ... __FINALLY ... __ENDTRY."""
 
     body: list[Stmt]
+    caught: bool
+    """Whether there is a __CATCH."""
     exception: Expr | None
     handler: list[Stmt]
     final: list[Stmt]
