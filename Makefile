@@ -16,12 +16,12 @@ run: $(VENV)/.ready frontend/dist/.ready
 ## test: all fast tests, those in a real browser included
 test: $(VENV)/.ready frontend/dist/.ready system check
 	cd frontend && npm run --silent test
-	$(BIN)/python -m pytest -m "not slow" -n 3 --dist loadfile
+	$(BIN)/python -m pytest -m "not slow" -n 3 --dist loadfile --no-loadscope-reorder
 
 ## test-all: the slow suites as well
 test-all: $(VENV)/.ready frontend/dist/.ready system check
 	cd frontend && npm run --silent test
-	$(BIN)/python -m pytest -n 3 --dist loadfile
+	$(BIN)/python -m pytest -n 3 --dist loadfile --no-loadscope-reorder
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
 FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \

@@ -13,6 +13,7 @@ from tappet.libraries import archive
 
 from .workbench import (
     add_line,
+    answer_to,
     choose_menu,
     delete_line,
     implementation,
@@ -139,7 +140,7 @@ def test_two_versions_are_installed_used_side_by_side_and_uninstalled(page: Page
     open_object(page, "PLC_PRG")
     add_line(page, implementation(page), "iLoaded := Plant.Pallets(80) + OldPlant.Pallets(40);")
     page.keyboard.press("Control+s")
-    with page.expect_response(lambda answer: answer.url.endswith("/build")) as built:
+    with answer_to(page, "/build") as built:
         page.keyboard.press("F11")
     report = built.value.json()
     assert [d["message"] for d in report["diagnostics"] if d["severity"] == "error"] == []
@@ -191,7 +192,7 @@ def test_a_placeholder_has_a_name_and_a_resolution(page: Page) -> None:
     open_object(page, "PLC_PRG")
     add_line(page, implementation(page), "iLoaded := Packing.Pallets(80);")
     page.keyboard.press("Control+s")
-    with page.expect_response(lambda answer: answer.url.endswith("/build")) as built:
+    with answer_to(page, "/build") as built:
         page.keyboard.press("F11")
     assert built.value.json()["ok"]
 
@@ -211,7 +212,7 @@ def test_a_project_is_saved_as_library_unless_it_has_errors(page: Page, tmp_path
         expect(dialog.get_by_label("Version")).to_have_attribute("aria-invalid", "true")
         dialog.get_by_label("Version").fill("1.0.0.0")
         dialog.get_by_label("Company").fill("Works")
-        with page.expect_response(lambda answer: answer.url.endswith("/library")) as answered:
+        with answer_to(page, "/library") as answered:
             dialog.get_by_role("button", name="Save library").click()
         if answered.value.ok:
             break

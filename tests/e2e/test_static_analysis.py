@@ -7,6 +7,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from .workbench import (
     add_line,
+    answer_to,
     choose_menu,
     implementation,
     open_object,
@@ -51,7 +52,7 @@ def test_a_rule_is_seen_in_the_editor_and_stops_the_build_as_an_error(page: Page
     set_level(page, dialog, "S1211", "Error")
     apply(dialog)
     expect(editor.locator(".squiggly-error").first).to_be_visible()
-    with page.expect_response(lambda answer: answer.url.endswith("/build")) as built:
+    with answer_to(page, "/build") as built:
         page.keyboard.press("F11")
     assert not built.value.json()["ok"]
     expect(magic_rows(page).first).to_be_visible()
@@ -78,7 +79,7 @@ def test_static_analysis_runs_on_demand_with_the_prefixes_of_the_project(page: P
     prefix.fill("a b")
     expect(dialog.get_by_role("button", name="Apply")).to_have_attribute("aria-disabled", "true")
     prefix.fill("blk")
-    with page.expect_response(lambda answer: answer.url.endswith("/static-analysis")) as answered:
+    with answer_to(page, "/static-analysis") as answered:
         apply(dialog)
     report = answered.value.json()
     codes = {d["code"] for d in report["diagnostics"]}
@@ -87,7 +88,7 @@ def test_static_analysis_runs_on_demand_with_the_prefixes_of_the_project(page: P
     expect(magic_rows(page).first).to_be_visible()
     magic_rows(page).first.dblclick()
     expect(page.locator(".dv-tab.dv-active-tab").filter(has_text="PLC_PRG").first).to_be_visible()
-    with page.expect_response(lambda answer: answer.url.endswith("/build")) as built:
+    with answer_to(page, "/build") as built:
         page.keyboard.press("F11")
     assert built.value.json()["ok"]
     assert not any(d["code"].startswith("S") for d in built.value.json()["diagnostics"])
@@ -100,7 +101,7 @@ def test_an_object_is_excluded_from_the_build_and_taken_in_again(page: Page) -> 
     page.get_by_role("menuitemcheckbox", name="Exclude from Build").click()
     name = tree_item(page, "GVL_Line").get_by_text("GVL_Line")
     expect(name).to_have_attribute("data-excluded", "")
-    with page.expect_response(lambda answer: answer.url.endswith("/build")) as built:
+    with answer_to(page, "/build") as built:
         page.keyboard.press("F11")
     assert not built.value.json()["ok"], "PLC_PRG needs the list"
     tree_item(page, "GVL_Line").click(button="right")
@@ -108,6 +109,6 @@ def test_an_object_is_excluded_from_the_build_and_taken_in_again(page: Page) -> 
     expect(entry).to_have_attribute("aria-checked", "true")
     entry.click()
     expect(name).not_to_have_attribute("data-excluded", "")
-    with page.expect_response(lambda answer: answer.url.endswith("/build")) as built:
+    with answer_to(page, "/build") as built:
         page.keyboard.press("F11")
     assert built.value.json()["ok"]

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import re
 import time
+from contextlib import AbstractContextManager
+from typing import Any
+from urllib.parse import urlsplit
 
 from playwright.sync_api import Locator, Page, expect
 
@@ -82,6 +85,11 @@ def choose_menu(page: Page, menu: str, *entries: str) -> None:
     page.get_by_role("menuitem", name=menu, exact=True).click()
     for entry in entries:
         page.get_by_role("menuitem", name=re.compile(f"^{re.escape(entry)}", re.IGNORECASE)).last.click()
+
+
+def answer_to(page: Page, path: str) -> AbstractContextManager[Any]:
+    """What the server answers to the next request whose path ends so."""
+    return page.expect_response(lambda answer: urlsplit(answer.url).path.endswith(path))
 
 
 def watch(page: Page, expression: str) -> Locator:

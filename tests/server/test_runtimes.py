@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from collections.abc import Callable
 
 from fake_plc import FakePlc, division_by_zero
 from fastapi.testclient import TestClient
+
+from tappet.server.runtimes import PlcClient, RuntimeLink
 
 URL = "/api/v1/runtimes"
 
@@ -101,3 +104,19 @@ def test_metrics(admin: TestClient, runtime_id: str) -> None:
     assert 'tappet_http_requests_total{method="POST",status="201"}' in answer.text
     for line in answer.text.splitlines():
         assert line.startswith("# ") or len(line.rsplit(" ", 1)) == 2
+
+
+async def test_a_connection_that_fails_while_it_is_given_up_does_not_go_on() -> None:
+    answer: asyncio.Future[PlcClient] = asyncio.get_running_loop().create_future()
+    asked = asyncio.Event()
+
+    async def connect(url: str, token: str) -> PlcClient:
+        asked.set()
+        return await answer
+
+    link = RuntimeLink("1", "test stand", "ws://127.0.0.1:1", "token", connect, lambda _: None, 0.01)
+    link.start()
+    await asked.wait()
+    answer.set_exception(ConnectionRefusedError("nobody there"))
+    done, _ = await asyncio.wait({asyncio.create_task(link.close())}, timeout=10)
+    assert done

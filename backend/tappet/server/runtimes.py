@@ -171,7 +171,9 @@ class RuntimeLink:
         while True:
             await self._moved.wait()  # the local runtime has no address before it is up
             try:
-                client = await asyncio.wait_for(self._connect(self.url, self._token), PATIENCE_S)
+                # wait_for would forget that it was cancelled when what it waits for ends in that moment.
+                async with asyncio.timeout(PATIENCE_S):
+                    client = await self._connect(self.url, self._token)
             except (OSError, RuntimeRefused, TimeoutError) as error:
                 self._set_problem(_reason(error))
             else:

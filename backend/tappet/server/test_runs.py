@@ -80,7 +80,8 @@ class _Runner:
             pass_fds=attempts.pass_fds,
         )
         try:
-            output, _ = await asyncio.wait_for(child.communicate(attempts.order), attempts.seconds_left)
+            async with asyncio.timeout(attempts.seconds_left):
+                output, _ = await child.communicate(attempts.order)
         except TimeoutError:
             return attempts.take(b"", None)
         finally:
