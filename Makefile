@@ -13,15 +13,20 @@ DATA   ?= data
 run: $(VENV)/.ready frontend/dist/.ready
 	$(BIN)/tappet serve --port $(PORT) --data $(DATA) --example bottling --local-link
 
+# Browsers want the machine for themselves: their tests come last, two at a time.
+PARALLEL := -n 2 --dist loadfile
+
 ## test: all fast tests, those in a real browser included
 test: $(VENV)/.ready frontend/dist/.ready system check
 	cd frontend && npm run --silent test
-	$(BIN)/python -m pytest -m "not slow" -n 3 --dist loadfile --no-loadscope-reorder
+	$(BIN)/python -m pytest -m "not slow and not e2e" $(PARALLEL)
+	$(BIN)/python -m pytest -m "not slow and e2e" $(PARALLEL)
 
 ## test-all: the slow suites as well
 test-all: $(VENV)/.ready frontend/dist/.ready system check
 	cd frontend && npm run --silent test
-	$(BIN)/python -m pytest -n 3 --dist loadfile --no-loadscope-reorder
+	$(BIN)/python -m pytest -m "not e2e" $(PARALLEL)
+	$(BIN)/python -m pytest -m e2e $(PARALLEL)
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
 FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \
