@@ -58,7 +58,7 @@ def single(value: float) -> float:
 
 @dataclass
 class Leaves:
-    """Literals and variables; what is made of them comes with the subclass."""
+    """Literals and variables; the subclass makes larger expressions of them."""
 
     r: Random
     variables: list[Variable] = field(default_factory=list)
@@ -219,7 +219,7 @@ class Leaves:
 
     def expr(self, type_: Type, depth: int) -> Expr:
         """An expression whose static type counts as `type_`."""
-        raise NotImplementedError
+        return self.leaf(type_, depth)
 
     def converted(self, operand: Expr, target: Scalar) -> Expr:
         source = base_of(operand.type)

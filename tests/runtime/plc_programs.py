@@ -35,6 +35,33 @@ END_FUNCTION
 """
 """What CmpIecTask and SysTask are made of."""
 
+FAULTY_POUS = """FUNCTION Quotient : DINT
+VAR_INPUT
+    a, b : DINT;
+END_VAR
+Quotient := a / b;
+END_FUNCTION
+
+FUNCTION_BLOCK FB_Deep
+VAR
+    depth : DINT;
+    room : ARRAY [0..99] OF LINT;
+END_VAR
+METHOD Down : LINT
+VAR_INPUT
+    n : LINT;
+END_VAR
+VAR
+    local : ARRAY [0..49] OF LINT;
+END_VAR
+local[n MOD 50] := n;
+Down := THIS^.Down(n + 1) + local[(n + 7) MOD 50];
+END_METHOD
+END_FUNCTION_BLOCK
+
+"""
+"""A function that divides, and a block whose method calls itself without end."""
+
 
 def build(
     text: str,

@@ -4,37 +4,15 @@ import itertools
 import os
 
 import pytest
-from plc_programs import MAIN, MS, TASK_FUNCTIONS, build
+from plc_programs import FAULTY_POUS, MAIN, MS, TASK_FUNCTIONS, build
 
 from tappet.codegen.faults import Fault
 from tappet.codegen.package import TaskSpec
 from tappet.runtime.local import ApplicationException, LocalRuntime
 
-TEXT = """FUNCTION Quotient : DINT
-VAR_INPUT
-    a, b : DINT;
-END_VAR
-Quotient := a / b;
-END_FUNCTION
-
-FUNCTION_BLOCK FB_Deep
-VAR
-    depth : DINT;
-    room : ARRAY [0..99] OF LINT;
-END_VAR
-METHOD Down : LINT
-VAR_INPUT
-    n : LINT;
-END_VAR
-VAR
-    local : ARRAY [0..49] OF LINT;
-END_VAR
-local[n MOD 50] := n;
-Down := THIS^.Down(n + 1) + local[(n + 7) MOD 50];
-END_METHOD
-END_FUNCTION_BLOCK
-
-INTERFACE I_Lamp
+TEXT = (
+    FAULTY_POUS
+    + """INTERFACE I_Lamp
 METHOD Blink : BOOL
 END_METHOD
 END_INTERFACE
@@ -71,6 +49,7 @@ CASE mode OF
 END_CASE
 END_PROGRAM
 """
+)
 
 
 def line_of(part: str) -> int:

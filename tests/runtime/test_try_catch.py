@@ -3,33 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from plc_programs import build
+from plc_programs import FAULTY_POUS, build
 
 from tappet.codegen.faults import Fault
 from tappet.lang.exceptions import CODES
 from tappet.runtime.local import ApplicationException, LocalRuntime
 
-TEXT = """FUNCTION Quotient : DINT
-VAR_INPUT
-    a, b : DINT;
-END_VAR
-Quotient := a / b;
-END_FUNCTION
-
-FUNCTION_BLOCK FB_Deep
-METHOD Down : LINT
-VAR_INPUT
-    n : LINT;
-END_VAR
-VAR
-    local : ARRAY [0..49] OF LINT;
-END_VAR
-local[n MOD 50] := n;
-Down := THIS^.Down(n + 1) + local[(n + 7) MOD 50];
-END_METHOD
-END_FUNCTION_BLOCK
-
-PROGRAM PLC_PRG
+TEXT = (
+    FAULTY_POUS
+    + """PROGRAM PLC_PRG
 VAR
     mode : INT;
     cycles, caught, finals : DINT;
@@ -62,6 +44,7 @@ ELSIF mode = 7 THEN
 END_IF
 END_PROGRAM
 """
+)
 
 
 @pytest.fixture(scope="module")
