@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable
 from typing import Any
 
@@ -353,9 +354,9 @@ class ExpressionEmitter(CallEmitter):
             return "1" if value == "true" else "0"
         return self.value(f"zext i1 {value} to i8")
 
+    @abstractmethod
     def statements(self, body: list[ir.Stmt]) -> None:
-        """Emit statements; given by the subclass."""
-        raise NotImplementedError
+        """Emit statements."""
 
 
 def _cannot_be_minimum(expr: ir.Expr) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
 from tappet.codegen.debug_info import DebugInfo, Metadata
@@ -75,7 +76,7 @@ class AliasScopes:
         return texts
 
 
-class PlaceEmitter:
+class PlaceEmitter(ABC):
     """State of one function under emission, and everything about addresses."""
 
     def __init__(self, state: ModuleState, function: ir.Function) -> None:
@@ -251,9 +252,9 @@ class PlaceEmitter:
             return text
         return self.value(f"{'sext' if t.signed else 'zext'} {llvm_type(t)} {text} to i64")
 
+    @abstractmethod
     def expr(self, expr: ir.Expr) -> str:
-        """Operand text of a value; given by the subclass."""
-        raise NotImplementedError
+        """Operand text of a value."""
 
     def const(self, expr: ir.Const) -> str:
         """Operand text of a constant."""

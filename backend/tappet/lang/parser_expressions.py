@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import fields
 from typing import Final
 
@@ -41,9 +42,9 @@ class ExpressionParser(Core):
 
     __slots__ = ()
 
+    @abstractmethod
     def type_reference(self, what: str = "type") -> ast.TypeRef:
         """A type; see `parser_types`."""
-        raise NotImplementedError
 
     def expression(self) -> ast.Expr:
         """A whole expression, assignments included (LST-41)."""

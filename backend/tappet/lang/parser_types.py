@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
+
 from tappet.lang import ast
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import ENDS, MAX_NESTING
@@ -13,9 +15,9 @@ class TypeParser(StatementParser):
 
     __slots__ = ()
 
+    @abstractmethod
     def variables(self, end: str, paths: bool = False) -> list[ast.VarDecl]:
         """Members of a structure; see `parser_variables`."""
-        raise NotImplementedError
 
     def type_reference(self, what: str = "type") -> ast.TypeRef:
         """A type; where there is none, a NamedType with an empty name, and an error is reported."""
