@@ -7,7 +7,6 @@ reported anything is left at its `;` or at the next line that begins a statement
 
 from __future__ import annotations
 
-from abc import ABC
 from collections.abc import Callable
 from functools import partial
 from typing import Final
@@ -64,7 +63,7 @@ MAX_TREE_DEPTH: Final = 400
 Opener = tuple[str, int]  # opening keyword and its line (0-based)
 
 
-class Core(ABC):
+class Core:
     """The tokens of one text and the place reached in them."""
 
     __slots__ = (

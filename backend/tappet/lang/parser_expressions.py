@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from dataclasses import fields
 from typing import Final
 
@@ -37,7 +37,7 @@ _HINTS: Final = {
 }
 
 
-class ExpressionParser(Core):
+class ExpressionParser(Core, ABC):
     """Reads expressions; `i` stands behind them afterwards."""
 
     __slots__ = ()
