@@ -64,6 +64,8 @@ class FakePlc:
 
     down: bool = False
     state: str = "stop"
+    cycles: int = 0
+    """Single cycles that were ordered."""
     application: str | None = "Application"
     code_id: str | None = "code1"
     data_id: str | None = "data1"
@@ -181,6 +183,11 @@ class FakeClient:
     async def stop(self) -> None:
         self.plc.state = "stop"
         self.plc.tell("state")
+
+    async def single_cycle(self) -> None:
+        if self.plc.state != "stop":
+            raise RuntimeRefused("refused", "a single cycle needs a stopped application")
+        self.plc.cycles += 1
 
     async def reset(self, kind: str) -> None:
         self.plc.image[:] = bytes(len(self.plc.image))

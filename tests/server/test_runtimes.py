@@ -32,6 +32,18 @@ def test_state_start_stop(admin: TestClient, runtime_id: str, plc: FakePlc) -> N
     assert actions[:2] == ["stop", "start"]
 
 
+def test_single_cycle(as_role: dict[str, TestClient], runtime_id: str, plc: FakePlc) -> None:
+    """LST-84: of a stopped application only; noted in the audit log."""
+    url = f"{URL}/{runtime_id}/single-cycle"
+    assert as_role["viewer"].post(url).status_code == 403
+    assert as_role["operator"].post(url).json()["state"] == "stop"
+    assert plc.cycles == 1
+    assert as_role["admin"].get("/api/v1/audit").json()[0]["action"] == "single-cycle"
+    plc.state = "run"
+    answer = as_role["operator"].post(url)
+    assert (answer.status_code, "stopped" in answer.json()["detail"]) == (409, True)
+
+
 def test_operator_starts_engineer_resets(as_role: dict[str, TestClient], runtime_id: str) -> None:
     assert as_role["operator"].post(f"{URL}/{runtime_id}/start").status_code == 200
     assert as_role["operator"].post(f"{URL}/{runtime_id}/reset", json={"kind": "cold"}).status_code == 403

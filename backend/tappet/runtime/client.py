@@ -286,6 +286,10 @@ class RuntimeClient:
         """Stop it at the end of its cycles."""
         await self._call("stop")
 
+    async def single_cycle(self) -> None:
+        """Run one cycle of a stopped application. RuntimeRefused when it is not stopped."""
+        await self._call("single_cycle")
+
     async def reset(self, kind: Literal["warm", "cold", "origin"]) -> None:
         """Initial values again, by the table of remanent variables; origin removes the application."""
         await self._call("reset", kind=kind)

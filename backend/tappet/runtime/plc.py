@@ -162,6 +162,26 @@ class SoftPlc(ApplicationAccess):
                 self.log.add("info", "application", f"{application.package.application} started")
                 self._tell("state")
 
+    def single_cycle(self) -> None:
+        """Run one cycle of each cyclic and freewheeling task of a stopped application (LST-84).
+
+        The outputs then hold what the cycle has set, unless they are to be safe while stopped. PlcError when
+        the application runs or is in the state exception.
+        """
+        with self._lock:
+            application = self._need()
+            if application.tasks.state != STOPPED:
+                raise PlcError(f"a single cycle needs a stopped application; this one is in state {self.state}")
+            if self.virtual:
+                raise PlcError("a single cycle needs real time; virtual time is advanced instead")
+            self.log.add("info", "application", f"{application.package.application}: single cycle")
+            try:
+                application.tasks.single_cycle()
+            except TaskError as error:
+                raise PlcError(str(error)) from error
+            self._save_retain()
+            self.poll()
+
     def stop(self) -> None:
         """Complete the running cycles, then call no program; values stay."""
         with self._lock:

@@ -13,11 +13,13 @@ from tappet.runtime.contexts import RUNNING, STOPPED, Contexts
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.faults import RawFault
 from tappet.runtime.posix import libc
+from tappet.runtime.tasks import KINDS
 from tappet.runtime.threads import NativeThread, Scheduling
 
 BOUNDARY_TIMEOUT_S = 5.0
 """A task that does not reach its cycle boundary within this time is taken out of its programs."""
 _FIRST_START_NS = 5_000_000
+_SELF_STARTING = (KINDS["cyclic"], KINDS["freewheeling"])
 
 
 class TaskError(RuntimeError):
@@ -125,6 +127,23 @@ class TaskGroup:
         """STOPPED if it was running, with every task at the end of its cycle."""
         if self.state == RUNNING:
             self.set_state(STOPPED)
+        with self.standing():
+            pass
+
+    def single_cycle(self) -> None:
+        """Run the programs of every cyclic and freewheeling task once although the application is stopped.
+
+        Returns when all have run, one has raised an exception, or after `BOUNDARY_TIMEOUT_S`: a task with
+        a longer interval runs its cycle when it is due.
+        """
+        waiting = [t for t in self.contexts.tasks if t["kind"] in _SELF_STARTING]
+        if not waiting:
+            raise TaskError("a single cycle needs a cyclic or freewheeling task; the others wait for events")
+        for task in waiting:
+            self.executive.store_flag(task.place("singleCycle"), 1)
+        due = time.monotonic() + BOUNDARY_TIMEOUT_S
+        while self.state == STOPPED and time.monotonic() < due and any(t["singleCycle"] for t in waiting):
+            time.sleep(0.0005)
         with self.standing():
             pass
 

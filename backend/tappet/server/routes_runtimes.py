@@ -112,6 +112,16 @@ async def stop(who: Operator, link: LinkDep, database: DatabaseDep) -> RuntimeSt
     return link.state()
 
 
+@router.post("/{runtime_id}/single-cycle")
+async def single_cycle(who: Operator, link: LinkDep, database: DatabaseDep) -> RuntimeState:
+    """Run one cycle of each cyclic and freewheeling task of a stopped application."""
+    link.loaded_symbols()
+    async with link.client() as client:
+        await client.single_cycle()
+    await _act(link, database, who, Act("single-cycle", link.name, runtime_id=link.id))
+    return link.state()
+
+
 @router.post("/{runtime_id}/reset")
 async def reset(body: ResetOrder, who: Engineer, link: LinkDep, database: DatabaseDep) -> RuntimeState:
     """Initialise the variables: warm (not RETAIN), cold (not PERSISTENT), origin (all, and unload)."""

@@ -84,6 +84,7 @@ describe('online commands', () => {
     const running = someContext({ online: someSession('run') });
     expect([can('debug.start', stopped), can('debug.stop', stopped)]).toEqual([true, 'reason.stopped']);
     expect([can('debug.start', running), can('debug.stop', running)]).toEqual(['reason.running', true]);
+    expect([can('debug.singleCycle', stopped), can('debug.singleCycle', running)]).toEqual([true, 'reason.running']);
     expect(can('online.login', running)).toBe('reason.loggedIn');
   });
 

@@ -1,4 +1,4 @@
-import { CloudUpload, Hammer, LogIn, LogOut, Play, RotateCcw, Square, Zap } from 'lucide-react';
+import { CloudUpload, Hammer, LogIn, LogOut, Play, RotateCcw, Square, StepForward, Zap } from 'lucide-react';
 import { t } from '@/i18n';
 import { registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
@@ -137,6 +137,15 @@ const commands: Command[] = [
     toolbar: { group: '3_run', order: 2 },
     enabled: (context) => allOf(online(context), connected(context), operator(context), running(context)),
     run: (context) => runtimeAct(context, 'stop'),
+  },
+  {
+    id: 'debug.singleCycle',
+    title: 'command.singleCycle',
+    icon: StepForward,
+    keys: ['Ctrl+F5'],
+    menu: { menu: 'debug', group: '1_run', order: 3 },
+    enabled: (context) => allOf(online(context), connected(context), operator(context), notRunning(context)),
+    run: (context) => runtimeAct(context, 'single-cycle'),
   },
 ];
 

@@ -205,7 +205,7 @@ export async function onlineChange(context: CommandContext): Promise<void> {
   }
 }
 
-export async function runtimeAct(context: CommandContext, act: 'start' | 'stop'): Promise<void> {
+export async function runtimeAct(context: CommandContext, act: 'start' | 'stop' | 'single-cycle'): Promise<void> {
   const runtimeId = context.online!.runtimeId;
   runtimePolled(runtimeId, await api.post<RuntimeState>(`/runtimes/${runtimeId}/${act}`));
 }
