@@ -22,10 +22,10 @@ from tappet.lang.analysis.collect_variables import (
 )
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Session
+from tappet.lang.analysis.same_names import first_place
 from tappet.lang.analysis.scope import Level, describe
 from tappet.lang.any_type import ANY_TYPES, TYPE_CLASS_SYMBOL
 from tappet.lang.attributes import attribute
-from tappet.lang.diagnostics import Related
 from tappet.lang.exceptions import EXCEPTION_CODE_SYMBOL
 from tappet.lang.source import Source
 from tappet.lang.symbols import (
@@ -94,8 +94,9 @@ def _declare(session: Session, level: Level, symbol: Symbol, declaration: ast.De
         level.objects[key] = symbol
         return
     places = ", ".join(s.source.uri for s in (old, symbol) if s.source is not None)
-    related = (Related("first declared here", old.source.uri, old.span),) if old.source and old.span else ()
-    session.report("E0420", source.uri, declaration.name_span, related, name=symbol.name, places=places)
+    session.report(
+        "E0420", source.uri, declaration.name_span, first_place(old), name=symbol.name, places=places
+    )
 
 
 def _pou(session: Session, found: Collected, pou: ast.Pou, source: Source, level: Level) -> None:

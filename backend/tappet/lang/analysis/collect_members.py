@@ -7,6 +7,7 @@ from tappet.lang.analysis.collect_variables import check_name, collect_variables
 from tappet.lang.analysis.collected import Collected, OwnVariables
 from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.monitored import keeping_variable
+from tappet.lang.analysis.same_names import check_result, is_free, member_named, report_twice
 from tappet.lang.source import Source
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, Storage, VarSymbol
 
@@ -46,11 +47,9 @@ def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast
     pou.symbol = symbol
     check_name(session, pou.name, source, pou.name_span)
     table = owner.methods if pou.kind == "METHOD" else owner.actions
-    key = pou.name.upper()
-    if key in owner.methods or key in owner.actions or key in owner.properties:
-        session.report("E0205", source.uri, pou.name_span, what=pou.kind.lower(), name=pou.name)
+    if not is_free(session, found, owner, pou.kind.lower(), pou.name, source, pou.name_span):
         return
-    table[key] = symbol
+    table[pou.name.upper()] = symbol
     found.own[id(symbol)] = collect_variables(session, found, symbol, pou.blocks, source)
 
 
@@ -58,14 +57,12 @@ def collect_property(
     session: Session, found: Collected, owner: PouSymbol, property_: ast.Property, source: Source
 ) -> None:
     """A property of a program or block, with its accessors."""
-    key = property_.name.upper()
-    if key in owner.methods or key in owner.actions or key in owner.properties:
-        session.report("E0205", source.uri, property_.name_span, what="property", name=property_.name)
+    if not is_free(session, found, owner, "property", property_.name, source, property_.name_span):
         return
     symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
     symbol = session.stand_for(symbol, source.uri, owner.qualified_name)
     check_name(session, property_.name, source, property_.name_span)
-    owner.properties[key] = symbol
+    owner.properties[property_.name.upper()] = symbol
     kept = keeping_variable(owner, property_, source)
     if kept is not None:
         kept = session.stand_for(kept, source.uri, owner.qualified_name)
@@ -153,6 +150,7 @@ def _add_accessor_value(
     )
     symbol = session.stand_for(symbol, source.uri, f"{head.qualified_name} value")
     decl.symbol = symbol
+    check_result(session, head, own, property_.name)
     own.variables[property_.name.upper()] = symbol
 
 
@@ -171,11 +169,11 @@ def collect_head(
     )
     symbol = session.stand_for(symbol, source.uri, owner.name)
     pou.symbol = symbol
-    key = pou.name.upper()
-    if key in owner.methods:
-        session.report("E0205", source.uri, pou.name_span, what="method", name=pou.name)
+    old = member_named(owner, pou.name.upper())
+    if old is not None:
+        report_twice(session, "method", pou.name, source, pou.name_span, old)
         return
-    owner.methods[key] = symbol
+    owner.methods[pou.name.upper()] = symbol
     found.own[id(symbol)] = collect_variables(session, found, symbol, pou.blocks, source)
 
 
@@ -185,5 +183,9 @@ def collect_property_head(
     """A property of an interface, with its accessors."""
     symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
     symbol = session.stand_for(symbol, source.uri, owner.name)
+    old = member_named(owner, property_.name.upper())
+    if old is not None:
+        report_twice(session, "property", property_.name, source, property_.name_span, old)
+        return
     owner.properties[property_.name.upper()] = symbol
     _add_accessors(session, found, owner, symbol, property_, source)

@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from tappet.lang import ast
 from tappet.lang.analysis.collected import Collected, OwnVariables
 from tappet.lang.analysis.context import Session
+from tappet.lang.analysis.same_names import report_twice
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.type_conversions import is_conversion
-from tappet.lang.diagnostics import Related
 from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, VarSymbol
 
@@ -35,8 +35,7 @@ def add_variable(session: Session, table: dict[str, VarSymbol], variable: VarSym
     if old is None:
         table[key] = variable
         return
-    related = (Related("first declared here", old.source.uri, old.span),) if old.source and old.span else ()
-    session.report("E0205", source.uri, span, related, what=describe(variable), name=variable.name)
+    report_twice(session, describe(variable), variable.name, source, span, old)
 
 
 _SECTIONS: dict[str, frozenset[str]] = {

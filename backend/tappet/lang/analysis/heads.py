@@ -6,6 +6,7 @@ from tappet.lang import ast
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
+from tappet.lang.analysis.same_names import check_inherited, check_result
 from tappet.lang.analysis.scope import describe
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope, Source
@@ -200,12 +201,8 @@ class _Views:
 
     def _own(self, pou: PouSymbol) -> None:
         own = self.found.own[id(pou)]
-        inherited = pou.base.locals if pou.base is not None else {}
+        check_inherited(self.session, pou, own)
         for key, variable in own.variables.items():
-            if key in inherited and variable.span is not None and variable.source is not None:
-                self.session.report(
-                    "E0205", variable.source.uri, variable.span, what="variable", name=variable.name
-                )
             pou.locals[key] = variable
             if variable.section in _PASSED:
                 pou.parameters.append(variable)
@@ -232,6 +229,7 @@ class _Views:
         if decl is not None:
             decl.symbol = result
         pou.result = result
+        check_result(self.session, pou, self.found.own[id(pou)], name)
         pou.locals.setdefault(name.upper(), result)
 
     def _function_result(self, pou: PouSymbol) -> None:
