@@ -405,3 +405,25 @@ def test_a_marked_function_without_a_return_type_is_no_operand(body: str, expect
 
 def test_a_function_without_a_return_type_has_no_result_to_assign() -> None:
     assert "E0305" in codes(analysed("{attribute 'no_return_type'}\nFUNCTION F\nF := 1;\nEND_FUNCTION"))
+
+
+def test_unknown_type_is_told_once() -> None:
+    """What is done with members, elements and targets of an unknown type is no fault of its own."""
+    types = (
+        "TYPE Inner : STRUCT drive : Missing; n : INT; END_STRUCT END_TYPE "
+        "TYPE Outer EXTENDS Inner : STRUCT m : INT; END_STRUCT END_TYPE "
+        "VAR_GLOBAL g : Outer := (drive := 1, m := 2); END_VAR"
+    )
+    variables = "VAR p : POINTER TO Missing; a : ARRAY[0..1] OF Missing; END_VAR"
+    assert codes(program(variables, "g.drive.x := p^.x + a[0].x + p[1];", types)) == ["E0202"] * 3
+    assert sorted(codes(program("VAR s : Outer; END_VAR", "s.other := 1;", types))) == ["E0202", "E0204"]
+
+
+def test_list_names_its_own_variables_plainly() -> None:
+    """A list with the attribute qualified_only needs no qualification in its own text (LPRG-42)."""
+    text = (
+        "{attribute 'qualified_only'} VAR_GLOBAL CONSTANT n : INT := 3; END_VAR "
+        "VAR_GLOBAL v : ARRAY[0..n] OF INT := [n, n]; w : INT := n + 1; END_VAR"
+    )
+    assert codes(analysed(text)) == []
+    assert codes(program("VAR v : INT := n; END_VAR", "", text)) == ["E0207"]

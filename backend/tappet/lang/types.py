@@ -202,6 +202,8 @@ class Struct:
     union: bool = False
     base: Struct | None = None
     decl: ast.TypeDecl | None = None
+    unknown: set[str] = field(default_factory=set)
+    """Upper-case names of members without a type, which a message has been about."""
 
     def __str__(self) -> str:
         return self.name

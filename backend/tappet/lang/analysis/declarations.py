@@ -198,6 +198,7 @@ class Declarations(TypeReferences):
         if struct.base is not None:
             if self.complete(struct.base):
                 struct.members.update(struct.base.members)
+                struct.unknown |= struct.base.unknown
                 placement.place(struct.base.size, struct.base.align)
             else:
                 body.report("E0408", ref.span, name=struct.name, chain=f"{struct.name} -> {struct.base.name}")
@@ -206,6 +207,7 @@ class Declarations(TypeReferences):
         for decl in ref.members:
             member = self._struct_member(body, struct, decl)
             if member is None:
+                struct.unknown.add(decl.name.upper())
                 continue
             if struct.union:
                 placement.offset = 0

@@ -47,7 +47,8 @@ def _register(session: Session, found: Collected, declarations: Declarations) ->
     for ref, source, name in found.local_enums:
         declarations.enums[id(ref)] = (ref, name, plain_body(session, source), None)
     for gvl, source in found.gvls:
-        body = plain_body(session, source)
+        # its own variables need no qualification in it, whatever others have the same name
+        body = Body(session, source, None, {**gvl.members})
         declarations.bodies[id(gvl)] = body
         for member in gvl.members.values():
             declarations.variables[id(member)] = (member, body)

@@ -192,7 +192,8 @@ def _field(
         symbol = target.pou.symbol.locals.get(key)
     if not isinstance(symbol, VarSymbol):
         names = [m.name for m in target.members.values() if not m.name.startswith("__")]
-        if names or not isinstance(target, t.Struct):
+        told = isinstance(target, t.Struct) and (not names or key in target.unknown)
+        if not told:
             hint = f"Its members are: {', '.join(names[:8])}{' ...' if len(names) > 8 else ''}."
             b.report("E0204", field.span, name=field.name, type=target, hint=hint)
         return None

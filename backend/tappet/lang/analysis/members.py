@@ -76,7 +76,7 @@ def _member_of_struct(b: Body, e: ast.Member, type_: t.Struct) -> None:
         b.session.complete(type_)
         found = type_.members.get(e.name.upper())
     if found is None or found.decl is None or not isinstance(found.decl.symbol, VarSymbol):
-        if type_.members:
+        if type_.members and e.name.upper() not in type_.unknown:
             _unknown_member(b, e, type_, [m.name for m in type_.members.values()])
         return
     resolve_variable(b, e, found.decl.symbol)

@@ -239,7 +239,13 @@ class TypeReferences:
         if isinstance(base, t.Reference):
             body.report("E0407", ref.span, what="POINTER TO REFERENCE")
             return None
+        if base is None and not self._names_code(body, ref.base):
+            return None
         return t.Pointer(base)
+
+    def _names_code(self, body: Body, ref: ast.TypeRef) -> bool:
+        """Whether a function or a method stands where a type should: something to point to without type."""
+        return isinstance(ref, ast.NamedType) and isinstance(self._named_symbol(body, ref.name), PouSymbol)
 
     def _reference(self, body: Body, ref: ast.ReferenceType, name: str) -> Type | None:
         base = self.type_of(body, ref.base, name, below_pointer=True)
