@@ -14,6 +14,11 @@ COLD = ", !prof !0"
 """Branch weights of a check that never fires; node 0 of every module."""
 
 
+_WRITTEN = 'call void asm sideeffect "", "~{memory}"()'
+"""Before an access that may end in a signal which `__TRY` catches: what was assigned so far is in memory.
+LLVM knows no loads and stores that do not come back, and would leave out what is overwritten behind them."""
+
+
 @dataclass(slots=True)
 class ModuleState:
     """What the functions of one LLVM module share."""
@@ -210,6 +215,8 @@ class PlaceEmitter(ABC):
                 pointer = self.value(f"getelementptr {inbounds}i8, ptr {pointer}, i64 {offset}")
         for subscript in place.subscripts:
             pointer = self.subscript(pointer, subscript, not isinstance(base, ir.Indirect))
+        if isinstance(base, ir.Indirect) and not base.own and self.state.module.catches_faults:
+            self.out.append(_WRITTEN)
         return pointer
 
     def self_address(self, offset: int) -> str:

@@ -213,7 +213,10 @@ class Generator:
             change = replace(change, refused=self.refusal(lowered))
         with self.timed("lower"):
             lowered.module.functions.pop(ONLINE_CHANGE_SYMBOL, None)
+            caught = lowered.module.catches_faults
             fresh = relower(lowered, last.effects, changed)
+            if lowered.module.catches_faults != caught:
+                return None
             fresh.add(ONLINE_CHANGE_SYMBOL)
             data, sizes = lowered.module.data, self.area_sizes(lowered)
             if any(data[AREA_PREFIX + area][0] != size for area, size in sizes.items()):

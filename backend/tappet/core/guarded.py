@@ -38,7 +38,7 @@ class Guard:
 def externals(b: Body) -> None:
     """Import what the runtime offers."""
     for function in (
-        ir.External("tappet_guard", [ir.U64], ir.U64),
+        ir.External(ir.GUARD, [ir.U64], ir.U64),
         ir.External("tappet_rethrow", [ir.I32], ir.VOID, noreturn=True),
         ir.External("tappet_exception_code", [ir.I32], ir.U32),
     ):
@@ -68,7 +68,7 @@ def guarded(
         guard.pending = b.temp(ir.I32, once=False)
         _store(b, guard.pending, 0)
     address = ir.Address(ir.PTR, ir.Place(guard.buffer))
-    b.emit(ir.Store(ir.Place(guard.before), ir.Call(ir.U64, "tappet_guard", [ir.Convert(ir.U64, address)])))
+    b.emit(ir.Store(ir.Place(guard.before), ir.Call(ir.U64, ir.GUARD, [ir.Convert(ir.U64, address)])))
     b.emit(ir.Store(ir.Place(fault), ir.Intrinsic(ir.I32, "setjmp", [address])))
     with b.block_of() as attempt:
         b.guards.append(guard)
@@ -144,7 +144,7 @@ def _go_on(b: Body, guard: Guard) -> None:
 
 def _give_back(b: Body, guard: Guard) -> None:
     before = ir.Load(ir.U64, ir.Place(guard.before))
-    b.emit(ir.Evaluate(ir.Call(ir.U64, "tappet_guard", [before])))
+    b.emit(ir.Evaluate(ir.Call(ir.U64, ir.GUARD, [before])))
 
 
 def _store(b: Body, local: ir.Local, value: int) -> None:

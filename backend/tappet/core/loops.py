@@ -43,6 +43,8 @@ class _Survey:
     """Bases with accesses whose root is unknown."""
     data: set[str] = field(default_factory=set)
     pointers: bool = False
+    dereferences: bool = False
+    """Accesses of its own through pointers, which may lead nowhere."""
     calls: set[str] = field(default_factory=set)
     refused: bool = False
     """Jumps, foreign code or operations of several threads inside."""
@@ -74,6 +76,8 @@ class Promotion:
     def _loop(self, function: ir.Function, loop: ir.For | ir.While | ir.Repeat) -> ir.Promoted | None:
         survey = _survey(self.module, loop)
         if survey.refused or not self._calls_are_known(survey):
+            return None
+        if survey.dereferences and self.module.catches_faults:
             return None
         chosen = [
             (key, use)
@@ -165,6 +169,7 @@ def _note_place(found: _Survey, node: ir.Expr | ir.Stmt, name: str, place: ir.Pl
     base = place.base
     if isinstance(base, ir.Indirect):
         found.pointers |= not base.own and not isinstance(node, ir.Address)
+        found.dereferences |= not base.own
         return
     if isinstance(base, ir.Local):
         return

@@ -30,6 +30,7 @@ from tappet.core.ir.expressions import (
     VirtualMethod,
 )
 from tappet.core.ir.functions import (
+    GUARD,
     Constant,
     DispatchTable,
     External,
@@ -93,6 +94,7 @@ __all__ = [
     "BOOL",
     "F32",
     "F64",
+    "GUARD",
     "I8",
     "I16",
     "I32",

@@ -66,6 +66,10 @@ class Function:
     """Runs rarely (initialisers): optimise for size."""
 
 
+GUARD = "tappet_guard"
+"""The C function that says where the next fault of the task returns to."""
+
+
 @dataclass(eq=False, slots=True)
 class External:
     """An imported C function."""
@@ -115,3 +119,9 @@ class Module:
     """Function block types with instances in a variable: (data symbol or type name, root offset)."""
     exposed: set[tuple[str, int]] = field(default_factory=set)
     """Variables reachable through pointers: (data symbol or type name, root offset); offset -1 = all."""
+
+    @property
+    def catches_faults(self) -> bool:
+        """Whether some code goes on behind a fault (`__TRY`): where a pointer that leads nowhere ends in one,
+        memory has to be as the text says."""
+        return GUARD in self.externals
