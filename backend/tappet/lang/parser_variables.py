@@ -35,7 +35,10 @@ class VariableParser(TypeParser):
             self.i += 1
         attributes += self.attributes_after(self.i - 1)
         opener = (section, self.lines[start])
-        variables = self.variables("END_VAR", paths=section == "VAR_CONFIG" or section == "VAR_ACCESS")
+        listed = (
+            section == "VAR_GLOBAL" and "PERSISTENT" in flags
+        )  # paths of instances, as CODESYS writes them
+        variables = self.variables("END_VAR", paths=listed or section in ("VAR_CONFIG", "VAR_ACCESS"))
         if self.kinds[self.i] == "END_VAR":
             if self.i in self.trivia:
                 attributes += self.attributes_before(self.i)

@@ -169,6 +169,8 @@ def _gvl(
     for block in blocks:
         flags = frozenset(block.flags)
         for decl in block.variables:
+            if "." in decl.name:  # the path of a persistent variable of an instance: no variable of the list
+                continue
             variable = VarSymbol(
                 decl.name,
                 source,
