@@ -5,7 +5,7 @@ import { useProject } from './project';
 import { ancestorOfKind } from './tree/model';
 
 /** Whether the device that carries an application is set to simulation, as far as it has been read. */
-function isSimulated(applicationId: string): boolean {
+export function isSimulated(applicationId: string): boolean {
   const { projectId } = useProject.getState();
   if (!projectId) return false;
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];

@@ -12,6 +12,12 @@ import { useHandlers } from '@/workbench/useHandlers';
 
 const SAVE_AFTER_MS = 700;
 
+interface Unsaved<Data> {
+  data: Data;
+  /** The stored revision that it was made from. */
+  revision: number;
+}
+
 export interface Draft<Data> {
   object: ProjectObject<Data> | undefined;
   /** What the form shows: the stored data with the changes made here. */
@@ -35,7 +41,7 @@ export function useDraft<Data>(
   valid: (data: Data) => boolean,
 ): Draft<Data> {
   const { data: object, error } = useObject<Data>(projectId, objectId);
-  const [draft, setDraft] = useState<{ data: Data; revision: number } | null>(null);
+  const [draft, setDraft] = useState<Unsaved<Data> | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
   const [history, setHistory] = useState<{ past: readonly Data[]; future: readonly Data[] }>({ past: [], future: [] });
   const allowed = mayEdit(useCommandContext());
@@ -43,17 +49,28 @@ export function useDraft<Data>(
   const data = draft?.data ?? object?.data;
   const latest = useRef({ draft, object, valid });
   useEffect(() => {
-    latest.current = { draft, object, valid };
+    latest.current.object = object;
+    latest.current.valid = valid;
   });
+  // Known at once and not with the next picture: Build and Login ask right after Save whether all is stored.
+  const keep = useCallback(
+    (next: Unsaved<Data> | null) => {
+      latest.current.draft = next;
+      setDraft(next);
+      setDirty(panelId, next !== null);
+    },
+    [panelId],
+  );
 
-  const save = useCallback(async () => {
+  const saveOnce = useCallback(async () => {
     const { draft: present, object: base, valid: fits } = latest.current;
     if (!present || !base || !fits(present.data)) return;
     try {
       const saved = await saveObject(projectId, objectId, present.revision, present.data);
       setRefused(null);
       // Typed on while it was being saved: the newer draft stands on the revision just made.
-      setDraft((now) => (now?.data === present.data ? null : now && { ...now, revision: saved.revision }));
+      const now = latest.current.draft;
+      keep(now === null || now.data === present.data ? null : { ...now, revision: saved.revision });
     } catch (failure) {
       if (failure instanceof StaleObject) {
         const stale = failure as StaleObject<Data>;
@@ -62,27 +79,37 @@ export function useDraft<Data>(
           text: t('conflict.text'),
           action: t('conflict.overwrite'),
         });
-        if (mine) setDraft({ data: present.data, revision: stale.current.revision });
-        else setDraft(null);
+        keep(mine ? { data: present.data, revision: stale.current.revision } : null);
       } else {
         setRefused(explain(failure).text ?? explain(failure).title);
         notifyError(failure);
       }
     }
-  }, [projectId, objectId]);
+  }, [projectId, objectId, keep]);
 
-  const dirty = draft !== null;
-  useEffect(() => setDirty(panelId, dirty), [panelId, dirty]);
+  // One request at a time: a second one on the same revision would be a conflict with oneself.
+  const running = useRef<Promise<void> | null>(null);
+  const save = useCallback(async () => {
+    while (running.current) await running.current;
+    running.current = saveOnce().finally(() => {
+      running.current = null;
+    });
+    await running.current;
+  }, [saveOnce]);
+
   useEffect(() => {
     if (!draft) return;
     const timer = setTimeout(() => void save(), SAVE_AFTER_MS);
     return () => clearTimeout(timer);
   }, [draft, save]);
 
-  const set = useCallback((next: Data) => {
-    const { draft: present, object: base } = latest.current;
-    if (base) setDraft({ data: next, revision: present?.revision ?? base.revision });
-  }, []);
+  const set = useCallback(
+    (next: Data) => {
+      const { draft: present, object: base } = latest.current;
+      if (base) keep({ data: next, revision: present?.revision ?? base.revision });
+    },
+    [keep],
+  );
 
   const change = useCallback(
     (next: Data) => {

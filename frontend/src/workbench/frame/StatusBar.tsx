@@ -14,7 +14,7 @@ import { useOnline, type OnlineSession } from '../onlineSession';
 import { useProject } from '../project';
 import { runCommand } from '../run';
 import { useSelection } from '../selection';
-import { toneOfApplication } from '../tones';
+import { isSimulated, toneOfApplication } from '../tones';
 import { Spinner } from '../ui/Empty';
 import { ToneDot } from '../ui/ToneDot';
 import { Tooltip } from '../ui/Tooltip';
@@ -68,6 +68,7 @@ function RuntimeItem({ session }: { session: OnlineSession }) {
         <ToneDot tone={tone} size={8} />
         {runtime?.name}
         <span>{state}</span>
+        {isSimulated(session.applicationId) && <span>({t('online.tone.simulated')})</span>}
       </button>
     </Tooltip>
   );

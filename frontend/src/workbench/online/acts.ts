@@ -118,6 +118,8 @@ async function findRuntime(context: CommandContext): Promise<RuntimeState | null
 
 /** Login as CODESYS does it: build, compare with what the runtime holds, ask what to do about a difference. */
 export async function login(context: CommandContext): Promise<void> {
+  // Before anything is asked: which runtime it is may be what has just been changed.
+  if (!(await saveEditors(context.dirtyPanels))) return;
   const runtime = await findRuntime(context);
   if (!runtime) return;
   if (!runtime.connected)
