@@ -119,6 +119,17 @@ class Recorder:
         self._arrived.set()
 
 
+def _reason(error: Exception) -> str:
+    """Why no connection came about, in the words of the operating system where it has some."""
+    if isinstance(error, ConnectionRefusedError):
+        return "nothing listens there; is `tappet runtime` running?"
+    if isinstance(error, TimeoutError):
+        return "no answer"
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    return str(error)
+
+
 class RuntimeClient:
     """One connection to a runtime."""
 
@@ -141,7 +152,7 @@ class RuntimeClient:
                 url, max_size=_LARGEST_REPLY, compression=None, open_timeout=timeout_s, proxy=None
             )
         except (OSError, TimeoutError, WebSocketException, ValueError) as error:
-            raise ConnectionLost(f"no runtime at {url}: {error}") from error
+            raise ConnectionLost(f"no runtime at {url}: {_reason(error)}") from error
         client = cls(socket)
         client._receiver = asyncio.create_task(client._receive())
         try:
