@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from tappet.lang.analysis import Analysis, analyse
 from tappet.lang.analysis.bodies import State
+from tappet.lang.analysis.dependents import Dependents
+from tappet.lang.analysis.words import words_of
 from tappet.lang.parser import parse
 from tappet.lang.source import Scope, Source
 
@@ -92,6 +94,52 @@ def test_bodies_that_can_tell_no_difference_stay(
 ) -> None:
     found, _ = _edited(place, number, begin)
     assert found == looked_at
+
+
+@pytest.mark.parametrize(
+    ("place", "number", "again", "sized"),
+    [
+        ("base", 1, {"FB_Base", "FB_Derived"}, {"F_Uses", "Common", "PLC_PRG"}),
+        ("prg", 1, {"PLC_PRG"}, set()),
+        ("nest", 1, {"ST_Nest"}, {"F_Uses"}),
+        ("init_in", 1, {"FB_Init", "PLC_PRG"}, set()),
+        ("enum", 1, {"E_Mode", "PLC_PRG", "Common"}, set()),
+    ],
+)
+def test_texts_with_variables_of_a_block_need_its_size_only(
+    place: str, number: int, again: set[str], sized: set[str]
+) -> None:
+    units = units_of({})
+    first = analyse(list(units.values()))
+    assert isinstance(first.state, State)
+    edited = {}
+    for name in OBJECTS:
+        source = text_of(name, {place: number})
+        if source != units[name].source:
+            edited[name] = (units[name], parse(source).unit)
+    words = {name: words_of(edited[name][1] if name in edited else unit) for name, unit in units.items()}
+    found = Dependents(first.state.session, words, edited)
+    assert again <= found.again
+    assert sized <= found.sized
+    assert found.again.isdisjoint(found.sized)
+    assert not sized or found.again != set(OBJECTS)
+
+
+@pytest.mark.parametrize(
+    ("declared", "plain"),
+    [
+        ("a : T;", True),
+        ("a, b : ARRAY[1..2] OF T; c : POINTER TO T; // T (* T *)\n s : STRING := 'T';", True),
+        ("a : T := (x := 1);", False),
+        ("a : T(1);", False),
+        ("a : T; n : INT := SIZEOF(T);", False),
+        ("a AT %MW0 : T;", False),
+        ("T : INT;", False),
+    ],
+)
+def test_names_that_are_only_types_of_variables(declared: str, plain: bool) -> None:
+    unit = parse(Source("P", f"PROGRAM P\nVAR\n{declared}\nEND_VAR\nEND_PROGRAM")).unit
+    assert ("T" in words_of(unit).plain_types) is plain
 
 
 def test_types_that_hold_an_edited_one_are_laid_out_again() -> None:

@@ -150,3 +150,32 @@ def _compared(kind: type[ast.Node]) -> tuple[str, ...]:
         found = tuple(name for name in kind.__dataclass_fields__ if name not in skipped)
         _FIELDS[kind] = found
     return found
+
+
+def variables(unit: ast.Unit) -> Iterator[ast.VarDecl]:
+    """Every variable, parameter and member of a text, in order; methods, actions and accessors included."""
+    for declaration in unit.declarations:
+        yield from _variables_of(declaration)
+
+
+def _variables_of(declaration: ast.Declaration) -> Iterator[ast.VarDecl]:
+    if isinstance(declaration, ast.TypeDecl):
+        if isinstance(declaration.type_ref, ast.StructType):
+            yield from declaration.type_ref.members
+        return
+    if isinstance(declaration, ast.Property):
+        for accessor in (declaration.getter, declaration.setter):
+            if accessor is not None:
+                yield from _in_blocks(accessor.blocks)
+        return
+    if isinstance(declaration, (ast.Pou, ast.GlobalList)):
+        yield from _in_blocks(declaration.blocks)
+    if isinstance(declaration, (ast.Pou, ast.Interface)):
+        parts = [*declaration.methods, *declaration.properties]
+        for part in [*parts, *declaration.actions] if isinstance(declaration, ast.Pou) else parts:
+            yield from _variables_of(part)
+
+
+def _in_blocks(blocks: list[ast.VarBlock]) -> Iterator[ast.VarDecl]:
+    for block in blocks:
+        yield from block.variables

@@ -24,7 +24,7 @@ def declare(session: Session, found: Collected, declarations: Declarations, whol
     _register(session, found, declarations)
     _resolve_types(found, declarations)
     _resolve_variables(session, found, declarations)
-    _lay_out_lists(session, found)
+    lay_out_lists(session, found)
     _fill(session, whole, declarations)
     _initial_values(session, found, declarations)
     session.accounted = None
@@ -108,7 +108,8 @@ def all_pous(found: Collected) -> Iterable[PouSymbol]:
         yield from pou.with_children()
 
 
-def _lay_out_lists(session: Session, found: Collected) -> None:
+def lay_out_lists(session: Session, found: Collected) -> None:
+    """Gives the variables of global lists their offsets."""
     for gvl, source in found.gvls:
         placement = layout.Placement()
         for member in gvl.members.values():

@@ -16,6 +16,7 @@ from typing import Any
 from tappet.lang import types as t
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Key, Record
+from tappet.lang.analysis.relayout import Layout, together
 from tappet.lang.analysis.words import Words
 from tappet.lang.symbols import (
     EnumValueSymbol,
@@ -153,16 +154,19 @@ class Effects:
         made: Made,
         found: Collected,
         edited: frozenset[str],
+        layout: Layout,
     ) -> None:
         """`before`: contents before; `gone`: what stands for nothing any more; `made`: what stands for the
-        texts now; `found`: what they declare; `edited`: uris of the texts that are new."""
+        texts now; `found`: what they declare; `edited`: uris of the texts that are new; `layout`: of texts
+        that are not declared again but have variables of types that are."""
         self.edited = edited
         self.words: set[str] = set()
         """Global names that stand for something else, or for nothing."""
         self.pous: set[int] = set()
         """id() of POUs whose own variables have changed."""
-        self._found = found
-        self._things = [(key, thing) for table in made.values() for key, thing in table.items()]
+        self._found = together(found, layout.found)
+        tables = [*made.values(), *layout.made.values()]
+        self._things = [(key, thing) for table in tables for key, thing in table.items()]
         self._members: defaultdict[str, set[str]] = defaultdict(set)
         """Changed names inside objects, by upper-case name of the object."""
         self._shapes: set[int] = set()

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from tappet.lang import ast
-from tappet.lang.source import Source, split_lines
+from tappet.lang.source import Source, Span, split_lines
+from tappet.lang.walk import variables
 
 _WORD = re.compile(r"[^\W\d]\w*")
+_UNREAD = re.compile(r"'(?:\$.|[^'$])*'|\"(?:\$.|[^\"$])*\"|//[^\n]*|\(\*.*?\*\)", re.DOTALL)
+"""Literals and comments; what is left of nested comments counts as text, which is on the safe side."""
 _CONDITIONAL = "CN"
 """Ends the name of a function that IL calls on a condition."""
 
@@ -25,6 +29,9 @@ class Words:
     global_names: frozenset[str] = field(default_factory=frozenset)
     """What the text makes known to other texts by plain name: objects, global variables, enumeration
     values."""
+    plain_types: frozenset[str] = field(default_factory=frozenset)
+    """Names that its declarations hold as types of variables without initial value and nowhere else: of what
+    they stand for, such variables need no more than the size."""
 
 
 def words_of(unit: ast.Unit) -> Words:
@@ -33,13 +40,34 @@ def words_of(unit: ast.Unit) -> Words:
     every = _words(text)
     head = _head(unit)
     declared = every if head is None else _words(head)
-    return Words(unit, every, declared, frozenset(name.upper() for name in _global_names(unit)))
+    names = frozenset(name.upper() for name in _global_names(unit))
+    return Words(unit, every, declared, names, _plain_types(unit, text if head is None else head))
 
 
 def _words(text: str) -> frozenset[str]:
     found = set(_WORD.findall(text.upper()))
     found.update([word.removesuffix(_CONDITIONAL) for word in found if word.endswith(_CONDITIONAL)])
     return frozenset(found)
+
+
+def _plain_types(unit: ast.Unit, text: str) -> frozenset[str]:
+    found = Counter(name.upper() for name in _types_of_variables(unit))
+    every = Counter(_WORD.findall(_UNREAD.sub(" ", text).upper()))
+    return frozenset(name for name, count in found.items() if every[name] == count)
+
+
+def _types_of_variables(unit: ast.Unit) -> Iterator[str]:
+    """The names of the types of variables that have no more than a type; one of `a, b : T`."""
+    seen: set[Span] = set()
+    for decl in variables(unit):
+        if decl.initial is not None or decl.address is not None:
+            continue
+        ref = decl.type_ref
+        while isinstance(ref, (ast.ArrayType, ast.PointerType, ast.ReferenceType)):
+            ref = ref.element if isinstance(ref, ast.ArrayType) else ref.base
+        if isinstance(ref, ast.NamedType) and ref.args is None and not ref.elements and ref.span not in seen:
+            seen.add(ref.span)
+            yield ref.name
 
 
 def _head(unit: ast.Unit) -> str | None:

@@ -57,11 +57,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.project_parts import variables
 from tappet.lang.source import Span
 from tappet.lang.symbols import VarSymbol
 from tappet.lang.types import LTIME, Array, Pointer, Reference, String
-from tappet.lang.walk import expressions
+from tappet.lang.walk import expressions, variables
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session

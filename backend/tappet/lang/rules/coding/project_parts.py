@@ -1,4 +1,4 @@
-"""What a project consists of: the bodies of a program, the variables of a text."""
+"""What a project consists of: the bodies of a program and what they name."""
 
 from __future__ import annotations
 
@@ -33,32 +33,3 @@ def names_in(session: Session, pou: PouSymbol) -> list[ast.Name | ast.Member]:
         names = [e for e in all_expressions(body) if isinstance(e, (ast.Name, ast.Member))]
         found = session.named[id(pou)] = (pou.pou, names)
     return found[1]
-
-
-def variables(unit: ast.Unit) -> Iterator[ast.VarDecl]:
-    """Every variable, parameter and member of a text, in order; methods, actions and accessors included."""
-    for declaration in unit.declarations:
-        yield from _of(declaration)
-
-
-def _of(declaration: ast.Declaration) -> Iterator[ast.VarDecl]:
-    if isinstance(declaration, ast.TypeDecl):
-        if isinstance(declaration.type_ref, ast.StructType):
-            yield from declaration.type_ref.members
-        return
-    if isinstance(declaration, ast.Property):
-        for accessor in (declaration.getter, declaration.setter):
-            if accessor is not None:
-                yield from _in_blocks(accessor.blocks)
-        return
-    if isinstance(declaration, (ast.Pou, ast.GlobalList)):
-        yield from _in_blocks(declaration.blocks)
-    if isinstance(declaration, (ast.Pou, ast.Interface)):
-        parts = [*declaration.methods, *declaration.properties]
-        for part in [*parts, *declaration.actions] if isinstance(declaration, ast.Pou) else parts:
-            yield from _of(part)
-
-
-def _in_blocks(blocks: list[ast.VarBlock]) -> Iterator[ast.VarDecl]:
-    for block in blocks:
-        yield from block.variables
