@@ -67,11 +67,27 @@ unknown:
 declare ptr @calloc(i64, i64)
 declare void @free(ptr)
 define ptr @tappet_allocate(i64 %count, i64 %size) {
-  %memory = call ptr @calloc(i64 %count, i64 %size)
+  %negative = icmp ugt i64 %count, 281474976710655
+  br i1 %negative, label %none, label %ask
+ask:
+  %more = add i64 %size, 15
+  %elements = udiv i64 %more, %size
+  %room = add i64 %count, %elements
+  %head = call ptr @calloc(i64 %room, i64 %size)
+  %failed = icmp eq ptr %head, null
+  br i1 %failed, label %none, label %got
+got:
+  store i64 %count, ptr %head
+  %second = getelementptr i8, ptr %head, i64 8
+  store i64 %size, ptr %second
+  %memory = getelementptr i8, ptr %head, i64 16
   ret ptr %memory
+none:
+  ret ptr null
 }
 define void @tappet_release(ptr %memory) {
-  call void @free(ptr %memory)
+  %head = getelementptr i8, ptr %memory, i64 -16
+  call void @free(ptr %head)
   ret void
 }
 define i64 @tappet_now_ns() {

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tappet.core import assign, initial, ir, places
+from tappet.core import assign, heap, ir, places
 from tappet.core.body import BUILTIN_PLACES, BUILTIN_STATEMENTS, BUILTIN_VALUES, Body
-from tappet.core.scalars import NULL, convert, require_scalar, scalar_of
+from tappet.core.scalars import NULL, convert, require_scalar
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol, VarSymbol
@@ -208,69 +208,7 @@ def _bound(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     return ir.Convert(ir.I32, limit)
 
 
-# -- memory and interfaces --------------------------------------------------------------------------
-
-
-def _new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
-    """Zeroed memory with initial values; 0 when there is none left (LOPR-100)."""
-    assert isinstance(symbol.return_type, t.Pointer)
-    type_ = symbol.return_type.base
-    assert type_ is not None
-    operands = arguments(e)
-    count: ir.Expr = ir.Const(ir.U64, 1)
-    several = len(operands) > 1
-    body: list[ir.Stmt] = []
-    if several:
-        length = b.temp(ir.U64)
-        body.append(ir.Store(ir.Place(length), convert(b.value(operands[1]), ir.U64)))
-        count = ir.Load(ir.U64, ir.Place(length))
-    b.program.module.externals.setdefault(
-        "tappet_allocate", ir.External("tappet_allocate", [ir.U64, ir.U64], ir.PTR)
-    )
-    pointer = b.temp(ir.PTR)
-    read = ir.Load(ir.PTR, ir.Place(pointer))
-    memory = ir.Call(ir.PTR, "tappet_allocate", [count, ir.Const(ir.U64, max(type_.size, 1))])
-    body.append(ir.Store(ir.Place(pointer), memory))
-    if isinstance(type_, t.FunctionBlock | t.Struct):
-        b.program.created[str(type_).upper()] = type_
-    if scalar_of(type_) is None:
-        made = operands[0] if isinstance(operands[0], ast.Call) else None
-        with b.block_of() as fill:
-            if several:
-                _initialise_elements(b, read, type_, count, made)
-            else:
-                initial.initialise_place(b, ir.Place(ir.Indirect(read)), type_, made)
-        body.append(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), fill, []))
-    b.program.expose(ir.Place(ir.Data("")), type_)
-    return ir.Sequence(ir.PTR, body, read)
-
-
-def _initialise_elements(
-    b: Body, start: ir.Expr, type_: t.Type, count: ir.Expr, made: ast.Expr | None
-) -> None:
-    """Initial values of `count` elements that follow each other from an address."""
-    counter = b.temp(ir.I64, once=False)
-    number = ir.Load(ir.I64, ir.Place(counter))
-    sub = ir.Subscript(number, 0, (1 << 62) - 1, type_.size, checked=False)
-    with b.block_of() as body:
-        initial.initialise_place(b, ir.Place(ir.Indirect(start), 0, (sub,)), type_, made)
-    last = ir.Binary(ir.I64, "sub", convert(count, ir.I64), ir.Const(ir.I64, 1))
-    b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
-
-
-def _delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
-    operand = arguments(e)[0]
-    assert isinstance(operand.type, t.Pointer)
-    place = places.freeze(b, b.place(operand), b.out)
-    b.touch(place)
-    b.program.module.externals.setdefault("tappet_release", ir.External("tappet_release", [ir.PTR]))
-    read = ir.Load(ir.PTR, place)
-    with b.block_of() as then:
-        if isinstance(operand.type.base, t.FunctionBlock):
-            initial.destruct(b, ir.Place(ir.Indirect(read)), operand.type.base)
-        b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
-        b.emit(ir.Store(place, NULL))
-    b.emit(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), then, []))
+# -- interfaces --------------------------------------------------------------------------------------
 
 
 def _query_interface(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
@@ -389,7 +327,7 @@ BUILTIN_VALUES.update(
         "LOWER_BOUND": _bound,
         "UPPER_BOUND": _bound,
         "__ISVALIDREF": _isvalidref,
-        "__NEW": _new,
+        "__NEW": heap.new,
         "__QUERYINTERFACE": _query_interface,
         "__QUERYPOINTER": _query_interface,
         "__CALL": _call_address,
@@ -412,7 +350,7 @@ BUILTIN_PLACES.update(
 )
 BUILTIN_STATEMENTS.update(
     {
-        "__DELETE": _delete,
+        "__DELETE": heap.delete,
         "__LONGJMP": _longjmp,
         "__MEMCPY": _memcpy,
         "__MEMSET": _memset,

@@ -181,8 +181,11 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
     b.session.complete(type_)
     if b.assigned is not e:
         b.report("E0519", e.span)
-    if isinstance(type_, t.FunctionBlock):
-        _check_dynamic(b, operand, type_)
+    made_of = type_
+    while isinstance(made_of, t.Array):
+        made_of = made_of.element
+    if isinstance(made_of, t.FunctionBlock):
+        _check_dynamic(b, operand, made_of)
     elif not isinstance(type_, (t.Struct, t.Array)) and length is None:
         b.report("E0520", e.span, type=type_)
     finish(e, name, [None, count][: len(e.args)], t.Pointer(type_))
