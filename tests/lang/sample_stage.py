@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tappet.codegen.build import BuildOptions, LibraryReference
 from tappet.codegen.check import check_application
@@ -17,6 +17,7 @@ from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.rules import CODING_RULES
 from tappet.lang.source import Scope, Source
+from tappet.project.library_reference import ParameterValue
 
 _OBJECT = re.compile(
     r"^\s*(?:\{[^}]*\}\s*)*"
@@ -53,7 +54,7 @@ class Stage:
 
     sources: list[Source] = field(default_factory=list)
     tasks: list[SampleTask] = field(default_factory=list)
-    references: list[str] = field(default_factory=list)
+    references: list[LibraryReference] = field(default_factory=list)
     static: bool = False
     build: bool = False
     configured: bool = False
@@ -94,7 +95,11 @@ def stage(text: str) -> Stage:
         elif word == "@language":
             language = rest[0]
         elif word == "@references":
-            made.references += rest
+            made.references += [LibraryReference(name) for name in rest]
+        elif word == "@given":
+            last = made.references[-1]
+            value = ParameterValue(rest[0], rest[1], " ".join(rest[2:]))
+            made.references[-1] = replace(last, parameters=(*last.parameters, value))
         elif word == "@static":
             made.static = True
         elif word == "@configured":
@@ -148,8 +153,8 @@ def diagnose(text: str) -> list[Diagnostic]:
     made = stage(text)
     static = StaticAnalysis(ALL_CODING_RULES if made.static else frozenset())
     if made.build or made.references:
-        libraries = tuple(LibraryReference(name) for name in made.references)
-        return check_application(made.sources, made.tasks, BuildOptions(libraries=libraries, static=static))
+        options = BuildOptions(libraries=tuple(made.references), static=static)
+        return check_application(made.sources, made.tasks, options)
     results = parse_sources(made.sources, ParseOptions())
     options = AnalysisOptions(static=static, free_addresses=not made.configured)
     with _frames_left(made.frames):

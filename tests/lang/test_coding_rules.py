@@ -117,7 +117,7 @@ def test_after_edits_of_declarations_as_well(edits: list[list[tuple[str, int]]])
 
 @pytest.mark.parametrize("name", sorted(libraries.names()))
 def test_libraries_give_no_warning(name: str) -> None:
-    found, _ = libraries.resolve([(name, "*", None), ("Conversion", "*", None)])
+    found, _ = libraries.resolve([LibraryReference(name), LibraryReference("Conversion")])
     sources = [
         replace(source, scope=Scope.APPLICATION if library.name == name else source.scope)
         for library in found
@@ -131,13 +131,8 @@ def test_example_project_gives_no_warning() -> None:
     project = folder.load(ROOT / "projects" / "bottling")
     for application in project.applications():
         sources = project_sources.application_sources(project, application.id)
-        references = project_sources.libraries(project, application.id)
-        options = BuildOptions(libraries=tuple(_reference(r) for r in references))
+        options = BuildOptions(libraries=tuple(project_sources.libraries(project, application.id)))
         assert [str(d) for d in check_application(sources, (), options) if d.severity == "warning"] == []
-
-
-def _reference(reference: LibraryReference) -> LibraryReference:
-    return LibraryReference(reference.name, reference.version, reference.namespace or None)
 
 
 def test_what_is_malformed_does_not_stop_the_analysis_of_the_rest() -> None:

@@ -92,7 +92,7 @@ def test_samples_with_some_words_changed(text: str, changes: list[tuple[int, str
 
 @pytest.mark.parametrize("name", sorted(libraries.names()))
 def test_libraries_as_own_code(name: str) -> None:
-    found, _ = libraries.resolve([(name, "*", None), ("Conversion", "*", None)])
+    found, _ = libraries.resolve([LibraryReference(name), LibraryReference("Conversion")])
     sources = [
         replace(source, scope=Scope.APPLICATION if library.name == name else source.scope)
         for library in found
@@ -105,10 +105,7 @@ def test_example_project() -> None:
     project = folder.load(ROOT / "projects" / "bottling")
     for application in project.applications():
         sources = project_sources.application_sources(project, application.id)
-        references = tuple(
-            LibraryReference(r.name, r.version, r.namespace or None)
-            for r in project_sources.libraries(project, application.id)
-        )
+        references = tuple(project_sources.libraries(project, application.id))
         options = BuildOptions(libraries=references, static=STATIC)
         found = check_application(sources, (), options)
         assert len({d.code for d in found} & ALL_CODING_RULES) > 10

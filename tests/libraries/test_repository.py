@@ -181,40 +181,40 @@ def test_the_application_resolves_a_placeholder_for_its_libraries() -> None:
     for version, step in (("1.0.0.0", "1"), ("2.0.0.0", "20")):
         resolved = LibraryReference("Plant", version, placeholder="Conveyors")
         assert _run(main, [LibraryReference("User"), resolved], ["u.n", "c.n"]) == [step, step]
-    _, problems = resolve([("User", "*", None)])
-    assert "'User' needs it: library 'Conveyors' is not installed" in problems[0]
+    _, problems = resolve([LibraryReference("User")])
+    assert "'User' needs it: library 'Conveyors' is not installed" in problems[0].message
 
 
 def test_two_versions_under_one_namespace_are_refused() -> None:
     install("Plant", "1.0.0.0")
     install("Plant", "2.0.0.0")
-    _, problems = resolve([("Plant", "1.0.0.0", None), ("Plant", "*", None)])
+    _, problems = resolve([LibraryReference("Plant", "1.0.0.0"), LibraryReference("Plant")])
     assert len(problems) == 1
-    assert "give one of them another namespace" in problems[0]
+    assert "give one of them another namespace" in problems[0].message
 
 
 def test_what_a_library_needs_comes_with_it() -> None:
     install("Base", "1.0.0.0")
     install("Base", "2.0.0.0")
     install("User", "1.0.0.0", requires=[{"name": "Base"}, {"name": "Standard"}])
-    found, problems = resolve([("User", "*", None)])
+    found, problems = resolve([LibraryReference("User")])
     assert [(x.name, x.version) for x in found][1:] == [
         ("Base", "2.0.0.0"),
         ("Standard", load("Standard").version),
     ]
     assert problems == []
-    found, problems = resolve([("Base", "1.0.0.0", None), ("User", "*", None)])
+    found, problems = resolve([LibraryReference("Base", "1.0.0.0"), LibraryReference("User")])
     assert [x.version for x in found if x.name == "Base"] == ["1.0.0.0"]
     install("Exact", "1.0.0.0", requires=[{"name": "Base", "version": "2.0.0.0"}])
-    found, problems = resolve([("Base", "1.0.0.0", None), ("Exact", "*", None)])
+    found, problems = resolve([LibraryReference("Base", "1.0.0.0"), LibraryReference("Exact")])
     assert problems == []
     assert [(x.version, x.namespace) for x in found if x.name == "Base"] == [
         ("1.0.0.0", "Base"),
         ("2.0.0.0", "Base_2_0_0_0"),
     ]
     install("Lost", "1.0.0.0", requires=[{"name": "Nowhere"}])
-    _, problems = resolve([("Lost", "*", None)])
-    assert problems[0].startswith("'Lost' needs it: library 'Nowhere' is not installed")
+    _, problems = resolve([LibraryReference("Lost")])
+    assert problems[0].message.startswith("'Lost' needs it: library 'Nowhere' is not installed")
 
 
 def test_a_library_file_comes_back_and_is_stable() -> None:

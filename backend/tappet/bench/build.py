@@ -13,6 +13,7 @@ from typing import Any
 
 from tappet.bench.report import Report, Row
 from tappet.lang.source import Source
+from tappet.project.library_reference import LibraryReference
 from tappet.project.sources import TaskDefinition
 from tappet.server.build_worker import BuildOrder, Compiler
 
@@ -99,7 +100,7 @@ def order(sources: list[Source], previous: bytes | None, cache: str) -> dict[str
             "Application",
             fields,
             (asdict(task),),
-            (("Standard", "*", "", None),),
+            (LibraryReference("Standard"),),
             previous,
             cache,
             {"rules": {}, "prefixes": {}, "limits": {}},

@@ -86,21 +86,12 @@ def project_applications(project: Project) -> list[ApplicationInput]:
             tuple(_task(task) for task in project_sources.tasks(project, application.id)),
             BuildOptions(
                 application.name,
-                libraries=_libraries(project, application.id),
+                libraries=tuple(project_sources.libraries(project, application.id)),
                 static=_static(project, application.id),
             ),
         )
         for application in project.applications()
     ]
-
-
-def _libraries(project: Project, application_id: str) -> tuple[LibraryReference, ...]:
-    return tuple(
-        LibraryReference(
-            reference.name, reference.version, reference.namespace or None, reference.placeholder
-        )
-        for reference in project_sources.libraries(project, application_id)
-    )
 
 
 def _static(project: Project, application_id: str) -> StaticAnalysis:

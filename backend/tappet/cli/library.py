@@ -12,14 +12,14 @@ import typer
 from tappet import libraries
 from tappet.cli.inputs import load_project
 from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
-from tappet.codegen.build import BuildOptions, LibraryReference
+from tappet.codegen.build import BuildOptions
 from tappet.codegen.check import check_application, format_diagnostic
 from tappet.lang.source import Source
 from tappet.libraries import archive
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.catalog import Item, Pin, items
 from tappet.project.errors import ProjectError
-from tappet.project.library_texts import library_requirements, library_texts, requirement
+from tappet.project.library_texts import library_requirements, library_texts, requirements
 
 app = typer.Typer(help="What the installed libraries offer.", no_args_is_help=True)
 
@@ -82,17 +82,14 @@ def save(
             namespace=namespace,
             company=company,
             description=project.description if description is None else description,
-            requires=[requirement(reference) for reference in needed],
+            requires=requirements(needed),
         )
     except (ProjectError, LibraryFileError) as error:
         raise UsageError(str(error)) from error
-    references = tuple(
-        LibraryReference(r.name, r.version, r.namespace or None, r.placeholder) for r in needed
-    )
     sources = [Source(f"{stem}.st", text, name=stem) for stem, text in texts.items()]
     errors = [
         diagnostic
-        for diagnostic in check_application(sources, (), BuildOptions(facts["name"], libraries=references))
+        for diagnostic in check_application(sources, (), BuildOptions(facts["name"], libraries=tuple(needed)))
         if diagnostic.severity == "error"
     ]
     for diagnostic in errors:
@@ -149,7 +146,7 @@ def _text(item: Item) -> str:
         ("VAR_INPUT", item.inputs),
         ("VAR_OUTPUT", item.outputs),
         ("VAR_IN_OUT", item.in_out),
-        ("STRUCT", item.members),
+        ("VAR_GLOBAL CONSTANT" if item.kind == "parameter_list" else "STRUCT", item.members),
     ):
         lines += _section(section, pins)
     for value in item.values:

@@ -32,17 +32,7 @@ from tappet.lang.parser import ParseResult
 from tappet.lang.room_for_trees import room_for_trees
 from tappet.lang.source import NOWHERE, Scope, Source, Span
 from tappet.lang.symbols import PouSymbol
-
-
-@dataclass(frozen=True, slots=True)
-class LibraryReference:
-    """A library an application uses."""
-
-    name: str
-    version: str = "*"
-    namespace: str | None = None
-    placeholder: str | None = None
-    """The name that libraries which need it know it by, where that is another one."""
+from tappet.project.library_reference import LibraryReference
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,9 +239,8 @@ class _Build:
 
     def library_sources(self) -> list[Source]:
         """Texts of the libraries in use, of those they need and of the conversion library."""
-        wanted = [(r.name, r.version, r.namespace, r.placeholder) for r in self.options.libraries]
-        found, problems = installed.resolve([*wanted, (CONVERSION_LIBRARY, "*", None)])
-        self.result.diagnostics += [report("E0902", "", NOWHERE, message=text) for text in problems]
+        found, problems = installed.resolve([*self.options.libraries, LibraryReference(CONVERSION_LIBRARY)])
+        self.result.diagnostics += problems
         return [source for library in found for source in library.sources]
 
     def generate(self, analysis: Analysis, specs: list[TaskSpec]) -> None:

@@ -30,7 +30,7 @@ def text_digest(source: Source) -> bytes:
     if "*)" in text:  # nested comments: count all of it
         text = source.text
     place = (source.uri, source.scope, source.owner, source.name, source.library, source.namespace)
-    head = repr((*place, source.uses, source.private, source.body_line, source.language))
+    head = repr((*place, source.uses, source.private, source.body_line, source.language, source.given))
     return hashlib.blake2b(f"{head}\n{text}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
 
 

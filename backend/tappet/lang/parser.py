@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from tappet.lang import ast
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed, lex
+from tappet.lang.parameter_lists import take_given_values
 from tappet.lang.parser_declarations import Parser
 from tappet.lang.source import Source, Span
 
@@ -41,7 +42,7 @@ def parse_tokens(source: Source, lexed: Lexed, inactive: tuple[Span, ...] = ()) 
     unit = parser.unit()
     found = lexed.diagnostics + parser.diagnostics
     found.sort(key=_place)
-    return ParseResult(unit, found, inactive)
+    return ParseResult(unit, found + take_given_values(unit), inactive)
 
 
 def parse_expression(text: str, uri: str = "") -> tuple[ast.Expr, list[Diagnostic]]:

@@ -17,6 +17,18 @@ class Scope(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class GivenValue:
+    """The value that a library reference gives to a parameter of the list that a text declares."""
+
+    name: str
+    """The parameter."""
+    value: str
+    """An expression as written."""
+    place: str
+    """Where it stands, for messages: the path of the library manager."""
+
+
+@dataclass(frozen=True, slots=True)
 class Source:
     """One text the compiler reads: a whole POU, DUT, GVL, or a method, property or action of a POU.
 
@@ -43,6 +55,8 @@ class Source:
     """Libraries that the text's library needs: the name it gives to one, and the namespace that is here."""
     private: bool = False
     """Only libraries that use this one see it: the application has another version of it."""
+    given: tuple[GivenValue, ...] = ()
+    """Values that the reference to the library gives to parameters of this list, in place of its own."""
 
 
 class Span(NamedTuple):
@@ -67,6 +81,16 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 def split_lines(text: str) -> list[str]:
     """The lines of a text as spans count them: without the rarer line ends that `str.splitlines` knows."""
     return _LINE_END.split(text)
+
+
+def text_at(source: Source, span: Span) -> str:
+    """The text of a span on one line, with single spaces."""
+    lines = split_lines(source.text)[span.line : span.end_line + 1]
+    if not lines:
+        return ""
+    lines[-1] = lines[-1][: span.end_column]
+    lines[0] = lines[0][span.column :]
+    return " ".join(" ".join(lines).split())
 
 
 NOWHERE = Span(0, 0, 0, 0)

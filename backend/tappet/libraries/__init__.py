@@ -1,22 +1,24 @@
 """The IEC libraries, those of the product and those installed besides, written in ST, and their loader.
 
 One folder a library: `library.json` and one `.st` file a POU. May import lang. Start with `load`;
-`repository` finds versions and placeholders, `archive` installs libraries.
+`repository` finds versions and placeholders, `parameters` gives values, `archive` installs libraries.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
-from tappet.lang.source import Scope, Source
+from tappet.lang.diagnostics import Diagnostic, report
+from tappet.lang.source import NOWHERE, Scope, Source
 from tappet.libraries import repository
+from tappet.libraries.parameters import Given, with_values
 from tappet.libraries.repository import NEWEST, ROOT, Installed, Requirement, UnknownLibraryError
+from tappet.project.library_reference import LibraryReference
 
 APPLICATION = "the application"
-Reference = tuple[str, str, str | None] | tuple[str, str, str | None, str | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,14 +71,15 @@ def as_called(name: str, texts: Iterable[str]) -> str:
     return item.name
 
 
-def resolve(references: Iterable[Reference]) -> tuple[list[Library], list[str]]:
+def resolve(references: Iterable[LibraryReference]) -> tuple[list[Library], list[Diagnostic]]:
     """The libraries of an application and what they need, each once (LIB-05).
 
-    A reference is name, version, namespace or None for the usual one, and the name of the placeholder that it
-    resolves, if it is one: a library that needs the placeholder gets this library. `*` in a requirement means
+    A library that needs a placeholder gets the one whose reference resolves it. `*` in a requirement means
     the version that the application refers to, else the newest one. A version besides the one of the
-    application is private: only what needs it sees it. The second part says what is missing, and where the
-    application gives two libraries one namespace.
+    application is private: only what needs it sees it. Parameters have the values of the application's
+    references; those it gives none, the values that other libraries ask for, the first one that does.
+    The second part says what is missing, where the application gives two libraries one namespace, and which
+    values are for no parameter.
     """
     return _Resolution(list(references)).outcome()
 
@@ -89,47 +92,63 @@ class _Used:
     space: str
     user: str
     private: bool = False
+    place: str = ""
+    """Path of the library manager whose reference brings it in."""
     uses: list[tuple[str, str]] = field(default_factory=list)
+    given: list[Given] = field(default_factory=list)
+    """Values for its parameters."""
 
 
 class _Resolution:
     """Finds each library that is needed, once; the first that takes a namespace has it."""
 
-    def __init__(self, references: Iterable[Reference]) -> None:
-        self.problems: list[str] = []
+    def __init__(self, references: Iterable[LibraryReference]) -> None:
+        self.problems: list[Diagnostic] = []
         self._found: dict[str, _Used] = {}
         self._placeholders: dict[str, _Used] = {}
         for reference in references:
-            self._refer(*reference)
+            self._refer(reference)
 
-    def outcome(self) -> tuple[list[Library], list[str]]:
+    def outcome(self) -> tuple[list[Library], list[Diagnostic]]:
         done = 0
         while done < len(self._found):
             used = list(self._found.values())[done]
             done += 1
             for required in used.item.requires:
                 self._require(used, required)
-        libraries = [
-            _load(used.item, used.space, _label(used.item), tuple(used.uses), used.private)
-            for used in self._found.values()
-        ]
-        return libraries, self.problems
+        return [self._loaded(used) for used in self._found.values()], self.problems
 
-    def _refer(self, name: str, version: str, namespace: str | None, placeholder: str | None = None) -> None:
+    def _loaded(self, used: _Used) -> Library:
+        library = _load(used.item, used.space, _label(used.item), tuple(used.uses), used.private)
+        if not used.given:
+            return library
+        sources, unknown = with_values(library.sources, used.given, library.name)
+        self.problems += unknown
+        return replace(library, sources=sources)
+
+    def _problem(self, place: str, message: str) -> None:
+        self.problems.append(report("E0902", place, NOWHERE, message=message))
+
+    def _refer(self, reference: LibraryReference) -> None:
         """A reference of the application."""
+        place = reference.place
         try:
-            item = repository.find(name, version)
+            item = repository.find(reference.name, reference.version)
         except UnknownLibraryError as error:
-            self.problems.append(str(error))
+            self._problem(place, str(error))
             return
-        space = namespace or repository.namespace_of(item, placeholder or name)
-        known = self._found.setdefault(space.upper(), _Used(item, space, APPLICATION))
+        placeholder = reference.placeholder
+        space = reference.namespace or repository.namespace_of(item, placeholder or reference.name)
+        known = self._found.setdefault(space.upper(), _Used(item, space, APPLICATION, place=place))
         if known.item != item:
-            self.problems.append(
+            self._problem(
+                place,
                 f"{known.user} uses '{known.item.name}' {known.item.version} and {APPLICATION} '{item.name}' "
-                f"{item.version} under the namespace '{space}'; give one of them another namespace"
+                f"{item.version} under the namespace '{space}'; give one of them another namespace",
             )
-        elif placeholder:
+            return
+        known.given += [Given(parameter, place) for parameter in reference.parameters]
+        if placeholder:
             self._placeholders.setdefault(placeholder.upper(), known)
 
     def _require(self, user: _Used, required: Requirement) -> None:
@@ -138,7 +157,7 @@ class _Resolution:
         try:
             item = resolved.item if resolved else repository.find(required.name, required.version)
         except UnknownLibraryError as error:
-            self.problems.append(f"'{user.item.name}' needs it: {error}")
+            self._problem(user.place, f"'{user.item.name}' needs it: {error}")
             return
         same = [used for used in self._found.values() if used.item.name.upper() == item.name.upper()]
         wanted = required.namespace or repository.namespace_of(item, required.name)
@@ -146,11 +165,12 @@ class _Resolution:
             (used for used in same if required.version == NEWEST or used.item.version == item.version), None
         )
         if there is None:
-            there = self._beside(item, wanted, f"'{user.item.name}'", private=bool(same))
+            there = self._beside(item, wanted, user, private=bool(same))
+        there.given += [Given(parameter, user.place) for parameter in required.parameters]
         if there is not user and (wanted, there.space) not in user.uses:
             user.uses.append((wanted, there.space))
 
-    def _beside(self, item: Installed, wanted: str, user: str, *, private: bool) -> _Used:
+    def _beside(self, item: Installed, wanted: str, user: _Used, *, private: bool) -> _Used:
         private = private or wanted.upper() in self._found
         space = wanted
         if private:
@@ -158,7 +178,8 @@ class _Resolution:
             space = f"{wanted}_{version}"
             while space.upper() in self._found:
                 space += "_"
-        return self._found.setdefault(space.upper(), _Used(item, space, user, private))
+        used = _Used(item, space, f"'{user.item.name}'", private, user.place)
+        return self._found.setdefault(space.upper(), used)
 
 
 def _label(item: Installed) -> str:

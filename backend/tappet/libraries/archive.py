@@ -43,7 +43,7 @@ def manifest(
     namespace: str = "",
     company: str = "",
     description: str = "",
-    requires: list[dict[str, str]] | None = None,
+    requires: list[dict[str, Any]] | None = None,
 ) -> dict[str, Any]:
     """The content of `library.json`; raises LibraryFileError for a name or version that cannot be one."""
     facts = {
@@ -171,3 +171,14 @@ def _check_manifest(facts: Mapping[str, Any]) -> None:
     requires = facts.get("requires", [])
     if not isinstance(requires, list) or not all(isinstance(r, dict) and "name" in r for r in requires):
         raise LibraryFileError("'requires' has to be a list of objects with a name")
+    for required in requires:
+        _check_parameters(required.get("parameters", []))
+
+
+def _check_parameters(parameters: object) -> None:
+    """The values that a library asks for in one that it needs."""
+    if not isinstance(parameters, list) or not all(
+        isinstance(one, dict) and isinstance(one.get("name"), str) and isinstance(one.get("value"), str)
+        for one in parameters
+    ):
+        raise LibraryFileError("'parameters' of 'requires' has to be a list of objects with name and value")

@@ -1,16 +1,20 @@
-"""What a library offers: its POUs and types with pins, types, defaults and comments, read off the sources.
+"""What a library offers: its POUs, types and parameter lists, read off the sources.
 
-The shape of an item is that of the specification's catalogs.
+An item has pins, types, defaults and comments, in the shape of the specification's catalogs.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from tappet.lang import ast
+from tappet.lang.parameter_lists import ATTRIBUTE, is_parameter_list, parameters
 from tappet.lang.parser import parse
-from tappet.lang.source import Source, Span
-from tappet.libraries import Library
+from tappet.lang.source import Source, text_at
+
+if TYPE_CHECKING:
+    from tappet.libraries import Library
 
 KINDS = {"PROGRAM": "program", "FUNCTION": "function", "FUNCTION_BLOCK": "function_block", "METHOD": "method"}
 
@@ -40,7 +44,7 @@ class Item:
 
     name: str
     kind: str
-    """function, function_block, program, struct, union, enum, alias or interface."""
+    """function, function_block, program, struct, union, enum, alias, interface or parameter_list."""
     summary: str
     inputs: tuple[Pin, ...] = ()
     outputs: tuple[Pin, ...] = ()
@@ -55,6 +59,7 @@ def items(library: Library) -> list[Item]:
     """Everything the library declares, by name."""
     found: list[Item] = []
     for source in library.sources:
+        found += parameter_lists(source)
         for declaration in parse(source).unit.declarations:
             if isinstance(declaration, ast.Pou):
                 found.append(_pou(source, declaration))
@@ -66,6 +71,22 @@ def items(library: Library) -> list[Item]:
     return sorted(found, key=lambda item: item.name.upper())
 
 
+def parameter_lists(source: Source) -> list[Item]:
+    """The parameter lists in a text of a library, with the values of the library as defaults."""
+    if ATTRIBUTE not in source.text.lower():
+        return []
+    return [
+        Item(
+            declaration.name,
+            "parameter_list",
+            declaration.comment,
+            members=tuple(_pin(source, parameter) for parameter in parameters(declaration)),
+        )
+        for declaration in parse(source).unit.declarations
+        if isinstance(declaration, ast.GlobalList) and is_parameter_list(declaration)
+    ]
+
+
 def _pou(source: Source, pou: ast.Pou) -> Item:
     return Item(
         name=pou.name,
@@ -74,7 +95,7 @@ def _pou(source: Source, pou: ast.Pou) -> Item:
         inputs=_pins(source, pou, "VAR_INPUT"),
         outputs=_pins(source, pou, "VAR_OUTPUT"),
         in_out=_pins(source, pou, "VAR_IN_OUT"),
-        returns=text_of(source, pou.return_type.span) if pou.return_type else None,
+        returns=text_at(source, pou.return_type.span) if pou.return_type else None,
         methods=tuple(_pou(source, method) for method in pou.methods),
     )
 
@@ -84,8 +105,8 @@ def _pins(source: Source, pou: ast.Pou, section: str) -> tuple[Pin, ...]:
 
 
 def _pin(source: Source, variable: ast.VarDecl) -> Pin:
-    default = text_of(source, variable.initial.span) if variable.initial else ""
-    return Pin(variable.name, text_of(source, variable.type_ref.span), default, variable.comment)
+    default = text_at(source, variable.initial.span) if variable.initial else ""
+    return Pin(variable.name, text_at(source, variable.type_ref.span), default, variable.comment)
 
 
 def _type(source: Source, declaration: ast.TypeDecl) -> Item:
@@ -96,18 +117,8 @@ def _type(source: Source, declaration: ast.TypeDecl) -> Item:
         return Item(declaration.name, kind, declaration.comment, members=members)
     if isinstance(reference, ast.EnumType):
         values = tuple(
-            NamedValue(value.name, text_of(source, value.value.span) if value.value else "", value.comment)
+            NamedValue(value.name, text_at(source, value.value.span) if value.value else "", value.comment)
             for value in reference.values
         )
         return Item(declaration.name, "enum", declaration.comment, values=values, returns=reference.base)
-    return Item(declaration.name, "alias", declaration.comment, returns=text_of(source, reference.span))
-
-
-def text_of(source: Source, span: Span) -> str:
-    """The text of a span on one line, with single spaces."""
-    lines = source.text.split("\n")[span.line : span.end_line + 1]
-    if not lines:
-        return ""
-    lines[-1] = lines[-1][: span.end_column]
-    lines[0] = lines[0][span.column :]
-    return " ".join(" ".join(lines).split())
+    return Item(declaration.name, "alias", declaration.comment, returns=text_at(source, reference.span))

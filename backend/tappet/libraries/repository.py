@@ -9,11 +9,13 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
+
+from tappet.project.library_reference import ParameterValue
 
 ROOT = Path(__file__).resolve().parent
 """The libraries that come with the product."""
@@ -45,6 +47,8 @@ class Requirement:
     name: str
     version: str = NEWEST
     namespace: str = ""
+    parameters: tuple[ParameterValue, ...] = ()
+    """Values of its parameters that the library asks for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +159,18 @@ def _in(location: Path, *, removable: bool) -> Iterator[Installed]:
                 continue  # half removed, or not ours: what is listed can be loaded
 
 
+def _requirement(facts: Mapping[str, Any]) -> Requirement:
+    return Requirement(
+        str(facts["name"]),
+        str(facts.get("version", NEWEST)),
+        str(facts.get("namespace", "")),
+        tuple(
+            ParameterValue(str(one.get("list", "")), str(one["name"]), str(one["value"]))
+            for one in facts.get("parameters", ())
+        ),
+    )
+
+
 @lru_cache(maxsize=512)
 def _read(path: Path, stamp: int, removable: bool) -> Installed:
     facts: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
@@ -167,10 +183,7 @@ def _read(path: Path, stamp: int, removable: bool) -> Installed:
         description=str(facts.get("description", "")),
         internal=bool(facts.get("internal", False)),
         stands_for=tuple(designation(text) for text in facts.get("stands_for", ())),
-        requires=tuple(
-            Requirement(str(r["name"]), str(r.get("version", NEWEST)), str(r.get("namespace", "")))
-            for r in facts.get("requires", ())
-        ),
+        requires=tuple(_requirement(required) for required in facts.get("requires", ())),
         removable=removable,
         stamp=stamp,
     )

@@ -191,7 +191,17 @@ class TaskData(Data):
         return self
 
 
-class LibraryReference(Data):
+class LibraryParameterData(Data):
+    """A value that a library reference gives to a parameter of the library, in place of the library's own."""
+
+    list: Line = Field(
+        default="", description="The parameter list; empty: the parameter is known by its name alone."
+    )
+    name: Line = Field(min_length=1)
+    value: Line = Field(min_length=1, description="A constant expression of the type of the parameter.")
+
+
+class LibraryReferenceData(Data):
     """A library that an application uses (LIB-02, LIB-08)."""
 
     name: Line = Field(min_length=1, description="The library; of a placeholder, what it is resolved by.")
@@ -206,12 +216,28 @@ class LibraryReference(Data):
     namespace: Line = Field(
         default="", description="Prefix of the library's names; empty means its own namespace."
     )
+    parameters: tuple[LibraryParameterData, ...] = Field(
+        default=(),
+        description="Parameters of the library that have another value here.",
+        exclude_if=lambda parameters: not parameters,
+    )
+
+    @model_validator(mode="after")
+    def _one_value_each(self) -> LibraryReferenceData:
+        seen = set()
+        for parameter in self.parameters:
+            key = (parameter.list.upper(), parameter.name.upper())
+            if key in seen:
+                name = f"{parameter.list}.{parameter.name}".strip(".")
+                raise ValueError(f"the parameter '{name}' of '{self.name}' has two values; one holds")
+            seen.add(key)
+        return self
 
 
 class LibraryManagerData(Data):
     """The libraries of one application or of the POUs view."""
 
-    references: tuple[LibraryReference, ...] = ()
+    references: tuple[LibraryReferenceData, ...] = ()
 
 
 class UnknownData(BaseModel):

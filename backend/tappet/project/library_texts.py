@@ -6,15 +6,18 @@ call them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict
+from typing import Any
 
-from tappet.project.data import LibraryManagerData, LibraryReference
+from tappet.project.data import LibraryManagerData
 from tappet.project.declaration_text import subkind_of
 from tappet.project.errors import ProjectError
+from tappet.project.library_reference import LibraryReference
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of
-from tappet.project.sources import SourceText, libraries, source_of
+from tappet.project.sources import SourceText, libraries, references_of, source_of
 
 KINDS = frozenset(["pou", "interface", "dut", "gvl"])
 
@@ -59,15 +62,31 @@ def library_requirements(project: Project) -> list[LibraryReference]:
         found += libraries(project, application.id)
     for item in project.children(None):
         if isinstance(item.data, LibraryManagerData):
-            found += item.data.references
+            found += references_of(project, item)
     return list(dict.fromkeys(found))
 
 
-def requirement(reference: LibraryReference) -> dict[str, str]:
-    """How a library says that it needs another one: a placeholder is resolved by who uses the library."""
-    if reference.placeholder is not None:
-        return {"name": reference.placeholder, "version": "*", "namespace": reference.namespace}
-    return {"name": reference.name, "version": reference.version, "namespace": reference.namespace}
+def requirements(references: Iterable[LibraryReference]) -> list[dict[str, Any]]:
+    """How a library says that it needs others, each once."""
+    found: list[dict[str, Any]] = []
+    for reference in references:
+        required = _requirement(reference)
+        if required not in found:
+            found.append(required)
+    return found
+
+
+def _requirement(reference: LibraryReference) -> dict[str, Any]:
+    """A placeholder is resolved by who uses the library."""
+    is_placeholder = reference.placeholder is not None
+    facts: dict[str, Any] = {
+        "name": reference.placeholder if is_placeholder else reference.name,
+        "version": "*" if is_placeholder else reference.version,
+        "namespace": reference.namespace or "",
+    }
+    if reference.parameters:
+        facts["parameters"] = [asdict(parameter) for parameter in reference.parameters]
+    return facts
 
 
 def _objects(project: Project) -> Iterator[ProjectObject]:

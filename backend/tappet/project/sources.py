@@ -19,13 +19,14 @@ from tappet.project.data import (
     BodyData,
     DeclarationData,
     LibraryManagerData,
-    LibraryReference,
+    LibraryReferenceData,
     StaticAnalysisData,
     TaskData,
 )
 from tappet.project.declaration_text import end_keyword
 from tappet.project.durations import duration_ns
 from tappet.project.errors import UnknownObjectError
+from tappet.project.library_reference import LibraryReference, ParameterValue
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of, owner_of
@@ -158,10 +159,22 @@ def libraries(project: Project, application_id: str) -> list[LibraryReference]:
     found: list[LibraryReference] = []
     for owner in (*_with_parents(project, application_id), None):
         known = {name_key(reference.name) for reference in found}
-        for item in project.children(owner.id if owner else None):
-            if isinstance(item.data, LibraryManagerData):
-                found += [r for r in item.data.references if name_key(r.name) not in known]
+        for manager in _library_managers(project, owner):
+            found += [r for r in references_of(project, manager) if name_key(r.name) not in known]
     return found
+
+
+def library_managers(project: Project, application_id: str) -> list[ProjectObject]:
+    """The objects that `libraries` comes from."""
+    owners = (*_with_parents(project, application_id), None)
+    return [manager for owner in owners for manager in _library_managers(project, owner)]
+
+
+def references_of(project: Project, manager: ProjectObject) -> list[LibraryReference]:
+    """The references of a library manager as a build takes them."""
+    assert isinstance(manager.data, LibraryManagerData)
+    place = project.path_of(manager.id)
+    return [_reference(reference, place) for reference in manager.data.references]
 
 
 def static_analysis(project: Project, application_id: str) -> StaticAnalysisData:
@@ -195,6 +208,22 @@ def _with_parents(project: Project, application_id: str) -> list[ProjectObject]:
     application = _application(project, application_id)
     above = [item for item in project.ancestors(application_id) if item.kind == "application"]
     return [application, *above]
+
+
+def _library_managers(project: Project, owner: ProjectObject | None) -> list[ProjectObject]:
+    below = project.children(owner.id if owner else None)
+    return [item for item in below if isinstance(item.data, LibraryManagerData)]
+
+
+def _reference(data: LibraryReferenceData, place: str) -> LibraryReference:
+    return LibraryReference(
+        name=data.name,
+        version=data.version,
+        namespace=data.namespace or None,
+        placeholder=data.placeholder,
+        parameters=tuple(ParameterValue(one.list, one.name, one.value) for one in data.parameters),
+        place=place,
+    )
 
 
 def _texts(

@@ -10,7 +10,7 @@ from tappet.project.data import (
     DeclarationData,
     DeviceData,
     LibraryManagerData,
-    LibraryReference,
+    LibraryReferenceData,
     MethodData,
     NoData,
     PouData,
@@ -41,7 +41,7 @@ _DECLARATIONS = {
     "persistent": "VAR_GLOBAL PERSISTENT RETAIN\nEND_VAR",
 }
 
-DEFAULT_LIBRARIES = (LibraryReference(name="Standard"),)
+DEFAULT_LIBRARIES = (LibraryReferenceData(name="Standard"),)
 """Libraries of a new application (PRJ-04)."""
 
 DEFAULT_DEVICE = "Tappet Soft PLC"

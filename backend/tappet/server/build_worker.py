@@ -21,11 +21,12 @@ from typing import Any, BinaryIO
 
 import msgpack
 
-from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
+from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.codegen.package import CodePackage
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Scope, Source
+from tappet.project.library_reference import LibraryReference
 from tappet.project.sources import TaskDefinition, WatchdogDefinition
 
 LENGTH = struct.Struct("<Q")
@@ -53,8 +54,7 @@ class BuildOrder:
     """Fields of `lang.source.Source`."""
     tasks: tuple[dict[str, Any], ...]
     """Fields of `project.sources.TaskDefinition`."""
-    libraries: tuple[tuple[str, str, str, str | None], ...]
-    """Name, version, namespace or '', placeholder."""
+    libraries: tuple[LibraryReference, ...]
     previous: bytes | None
     """Package that runs now; unchanged data keep their places."""
     cache: str
@@ -113,9 +113,7 @@ class Compiler:
         static = order["static"]
         options = BuildOptions(
             application=order["application"],
-            libraries=tuple(
-                LibraryReference(n, v, space or None, holder) for n, v, space, holder in order["libraries"]
-            ),
+            libraries=tuple(LibraryReference.of(fields) for fields in order["libraries"]),
             cache=Path(order["cache"]),
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
             check_only=order["check_only"],

@@ -7,7 +7,7 @@ import hashlib
 import logging
 import sys
 from collections import OrderedDict
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -16,7 +16,8 @@ from typing import Any
 import msgpack
 
 from tappet.project import sources as texts
-from tappet.project.data import NO_RULES, LibraryReference, StaticAnalysisData
+from tappet.project.data import NO_RULES, StaticAnalysisData
+from tappet.project.library_reference import LibraryReference
 from tappet.project.library_texts import library_requirements, library_sources
 from tappet.project.model import Project
 from tappet.project.sources import SourceText, TaskDefinition
@@ -36,15 +37,6 @@ class BuildCrashedError(RuntimeError):
     """The compiler process died or failed; a fault of the product, not of the program."""
 
 
-LibraryParts = tuple[str, str, str, str | None]
-"""Name, version, namespace or '', placeholder of a library reference."""
-
-
-def references(found: Iterable[LibraryReference]) -> tuple[LibraryParts, ...]:
-    """Library references as a build takes them."""
-    return tuple((r.name, r.version, r.namespace, r.placeholder) for r in found)
-
-
 @dataclass(frozen=True, slots=True)
 class Application:
     """An application of a project as it is to be built: its texts, tasks and libraries."""
@@ -54,9 +46,9 @@ class Application:
     name: str
     sources: tuple[SourceText, ...]
     tasks: tuple[TaskDefinition, ...]
-    libraries: tuple[LibraryParts, ...]
+    libraries: tuple[LibraryReference, ...]
     paths: dict[str, str]
-    """Path in the tree of each object with code, by id."""
+    """Path in the tree of each object that messages are about, by id."""
     static: StaticAnalysisData = NO_RULES
     """The coding rules that are checked."""
 
@@ -67,13 +59,14 @@ class Application:
         tasks = tuple(texts.tasks(project, application_id))
         ids = {segment.object_id for source in found for segment in source.segments}
         ids |= {task.object_id for task in tasks if task.object_id} | {application_id}
+        ids |= {manager.id for manager in texts.library_managers(project, application_id)}
         return cls(
             project_id,
             application_id,
             project.get(application_id).name,
             found,
             tasks,
-            references(texts.libraries(project, application_id)),
+            tuple(texts.libraries(project, application_id)),
             {id: project.path_of(id) for id in ids},
             texts.static_analysis(project, application_id),
         )
@@ -89,7 +82,7 @@ class Application:
             project.name,
             found,
             (),
-            references(library_requirements(project)),
+            tuple(library_requirements(project)),
             {id: project.path_of(id) for id in ids} | {"": project.name},
         )
 
@@ -372,10 +365,12 @@ def _placed(application: Application, by_uri: dict[str, SourceText], item: dict[
 
 
 def _place_without_text(application: Application, item: dict[str, Any]) -> dict[str, Any]:
-    """A task that the message names, a library text, or the application as a whole."""
-    object_id: str | None = None
+    """A task that the message names, a library manager, a library text, or the application as a whole."""
     path = item["uri"]
-    if not path:
+    object_id = next((id for id, known in application.paths.items() if path and known == path), None)
+    if object_id is not None:
+        item = item | {"uri": ""}  # lines are those of texts
+    elif not path:
         object_id = next(
             (t.object_id for t in application.tasks if t.object_id and f"'{t.name}'" in item["message"]),
             application.application_id,

@@ -14,7 +14,7 @@ from tappet import libraries
 from tappet.libraries import Library, UnknownLibraryError, archive, catalog, repository
 from tappet.libraries.archive import LibraryFileError
 from tappet.project.errors import ProjectError
-from tappet.project.library_texts import library_requirements, library_texts, requirement
+from tappet.project.library_texts import library_requirements, library_texts, requirements
 from tappet.server import audit
 from tappet.server.audit import Act
 from tappet.server.auth.identity import Identity
@@ -60,7 +60,7 @@ def _summary(library: Library) -> LibrarySummary:
         description=library.description,
         removable=library.removable,
         requires=[
-            RequiredLibrary(name=r.name, version=r.version, namespace=r.namespace) for r in library.requires
+            RequiredLibrary.model_validate(required, from_attributes=True) for required in library.requires
         ],
         stands_for=list(library.stands_for),
     )
@@ -158,7 +158,7 @@ async def save_as_library(
             namespace=body.namespace,
             company=body.company,
             description=body.description or project.description,
-            requires=[requirement(reference) for reference in library_requirements(project)],
+            requires=requirements(library_requirements(project)),
         )
         report = await commissioning.builder.check(Application.library(project_id, project))
         if not report.ok:

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Sequence
 from contextlib import suppress
 
-from tappet.codegen.build import BuildOptions, LibraryReference, as_source
+from tappet.codegen.build import BuildOptions, as_source
 from tappet.codegen.package import TaskSpec
 from tappet.runtime.unit_tests import process
 from tappet.runtime.unit_tests.attempts import Attempts
@@ -95,12 +95,9 @@ class _Runner:
 
 
 def _order(application: Application, test_filter: str, only: Sequence[str]) -> bytes:
-    libraries = tuple(
-        LibraryReference(n, v, space or None, holder) for n, v, space, holder in application.libraries
-    )
     tasks = [TaskSpec(t.name, interval_ns=t.interval_ns, programs=t.programs) for t in application.tasks]
     sources = [as_source(text) for text in application.sources]
-    options = BuildOptions(application.name, libraries=libraries)
+    options = BuildOptions(application.name, libraries=application.libraries)
     return process.order(sources, tasks, options, test_filter=test_filter, only=only)
 
 

@@ -2703,7 +2703,7 @@ export interface components {
             inputs: components["schemas"]["Pin"][];
             /**
              * Kind
-             * @description function, function_block, program, struct, union, enum, alias, interface.
+             * @description program, function, function_block, struct, union, enum, alias, interface, parameter_list.
              */
             kind: string;
             /** Members */
@@ -2730,7 +2730,7 @@ export interface components {
              * References
              * @default []
              */
-            references: components["schemas"]["LibraryReference"][];
+            references: components["schemas"]["LibraryReferenceData"][];
         };
         /**
          * LibraryManagerObject
@@ -2776,10 +2776,29 @@ export interface components {
             revision: number;
         };
         /**
-         * LibraryReference
+         * LibraryParameterData
+         * @description A value that a library reference gives to a parameter of the library, in place of the library's own.
+         */
+        LibraryParameterData: {
+            /**
+             * List
+             * @description The parameter list; empty: the parameter is known by its name alone.
+             * @default
+             */
+            list: string;
+            /** Name */
+            name: string;
+            /**
+             * Value
+             * @description A constant expression of the type of the parameter.
+             */
+            value: string;
+        };
+        /**
+         * LibraryReferenceData
          * @description A library that an application uses (LIB-02, LIB-08).
          */
-        LibraryReference: {
+        LibraryReferenceData: {
             /**
              * Name
              * @description The library; of a placeholder, what it is resolved by.
@@ -2791,6 +2810,12 @@ export interface components {
              * @default
              */
             namespace: string;
+            /**
+             * Parameters
+             * @description Parameters of the library that have another value here.
+             * @default []
+             */
+            parameters: components["schemas"]["LibraryParameterData"][];
             /**
              * Placeholder
              * @description Name of the placeholder: libraries that ask for it get this library.
@@ -3351,6 +3376,21 @@ export interface components {
         };
         OnlineServerMessage: components["schemas"]["Subscribed"] | components["schemas"]["StateChanged"] | components["schemas"]["ForcesChanged"] | components["schemas"]["OnlineError"];
         /**
+         * ParameterValue
+         * @description A value that a library asks for in one that it needs.
+         */
+        ParameterValue: {
+            /**
+             * List
+             * @description The parameter list; empty: the parameter is known by its name alone.
+             */
+            list: string;
+            /** Name */
+            name: string;
+            /** Value */
+            value: string;
+        };
+        /**
          * Part
          * @description Which text of an object.
          * @enum {string}
@@ -3797,6 +3837,11 @@ export interface components {
              * @description Prefix of its names there; empty: its own.
              */
             namespace: string;
+            /**
+             * Parameters
+             * @description Values that it asks for.
+             */
+            parameters: components["schemas"]["ParameterValue"][];
             /**
              * Version
              * @description A version, or * for the one that the application refers to.

@@ -40,7 +40,11 @@ export interface TextData {
 export type TaskData = Schemas['TaskData'];
 export type TaskType = TaskData['type'];
 export type TaskPou = Schemas['ProgramCall'];
-export type LibraryReference = Omit<Schemas['LibraryReference'], 'placeholder'> & { placeholder?: string | null };
+export type LibraryParameter = Schemas['LibraryParameterData'];
+export type LibraryReference = Omit<Schemas['LibraryReferenceData'], 'placeholder' | 'parameters'> & {
+  placeholder?: string | null;
+  parameters?: LibraryParameter[];
+};
 export interface LibraryManagerData {
   references: LibraryReference[];
 }

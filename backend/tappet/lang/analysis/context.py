@@ -89,6 +89,8 @@ class Session:
     """Whether an aggregate `(a := 1)` has been met."""
     declared: dict[str, Record] = field(default_factory=dict)
     """What the declarations of each text have named, by its uri."""
+    values_of_project: bool = False
+    """Whether a value for a parameter of a library names what the project declares."""
     accounted: str | None = None
     """Text whose declarations name what is named now."""
     made: dict[str, dict[Key, Any]] = field(default_factory=dict)

@@ -13,6 +13,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import addresses, folding, layout
 from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.given_values import initialise_parameter
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.type_references import DEPTH_LIMIT, TypeReferences
 from tappet.lang.source import Span
@@ -41,8 +42,6 @@ class Declarations(TypeReferences):
     """Position in `completing` of the structures and blocks whose layout is under way."""
     completing: list[str] = field(default_factory=list)
 
-    laid_again: set[int] = field(default_factory=set)
-    """id() of structures that are laid out again: their members are as they were."""
     # -- variables
 
     def resolve(self, symbol: Symbol) -> None:
@@ -113,8 +112,14 @@ class Declarations(TypeReferences):
             body.report("E0107", decl.span, what="constant", limit=DEPTH_LIMIT)
             return
         self.evaluating.add(id(variable))
-        initialise(body, initial, type_)
+        if decl.given is None:
+            initialise(body, initial, type_)
+        else:
+            decl.init = initialise_parameter(body, variable, decl, type_)
         self.evaluating.discard(id(variable))
+        if decl.init is None:
+            return
+        initial = decl.init
         if initial.is_constant and initial.constant is not None and initial.type is not None:
             content: ast.Constant = initial.constant
             base = t.value_type(type_)
@@ -239,12 +244,6 @@ class Declarations(TypeReferences):
             decl.comment,
             storage=Storage.INSTANCE,
             home=Storage.INSTANCE,
-        if id(struct) in self.laid_again:
-            known = decl.symbol
-            if not isinstance(known, VarSymbol) or known.type is None:
-                return None
-            complete = self._member_complete(body, decl.span, struct.name, known.type)
-            return t.Member(decl.name, known.type, decl=decl) if complete else None
             owner=struct.name,
             decl=decl,
         )

@@ -10,6 +10,7 @@ from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Record, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.heads import link, plain_body
+from tappet.lang.analysis.given_values import initialise_parameter
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope
@@ -24,7 +25,7 @@ def declare(session: Session, found: Collected, declarations: Declarations, whol
     _register(session, found, declarations)
     _resolve_types(found, declarations)
     _resolve_variables(session, found, declarations)
-    lay_out_lists(session, found)
+    _lay_out_lists(session, found)
     _fill(session, whole, declarations)
     _initial_values(session, found, declarations)
     session.accounted = None
@@ -108,8 +109,7 @@ def all_pous(found: Collected) -> Iterable[PouSymbol]:
         yield from pou.with_children()
 
 
-def lay_out_lists(session: Session, found: Collected) -> None:
-    """Gives the variables of global lists their offsets."""
+def _lay_out_lists(session: Session, found: Collected) -> None:
     for gvl, source in found.gvls:
         placement = layout.Placement()
         for member in gvl.members.values():
@@ -244,6 +244,9 @@ def _initial_value(body: Body, variable: VarSymbol, declarations: Declarations) 
     decl, type_ = variable.decl, variable.type
     if decl is None or type_ is None:
         return
-    if decl.initial is not None and not variable.is_constant:
+    if decl.given is not None:
+        if decl.init is decl.initial and not variable.is_constant:
+            decl.init = initialise_parameter(body, variable, decl, type_)
+    elif decl.initial is not None and not variable.is_constant:
         initialise(body, decl.initial, type_)
     program.check_fb_init(body, variable, decl, type_)

@@ -140,6 +140,18 @@ class Levels:
             self._tables[key] = table
         return table
 
+    def seen_at_reference(self, source: Source) -> dict[str, Symbol]:
+        """What a value sees that the application gives to a parameter of this library: its own names, then
+        what the library sees."""
+        key = f"R {self._key(source)}"
+        table = self._tables.get(key)
+        if table is None:
+            table = dict(self.seen_by(source))
+            for level in (self.pous, self.application):
+                table.update(_without_qualified(level.names(), table))
+            self._tables[key] = table
+        return table
+
     def renew(self) -> set[str]:
         """Fills the tables of application and POUs view again after lists and enumerations have changed; the
         names that stand for something else now."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from tappet.lang.ast.expressions import Argument, Expr
 from tappet.lang.ast.node import Node, Pragma
 from tappet.lang.ast.statements import Stmt
-from tappet.lang.source import NOWHERE, Source, Span
+from tappet.lang.source import NOWHERE, GivenValue, Source, Span
 
 if TYPE_CHECKING:
     from tappet.lang.symbols import Symbol
@@ -122,6 +122,10 @@ class VarDecl(Node):
     attributes: list[Pragma] = field(default_factory=list)
     comment: str = ""
     """Comment on the same line or the lines above, without its marks."""
+    given: GivenValue | None = None
+    """What `initial` was read from where a library reference gives a value to this parameter."""
+    own_initial: Expr | None = None
+    """The value of a parameter that `given` took the place of."""
     # resolved
     symbol: Symbol | None = None
     init: Expr | None = None

@@ -145,10 +145,12 @@ def variable_code(snapshot: Snapshot, symbol: VarSymbol) -> str:
 
 
 def initial_text(snapshot: Snapshot, symbol: VarSymbol) -> str:
-    """The initial value as written, '' without one."""
+    """The initial value as written, '' without one; of a parameter the one that the reference gives."""
     decl = symbol.decl
     if decl is None or decl.initial is None or symbol.source is None:
         return ""
+    if decl.given is not None:
+        return decl.given.value
     return slice_of(symbol.source, decl.initial.span)
 
 

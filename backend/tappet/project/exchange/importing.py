@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
-from tappet.project.exchange import twincat
+from tappet.project.exchange import twincat, twincat_system
 from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
 from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml, shared_pages
@@ -23,7 +23,7 @@ from tappet.project.exchange.twincat_project import read_project
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.model import Project
 
-ENDINGS = (".xml", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS)
+ENDINGS = (".xml", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS, *twincat_system.ENDINGS)
 """Endings of the files that are read, in lower case."""
 
 _TEXT_ENDINGS = (".st", ".exp", ".txt", ".iecst", ".lib")
@@ -89,11 +89,22 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
             read_folder(top, files, batch)
         except ExchangeError as error:
             _failed(error.source, error, report, failures)
+    rest = {path: content for path, content in files.items() if path not in used}
+    systems = twincat_system.read_systems(rest, report)
+    used |= systems.used
+    if len(systems.names) == 1:
+        batch.name = batch.name or systems.names[0]
+    own_device = len(systems.tasks or projects) > 1
     for path in projects:
         if path in used:
             continue
+        if systems.tasks and path not in systems.tasks:
+            report.add("refused", path, "no system project (.tsproj) lists this PLC project")
+            used.add(path)
+            continue
+        tasks = systems.tasks.get(path, {})
         try:
-            used |= read_project(path, files, batch, report, own_device=len(projects) > 1)
+            used |= read_project(path, files, batch, report, own_device=own_device, tasks=tasks)
         except ExchangeError as error:
             _failed(path, error, report, failures)
             used.add(path)

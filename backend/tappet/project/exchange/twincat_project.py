@@ -18,17 +18,25 @@ from tappet.project.exchange.drafts import (
 from tappet.project.exchange.libraries import reference, tell_parameters
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.twincat import ENDINGS, read_object
+from tappet.project.exchange.twincat_system import SystemTask, adjust_task
 from tappet.project.exchange.xml_tree import Element, read_xml
 
 _RESOLUTION = re.compile(r"\s*(?P<name>[^,]+?)\s*(?:,\s*(?P<version>[^,(]+?)\s*)?(?:[,(].*)?$", re.DOTALL)
 
 
 def read_project(
-    source: str, files: Mapping[str, bytes], batch: Batch, report: ImportReport, *, own_device: bool
+    source: str,
+    files: Mapping[str, bytes],
+    batch: Batch,
+    report: ImportReport,
+    *,
+    own_device: bool,
+    tasks: Mapping[str, SystemTask],
 ) -> set[str]:
     """Take a project in, with those of its files that are in `files`; the paths of these.
 
     `own_device`: it becomes a device of its own, not part of the application that is imported into.
+    `tasks`: those of the system project it is in, by folded name.
     """
     root = read_xml(source, files[source])
     if root.tag != "Project":
@@ -73,7 +81,7 @@ def read_project(
             ):
                 for draft in drafts:
                     exclude(draft)
-            _add(application, folders, path, drafts)
+            _add(application, folders, path, drafts, tasks, report)
         elif item.tag in ("PlaceholderReference", "LibraryReference") and include:
             _library(source, item, include, application, report)
     return used
@@ -87,10 +95,19 @@ def _read(path: str, content: bytes, report: ImportReport) -> list[Draft]:
         return []
 
 
-def _add(application: Draft, folders: tuple[str, ...], path: str, drafts: list[Draft]) -> None:
+def _add(
+    application: Draft,
+    folders: tuple[str, ...],
+    path: str,
+    drafts: list[Draft],
+    tasks: Mapping[str, SystemTask],
+    report: ImportReport,
+) -> None:
     for draft in drafts:
         parent = task_configuration(application) if draft.kind == "task" else application.below(folders, path)
-        parent.children.append(draft)
+        task = tasks.get(draft.name.casefold()) if draft.kind == "task" else None
+        if task is None or adjust_task(draft, task, report):
+            parent.children.append(draft)
 
 
 def _library(source: str, item: Element, include: str, application: Draft, report: ImportReport) -> None:

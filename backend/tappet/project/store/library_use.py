@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from sqlalchemy import Connection, select
 
-from tappet.project.data import LibraryManagerData, LibraryReference
+from tappet.project.data import LibraryManagerData, LibraryReferenceData
 from tappet.project.store.records import ProjectInfo
 from tappet.project.store.rows import PROJECT_COLUMNS
 from tappet.project.store.tables import objects, projects
 
 
-def read_library_references(connection: Connection) -> list[tuple[ProjectInfo, LibraryReference]]:
+def read_library_references(connection: Connection) -> list[tuple[ProjectInfo, LibraryReferenceData]]:
     """The references of all projects that are not deleted, by project name."""
     rows = connection.execute(
         select(*PROJECT_COLUMNS, objects.c.data)

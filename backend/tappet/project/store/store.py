@@ -12,7 +12,7 @@ from sqlalchemy import Engine, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from tappet.project import edit
-from tappet.project.data import LibraryReference
+from tappet.project.data import LibraryReferenceData
 from tappet.project.errors import NameTakenError
 from tappet.project.model import ObjectHead, Project, ProjectObject
 from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
@@ -80,7 +80,7 @@ class Store:
             )
             return [ProjectInfo(*row) for row in rows]
 
-    def library_references(self) -> list[tuple[ProjectInfo, LibraryReference]]:
+    def library_references(self) -> list[tuple[ProjectInfo, LibraryReferenceData]]:
         """The libraries that the projects refer to, by project."""
         with self._reading.begin() as connection:
             return read_library_references(connection)

@@ -39,7 +39,7 @@ def order(
     """What the process reads."""
     content = {
         "application": options.application,
-        "libraries": [astuple(reference) for reference in options.libraries],
+        "libraries": [asdict(reference) for reference in options.libraries],
         "defines": options.defines,
         "sources": [asdict(source) for source in sources],
         "tasks": [{"name": t.name, "interval_ns": t.interval_ns, "programs": t.programs} for t in tasks],
@@ -75,7 +75,7 @@ def perform(content: dict[str, Any], write: Callable[[dict[str, Any]], None], pl
     """Carries an order out; `write` gets the lines of its output, `place` is the address of a PlacePage."""
     options = BuildOptions(
         application=content["application"],
-        libraries=tuple(LibraryReference(*reference) for reference in content["libraries"]),
+        libraries=tuple(LibraryReference.of(reference) for reference in content["libraries"]),
         defines=tuple((name, value) for name, value in content["defines"]),
     )
     sources = [Source(**{**source, "scope": Scope(source["scope"])}) for source in content["sources"]]

@@ -108,7 +108,7 @@ def run_tests(
 
 def with_library(options: BuildOptions, sources: Iterable[Source]) -> BuildOptions:
     """Options with the test library, under the name that the texts call it by."""
-    libraries, _ = resolve((r.name, r.version, r.namespace) for r in options.libraries)
+    libraries, _ = resolve(options.libraries)
     if any(library.name == TEST_LIBRARY for library in libraries):
         return options
     reference = LibraryReference(as_called(TEST_LIBRARY, [source.text for source in sources]))

@@ -64,9 +64,9 @@ class ProjectPrograms:
 
     def _application(self, project: Project, application: ProjectObject) -> Program:
         texts = self._texts(project, project_sources.application_sources(project, application.id))
-        references = project_sources.libraries(project, application.id)
-        wanted = [(r.name, r.version, r.namespace or None, r.placeholder) for r in references]
-        found, _ = libraries.resolve(wanted)  # what is missing, the build and the library manager say
+        found, _ = libraries.resolve(
+            project_sources.libraries(project, application.id)
+        )  # what is missing, the build and the library manager say
         texts += [library_text(source) for library in found for source in library.sources]
         tasks = [task.name for task in project_sources.tasks(project, application.id)]
         chosen = project_sources.static_analysis(project, application.id)

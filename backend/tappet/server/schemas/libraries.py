@@ -7,12 +7,21 @@ from pydantic import Field
 from tappet.server.schemas.base import Reply, Request
 
 
+class ParameterValue(Reply):
+    """A value that a library asks for in one that it needs."""
+
+    list: str = Field(description="The parameter list; empty: the parameter is known by its name alone.")
+    name: str
+    value: str
+
+
 class RequiredLibrary(Reply):
     """A library that another one needs."""
 
     name: str
     version: str = Field(description="A version, or * for the one that the application refers to.")
     namespace: str = Field(description="Prefix of its names there; empty: its own.")
+    parameters: list[ParameterValue] = Field(description="Values that it asks for.")
 
 
 class LibrarySummary(Reply):
@@ -49,7 +58,10 @@ class LibraryItem(Reply):
     """A POU or a type of a library."""
 
     name: str
-    kind: str = Field(description="function, function_block, program, struct, union, enum, alias, interface.")
+    kind: str = Field(
+        description="program, function, function_block, struct, union, enum, alias, interface, "
+        "parameter_list."
+    )
     summary: str
     inputs: list[Pin]
     outputs: list[Pin]
