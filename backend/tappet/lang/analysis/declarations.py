@@ -41,6 +41,8 @@ class Declarations(TypeReferences):
     incomplete: dict[int, int] = field(default_factory=dict)
     """Position in `completing` of the structures and blocks whose layout is under way."""
     completing: list[str] = field(default_factory=list)
+    laid_again: set[int] = field(default_factory=set)
+    """id() of structures that are laid out again: their members are as they were."""
 
     # -- variables
 
@@ -237,6 +239,12 @@ class Declarations(TypeReferences):
         self.session.resume(counted)
 
     def _struct_member(self, body: Body, struct: t.Struct, decl: ast.VarDecl) -> t.Member | None:
+        if id(struct) in self.laid_again:
+            known = decl.symbol
+            if not isinstance(known, VarSymbol) or known.type is None:
+                return None
+            complete = self._member_complete(body, decl.span, struct.name, known.type)
+            return t.Member(decl.name, known.type, decl=decl) if complete else None
         symbol = VarSymbol(
             decl.name,
             body.source,

@@ -9,8 +9,8 @@ from tappet.lang.analysis import layout, program
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Record, Session
 from tappet.lang.analysis.declarations import Declarations
-from tappet.lang.analysis.heads import link, plain_body
 from tappet.lang.analysis.given_values import initialise_parameter
+from tappet.lang.analysis.heads import link, plain_body
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope
@@ -25,7 +25,7 @@ def declare(session: Session, found: Collected, declarations: Declarations, whol
     _register(session, found, declarations)
     _resolve_types(found, declarations)
     _resolve_variables(session, found, declarations)
-    _lay_out_lists(session, found)
+    lay_out_lists(session, found)
     _fill(session, whole, declarations)
     _initial_values(session, found, declarations)
     session.accounted = None
@@ -109,7 +109,8 @@ def all_pous(found: Collected) -> Iterable[PouSymbol]:
         yield from pou.with_children()
 
 
-def _lay_out_lists(session: Session, found: Collected) -> None:
+def lay_out_lists(session: Session, found: Collected) -> None:
+    """Gives the variables of global lists their offsets."""
     for gvl, source in found.gvls:
         placement = layout.Placement()
         for member in gvl.members.values():

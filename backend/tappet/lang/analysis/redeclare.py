@@ -1,8 +1,9 @@
 """A second analysis after an edit of declarations.
 
-The edited texts, and those whose declarations can depend on them, are declared again. What stood for their
-objects before stands for them again, so that all others stay as they are; of the bodies, those are analysed
-that can tell a difference (`effects`).
+The edited texts, and those whose declarations can depend on them, are declared again (`dependents`); those
+that need no more than a size are laid out again (`relayout`). What stood for their objects before stands for
+them again, so that all others stay as they are; of the bodies, those are analysed that can tell a difference
+(`effects`).
 
 An edit qualifies when the same objects are declared as before, with the same bases and interfaces; it may
 add, change and take away variables, values, methods and parameters. Everything else takes the full way.
@@ -14,25 +15,37 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from tappet.lang import ast
-from tappet.lang.analysis.bodies import State, analyse_body, finish
+from tappet.lang.analysis.bodies import State, finish
 from tappet.lang.analysis.collect import collect
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import SUGGESTION_LIMIT, Key
 from tappet.lang.analysis.declare import all_pous, declare
+from tappet.lang.analysis.dependents import Dependents, configures
 from tappet.lang.analysis.effects import Effects, contents, sizes
+from tappet.lang.analysis.relayout import Layout
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.scope import Level
 from tappet.lang.analysis.words import Words, words_of
+from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.sfc.library import has_chart
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Symbol
 
+_AT_ONCE = 20
+"""So many bodies do not wait: to put all messages together twice takes longer."""
+_OF_CIRCLES = ("E0408", "E0107")
 _CHART_FLAGS = "SFC"
 """Begins the names that a chart looks for although they do not stand in its text."""
 
 
-def redeclare(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOptions) -> Analysis | None:
-    """The analysis of `units` made from `previous`; None when the edit does not qualify."""
+def redeclare(
+    previous: Analysis,
+    units: Sequence[ast.Unit],
+    options: AnalysisOptions,
+    first: frozenset[str] | None = None,
+) -> Analysis | None:
+    """The analysis of `units` made from `previous`; None when the edit does not qualify. Bodies of other texts
+    than those with the uris `first` may wait, see `analyse`."""
     state = previous.state
     if not isinstance(state, State) or options != previous.options or options.static.codes:
         return None
@@ -47,7 +60,7 @@ def redeclare(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOp
     if not again.qualifies():
         return None
     previous.state = None
-    return again.run(options)
+    return again.run(options, first)
 
 
 # -- which edits qualify ----------------------------------------------------------------------------
@@ -75,14 +88,7 @@ def _same_head(old: ast.Declaration, new: ast.Declaration, owned: bool) -> bool:
         return old.extends == new.extends
     if isinstance(old, ast.TypeDecl) and isinstance(new, ast.TypeDecl):
         return old.extends == new.extends and old.type_ref.__class__ is new.type_ref.__class__
-    return not _configures(old) and not _configures(new)
-
-
-def _configures(declaration: ast.Declaration) -> bool:
-    """Whether a list holds VAR_CONFIG, which concerns the whole program."""
-    return isinstance(declaration, ast.GlobalList) and any(
-        block.section == "VAR_CONFIG" for block in declaration.blocks
-    )
+    return not configures(old) and not configures(new)
 
 
 class _Again:
@@ -92,7 +98,7 @@ class _Again:
         self, state: State, units: Sequence[ast.Unit], edited: dict[str, tuple[ast.Unit, ast.Unit]]
     ) -> None:
         self.state = state
-        self.session = state.session
+        self.session = session = state.session
         self.units = units
         self.edited = edited
         """Texts that are new: old and new tree by uri."""
@@ -103,38 +109,11 @@ class _Again:
                 known = state.words.get(unit.source.uri)
                 self.words[unit.source.uri] = known if known and known.unit is unit else words_of(unit)
         self._numbers = {unit.source.uri: (number, unit) for number, unit in enumerate(units)}
-        self.texts = self._dependent()
+        found = Dependents(session, self.words, edited)
+        self.texts = found.again
         """Uris of the texts that are declared again."""
-
-    # -- which texts are declared again
-
-    def _dependent(self) -> set[str]:
-        """The edited texts and those whose declarations name what these declare, directly or through others;
-        always whole objects with their methods, and all that has messages, as a suggestion may change."""
-        objects = self._objects()
-        names = {name for old, _ in self.edited.values() for name in words_of(old).global_names}
-        others = {uri: w.declared for uri, w in self.words.items() if not _only_configures(w.unit)}
-        todo = set(self.edited)
-        todo.update(uri for uri, record in self.session.declared.items() if record.messages and uri in others)
-        found: set[str] = set()
-        while todo:
-            uri = todo.pop()
-            found.add(uri)
-            others.pop(uri, None)
-            names |= self.words[uri].global_names
-            for key in _objects_of(self.words[uri].unit):
-                todo.update(text for text in objects[key] if text not in found)
-            if not todo:
-                todo = {uri for uri, words in others.items() if not names.isdisjoint(words)}
-        return found
-
-    def _objects(self) -> dict[tuple[Scope, str], list[str]]:
-        """Texts of each object, by scope and name."""
-        found: dict[tuple[Scope, str], list[str]] = {}
-        for uri, words in self.words.items():
-            for key in _objects_of(words.unit):
-                found.setdefault(key, []).append(uri)
-        return found
+        self.layout = Layout(session, state.found, state.declarations, frozenset(found.sized))
+        """Of the texts that are only laid out again."""
 
     def qualifies(self) -> bool:
         """Whether every object that is declared again is the only one of its name."""
@@ -146,7 +125,7 @@ class _Again:
             if any(own_parts) and not all(own_parts):
                 return False
             for declaration in unit.declarations:
-                if _configures(declaration):
+                if configures(declaration):
                     return False
                 if _is_owned(declaration) or isinstance(declaration, ast.Property):
                     continue
@@ -164,14 +143,16 @@ class _Again:
 
     # -- declaring again
 
-    def run(self, options: AnalysisOptions) -> Analysis | None:
+    def run(self, options: AnalysisOptions, first: frozenset[str] | None) -> Analysis | None:
         """Declares the texts again and analyses the bodies that this concerns; None when it turns out not to
         qualify: the state is used up then."""
         state, session = self.state, self.session
         session.analysis = Analysis(options, continued=True)
-        session.diagnostics, session.suggestions, session.accounted = [], 0, None
+        session.diagnostics, session.accounted = [], None
+        if not state.waiting:
+            session.suggestions = 0
         earlier = {uri: session.made.pop(uri) for uri in self.texts if uri in session.made}
-        before, sizes_before = contents(earlier), sizes(earlier)
+        before, sizes_before = contents(earlier), sizes(earlier) | sizes(self.layout.made)
         session.before = {uri: dict(table) for uri, table in earlier.items()}
         old_pous = _pous(earlier.values())
         for uri in self.texts:
@@ -183,33 +164,45 @@ class _Again:
             return None
         self._merge(part)
         moved = self._renew_tables()
+        self.layout.forget()
         declare(session, part, state.declarations, state.found)
-        if any(message.uri not in self.texts for message in session.diagnostics):
+        kept = len(session.diagnostics)
+        self.layout.complete()
+        if len(session.diagnostics) != kept or not all(map(self._stays_where_it_is, session.diagnostics)):
             return None
         made = {uri: session.made[uri] for uri in self.texts if uri in session.made}
         self._forget(old_pous, _pous(made.values()))
-        effects = Effects(before, session.before, made, part, frozenset(self.edited))
+        effects = Effects(before, session.before, made, part, frozenset(self.edited), self.layout)
         effects.note(moved)
-        effects.note_sizes(sizes_before, sizes(made))
+        effects.note_sizes(sizes_before, sizes(made) | sizes(self.layout.made))
         session.before = {}
         if any(word.startswith(_CHART_FLAGS) for word in effects.all_words()):
             return None
-        for unit in self._units_again():
-            state.texts.pop(id(unit), None)
+        for unit in self.units:
+            if unit.source.uri in self.texts or unit.source.uri in self.layout.made:
+                state.texts.pop(id(unit), None)
         state.units = tuple(self.units)
         state.words = self.words
-        self._analyse_bodies(effects)
+        self._analyse_bodies(effects, first)
         return finish(state) if session.suggestions < SUGGESTION_LIMIT else None
 
-    def _analyse_bodies(self, effects: Effects) -> None:
+    def _stays_where_it_is(self, message: Diagnostic) -> bool:
+        """Whether a full analysis would tell the same there: which type of a circle it tells of depends on
+        the one that is laid out first."""
+        return message.uri in self.texts and (message.code not in _OF_CIRCLES or not self.layout.made)
+
+    def _analyse_bodies(self, effects: Effects, first: frozenset[str] | None) -> None:
         state = self.state
         for pou in all_pous(state.found):
             record = state.records.get(id(pou))
             assert pou.source is not None
             words = self.words.get(pou.source.uri)
             if record is None or (words is not None and effects.concern(pou, record, words)):
-                body = state.declarations.bodies[id(pou)]
-                state.records[id(pou)] = analyse_body(self.session, pou, body)
+                state.waiting[id(pou)] = pou
+        if first is None or len(state.waiting) <= _AT_ONCE:
+            state.analyse_waiting()
+        else:
+            state.analyse_waiting(first=first | self.edited.keys())
 
     def _collect(self) -> Collected | None:
         """The symbols of the texts, in the places of those before; None when an object is another one now."""
@@ -270,6 +263,7 @@ class _Again:
         for pou in old:
             if id(pou) not in living:
                 state.records.pop(id(pou), None)
+                state.waiting.pop(id(pou), None)
                 state.session.calls.pop(id(pou), None)
                 state.found.own.pop(id(pou), None)
 
@@ -284,15 +278,3 @@ def _uri(symbol: Symbol) -> str:
 
 def _is_owned(declaration: ast.Declaration) -> bool:
     return isinstance(declaration, ast.Pou) and declaration.kind in ("METHOD", "ACTION", "TRANSITION")
-
-
-def _only_configures(unit: ast.Unit) -> bool:
-    return bool(unit.declarations) and all(map(_configures, unit.declarations))
-
-
-def _objects_of(unit: ast.Unit) -> set[tuple[Scope, str]]:
-    """Scope and name of the objects that a text belongs to."""
-    scope, owner = unit.source.scope, unit.source.owner
-    if owner is not None:
-        return {(scope, owner.upper())}
-    return {(scope, declaration.name.upper()) for declaration in unit.declarations}
