@@ -84,6 +84,75 @@ def test_blocks_are_left_and_entered() -> None:
         assert [runtime.read(path) for path in ("Calls.sum", "Calls.kept", "PLC_PRG.fb.n")] == [1425, 3, 4]
 
 
+PARTS = """
+FUNCTION_BLOCK FB
+VAR_OUTPUT got : INT; calls : INT; copied : BOOL; END_VAR
+VAR {{attribute 'no_copy'}} part : Part(size := 5); END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; start : INT; END_VAR
+got := start; calls := calls + 1; copied := bInCopyCode;
+END_METHOD
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Part
+VAR_OUTPUT size : INT; END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; size : INT; END_VAR
+THIS^.size := size;
+END_METHOD
+END_FUNCTION_BLOCK
+TYPE Rec : STRUCT n : INT; {member} END_STRUCT END_TYPE
+FUNCTION_BLOCK Holder
+VAR_OUTPUT n : INT; static : INT; END_VAR
+VAR {inner} END_VAR
+VAR_STAT {static} END_VAR
+METHOD M
+VAR_INST {kept} END_VAR
+END_METHOD
+n := n + 1; {read}
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR n : INT; old : FB(start := 1); h : Holder; rec : Rec; changed : {changed}; {fbs} END_VAR
+n := n + 1; h();
+END_PROGRAM
+"""
+ADDED = {
+    "member": "fb : FB(start := 30);",
+    "inner": "fb : FB(start := 40);",
+    "static": "fb2 : FB(start := 50);",
+    "kept": "fb : FB(start := 60);",
+    "read": "static := fb2.got;",
+    "changed": "FB(start := 70)",
+    "fbs": "one : FB(start := 2); computed : FB(start := 2 * n + h.n); more : ARRAY[1..9] OF FB(start := 4);"
+    "each : ARRAY[1..2] OF FB[(start := 5), (start := 6)];",
+}
+
+
+def test_added_instances_get_their_arguments() -> None:
+    """LDEC-102, LDEC-103: wherever a change adds an instance, FB_Init has the values of its declaration, and
+    runs once; the instances that were there keep what they have."""
+    before = dict.fromkeys(ADDED, "") | {"changed": "INT"}
+    with LocalRuntime(build(PARTS.format(**before))) as runtime:
+        runtime.run(cycles=2)
+        change(runtime, PARTS.format(**ADDED))
+        runtime.run(cycles=1)
+        added = {
+            "one": 2, "computed": 6, "more[1]": 4, "more[9]": 4, "each[1]": 5, "each[2]": 6, "rec.fb": 30,
+            "h.fb": 40, "h.M.fb": 60, "changed": 70,
+        }  # fmt: skip
+        for path, start in added.items():
+            found = [
+                runtime.read(f"PLC_PRG.{path}.{name}") for name in ("got", "calls", "copied", "part.size")
+            ]
+            assert found == [start, 1, False, 5], path
+        assert runtime.read("PLC_PRG.h.static") == 50
+        assert [runtime.read(f"PLC_PRG.{name}") for name in ("n", "h.n", "old.got", "old.calls")] == [
+            3,
+            3,
+            1,
+            1,
+        ]
+
+
 def test_objects_of_the_heap_keep_their_form() -> None:
     """LOPR-101: a block that __NEW has made cannot be moved; the running application goes on."""
     text = """
