@@ -71,6 +71,16 @@ def test_an_exception_of_the_program_is_named_with_its_place(tmp_path: Path) -> 
     assert "line 7" in done.stderr
 
 
+def test_run_reports_an_initialiser_that_fails(tmp_path: Path) -> None:
+    text = (
+        "FUNCTION Part : INT\nVAR_INPUT n : INT; END_VAR\nPart := 10 / n;\nEND_FUNCTION\n"
+        "PROGRAM Main\nVAR zero : INT; x : INT := Part(zero); END_VAR\nEND_PROGRAM\n"
+    )
+    done = tappet("run", written(tmp_path / "initial.st", text), "--virtual")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.splitlines()[-1] == "tappet: task initialisation: division by zero in Part, line 3"
+
+
 def test_an_endless_loop_ends_with_an_exception(tmp_path: Path) -> None:
     text = COUNTER.replace("n := n + 1;", "WHILE n < 10 DO\n    n := n AND 1;\nEND_WHILE")
     done = tappet("run", written(tmp_path / "loop.st", text), "--virtual", "--cycle-limit", 0.3)

@@ -97,3 +97,28 @@ def test_what_nobody_catches_is_reported_with_its_first_place(running: LocalRunt
     assert (report.code, report.pou, report.line) == (Fault.DIV_ZERO, "Quotient", line)
     assert running.read("PLC_PRG.finals") == (1 if mode == 6 else 0)
     assert running.state == "exception"
+
+
+def test_what_an_initialiser_catches_does_not_end_the_application() -> None:
+    text = (
+        FAULTY_POUS
+        + """FUNCTION_BLOCK FB_Careful
+VAR value : DINT; END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR
+__TRY
+    value := Quotient(1, value);
+__CATCH
+    value := -1;
+__ENDTRY
+END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR careful : FB_Careful; END_VAR
+END_PROGRAM
+"""
+    )
+    with LocalRuntime(build(text)) as runtime:
+        assert runtime.exception is None
+        runtime.run(cycles=1)
+        assert runtime.read("PLC_PRG.careful.value") == -1

@@ -59,6 +59,8 @@ def run(
         try:
             _assign(runtime, assign or [])
             recorded = runtime.trace(expressions) if trace is not None else None
+            if runtime.exception is not None:  # of an initialiser
+                raise ApplicationException(runtime.exception)
             runtime.start()
             if time_ns is not None:
                 runtime.run(time_ns=time_ns)
