@@ -61,6 +61,30 @@ def test_variables_at_addresses_share_their_bytes(symbols: SymbolMap):
     assert (bit.offset, bit.bit) == (direct.offset, direct.bit)
 
 
+def test_static_variables_are_seen_in_every_instance():
+    """LDEC-26: one place for all instances, derived blocks and the program itself included."""
+    symbols = build("""
+FUNCTION_BLOCK FB_Base
+VAR own : INT; END_VAR
+VAR_STAT calls : DINT; END_VAR
+calls := calls + 1;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB_Derived EXTENDS FB_Base
+VAR_STAT name : STRING(8); END_VAR
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR a : FB_Base; b : ARRAY [1..2] OF FB_Derived; END_VAR
+VAR_STAT cycles : DINT; END_VAR
+a(); b[1](); b[2]();
+END_PROGRAM
+""").symbols
+    places = [symbols.resolve(f"PLC_PRG.{path}.calls").offset for path in ("a", "b[1]", "b[2]")]
+    assert len(set(places)) == 1
+    assert symbols.resolve("PLC_PRG.b[2].name").type.length == 8
+    assert symbols.resolve("PLC_PRG.cycles").offset not in places
+    assert [child.name for child in symbols.children("PLC_PRG.b[1]")] == ["own", "calls", "name"]
+
+
 @pytest.mark.parametrize(
     ("path", "message"),
     [

@@ -32,7 +32,7 @@ class MemberInfo:
     bit: int | None = None
     """Bit of a BIT member or of a variable at a bit address."""
     absolute: bool = False
-    """`offset` counts from the start of the image (variables at addresses)."""
+    """`offset` counts from the start of the image (variables at addresses, VAR_STAT)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,6 +41,8 @@ class TypeTable:
     def __init__(self, areas: Mapping[str, tuple[int, int]]) -> None:
         self.areas = areas
         """I, Q and M to (offset, size) in the image."""
+        self.statics: dict[int, int] = {}
+        """Offset in the image of each VAR_STAT variable, by id."""
         self.types: list[TypeInfo] = []
         self.numbers: dict[object, int] = {}
         self.keep: list[t.Type] = []
@@ -105,7 +107,7 @@ class TypeTable:
         # a derived block watches its own property, not that of the base
         members = tuple({m.name.upper(): m for m in found}.values())
         if pou is not None and kind == "fb" and isinstance(pou.symbol, PouSymbol):
-            members += tuple(addressed(self, pou.symbol))
+            members += tuple(shared(self, pou.symbol))
         return TypeInfo(str(type_), kind, type_.size, members=members)
 
     def member(self, m: t.Member, out_of_sight: bool = False) -> MemberInfo:
@@ -180,10 +182,15 @@ def build_symbol_map(
     symbols = SymbolMap(table.types, byte_addressing=byte_addressing)
     symbols.areas.update(areas)
     for item in data:
+        if isinstance(item.owner, GvlSymbol):
+            start = objects[item.symbol].offset
+            statics = (v for v in item.owner.members.values() if v.section == "VAR_STAT")
+            table.statics |= {id(v): start + v.offset for v in statics if _home(v) is Storage.GLOBAL}
+    for item in data:
         name = item.symbol.removeprefix(DATA_PREFIX)
         shown = item.owner.name if "." not in name else f"{name.rpartition('.')[0].title()}.{item.owner.name}"
         offset = objects[item.symbol].offset
-        extra = tuple(addressed(table, item.owner))
+        extra = tuple(shared(table, item.owner))
         if isinstance(item.owner, PouSymbol):
             assert item.owner.instance is not None
             number = table.number(item.owner.instance)
@@ -218,13 +225,19 @@ def _home(variable: VarSymbol) -> Storage:
     return variable.home if variable.storage is Storage.CONSTANT else variable.storage
 
 
-def addressed(table: TypeTable, owner: GvlSymbol | PouSymbol) -> Iterator[MemberInfo]:
-    """Variables AT an address: members with an absolute offset, the same in all instances (LDEC-55)."""
+def shared(table: TypeTable, owner: GvlSymbol | PouSymbol) -> Iterator[MemberInfo]:
+    """Variables AT an address (LDEC-55) and VAR_STAT (LDEC-26): members with an absolute offset, the same in
+    all instances.
+    """
     variables = owner.members if isinstance(owner, GvlSymbol) else owner.locals
     for variable in variables.values():
         area = table.areas.get(variable.area or "")
-        if variable.storage is Storage.DIRECT and variable.type is not None and area is not None:
+        offset = None
+        if variable.storage is Storage.DIRECT and area is not None:
             offset = area[0] + variable.offset
+        elif isinstance(owner, PouSymbol):
+            offset = table.statics.get(id(variable))
+        if variable.type is not None and offset is not None:
             flags = " ".join(sorted(set(variable.flags) | marks(variable.decl)))
             number = table.number(variable.type)
             yield MemberInfo(variable.name, number, offset, variable.section, flags, variable.bit, True)
