@@ -33,10 +33,13 @@ def member_named(owner: PouSymbol | InterfaceSymbol, key: str) -> Symbol | None:
 def is_free(
     session: Session, found: Collected, owner: PouSymbol, what: str, name: str, source: Source, span: Span
 ) -> bool:
-    """Whether a block has no member of this name yet; tells of one, and of a variable of this name."""
+    """Whether a block has no member of this name yet; tells of one, and of a variable of this name.
+
+    An action may be named as a variable, which the name then means: programs that run with TwinCAT do so.
+    """
     key = name.upper()
     old = member_named(owner, key)
-    other = old or found.own[id(owner)].variables.get(key)
+    other = old if what == "action" else old or found.own[id(owner)].variables.get(key)
     if other is not None and key:
         report_twice(session, what, name, source, span, other)
     return old is None
