@@ -11,7 +11,7 @@ from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, DataObject
 from tappet.codegen.symbol_map import SymbolMap, TypeInfo
 from tappet.core import calls, initial, ir, places, templates
 from tappet.core.body import Body
-from tappet.core.life_cycle import init_methods, life_cycle_methods
+from tappet.core.life_cycle import contains_instance_with, init_methods, life_cycle_methods
 from tappet.core.lower import Lowered, complete, instances
 from tappet.core.program import Program
 from tappet.lang import types as t
@@ -131,7 +131,7 @@ def _initialise_moved(
 
 def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh: Fresh) -> None:
     """FB_Reinit of all instances inside an object that were copied, inner ones first (LDEC-104, LDEC-107)."""
-    if not _has_reinit(type_, set()):
+    if not contains_instance_with(type_, "FB_REINIT"):
         return
     if isinstance(type_, t.Array):
         for number in range(type_.count):
@@ -148,18 +148,6 @@ def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh:
             prepared = calls.Prepared()
             calls.finish(b, prepared, method, [], places.address_of(place), None)
             b.out.extend(prepared.statements())
-
-
-def _has_reinit(type_: t.Type, seen: set[int]) -> bool:
-    """Whether an object of a type contains an instance with FB_Reinit."""
-    if isinstance(type_, t.Array):
-        return _has_reinit(type_.element, seen)
-    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
-        return False
-    seen.add(id(type_))
-    if isinstance(type_, t.FunctionBlock) and life_cycle_methods(type_, "FB_REINIT"):
-        return True
-    return any(_has_reinit(m.type, seen) for m in type_.members.values() if m.section != "VAR_IN_OUT")
 
 
 # -- pointers ---------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from tappet.core import initial, ir, places
 from tappet.core.body import Body
+from tappet.core.life_cycle import contains_instance_with
 from tappet.core.scalars import NULL, convert, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
@@ -86,7 +87,7 @@ def delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
     read = ir.Load(ir.PTR, place)
     base = operand.type.base
     with b.block_of() as then:
-        if base is not None and initial.has_exit(base, set()):
+        if base is not None and contains_instance_with(base, "FB_EXIT"):
             _destruct_elements(b, read, base)
         b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
         b.emit(ir.Store(place, NULL))

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from tappet.core import assign, calls, ir, places
 from tappet.core.body import INITIALISERS, Body
-from tappet.core.life_cycle import after_init_methods, init_methods, life_cycle_methods
+from tappet.core.life_cycle import (
+    after_init_methods,
+    contains_instance_with,
+    init_methods,
+    life_cycle_methods,
+)
 from tappet.core.program import Program
 from tappet.core.templates import Step, Template, initialiser_of
 from tappet.lang import ast
@@ -144,7 +149,7 @@ def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol], in_copy: bool 
 
 def destruct_all(b: Body, place: ir.Place, type_: t.Type, in_copy: bool = False) -> None:
     """Call FB_Exit of all instances inside an object of any type."""
-    if not has_exit(type_, set()):
+    if not contains_instance_with(type_, "FB_EXIT"):
         return
     if isinstance(type_, t.FunctionBlock):
         destruct(b, place, type_, in_copy)
@@ -171,18 +176,6 @@ def without_exit(decl: ast.VarDecl | None) -> bool:
         p.attribute == "no-exit" or (p.attribute == "symbol" and (p.value or "").lower() == "no-exit")
         for p in pragmas
     )
-
-
-def has_exit(type_: t.Type, seen: set[int]) -> bool:
-    """Whether an object of a type contains an instance with FB_Exit."""
-    if isinstance(type_, t.Array):
-        return has_exit(type_.element, seen)
-    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
-        return False
-    seen.add(id(type_))
-    if isinstance(type_, t.FunctionBlock) and life_cycle_methods(type_, "FB_EXIT"):
-        return True
-    return any(has_exit(m.type, seen) for m in type_.members.values() if m.section != "VAR_IN_OUT")
 
 
 def initial_function(program: Program, type_: t.FunctionBlock) -> str:

@@ -24,6 +24,24 @@ def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
     return found
 
 
+def contains_instance_with(type_: t.Type, name: str, seen: set[int] | None = None) -> bool:
+    """Whether an object of a type is or contains an instance with FB_Exit or FB_Reinit. `seen`: id() of the
+    types that were looked at."""
+    seen = set() if seen is None else seen
+    if isinstance(type_, t.Array):
+        return contains_instance_with(type_.element, name, seen)
+    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
+        return False
+    seen.add(id(type_))
+    if isinstance(type_, t.FunctionBlock) and life_cycle_methods(type_, name):
+        return True
+    return any(
+        contains_instance_with(m.type, name, seen)
+        for m in type_.members.values()
+        if m.section != "VAR_IN_OUT"
+    )
+
+
 def after_init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:
     """Methods with attribute call_after_init of a block that has it too (LDEC-109)."""
     found: list[PouSymbol] = []
