@@ -390,10 +390,12 @@ class _Walk:
 
     def enter(self, name: str) -> None:
         member = self.find(name.upper())
-        if member is None and self.tokens[self.at : self.at + 1] == ["."] and self.at + 1 < len(self.tokens):
-            # VAR_INST of a method, or the chart of an action
-            member = self.find(f"{name}.{self.tokens[self.at + 1]}".upper())
-            self.at += 2
+        longer, at = name, self.at
+        while member is None and self.tokens[at : at + 1] == ["."] and at + 1 < len(self.tokens):
+            # VAR_INST of a method or property, or the chart of an action
+            longer, at = f"{longer}.{self.tokens[at + 1]}", at + 2
+            member = self.find(longer.upper())
+            self.at = at if member is not None else self.at
         if member is None:
             if self.info.kind in ("pointer", "reference", "interface"):
                 raise SymbolError(f"'{self.path}' is a {self.info.kind}; its target has no fixed place")

@@ -15,7 +15,7 @@ from tappet.lang.parser_type_blocks import TypeBlockParser
 from tappet.lang.sfc.chart import Chart
 from tappet.lang.sfc.reader import begins_step, begins_transition, read_step, read_transition
 from tappet.lang.sfc.translate import translate
-from tappet.lang.source import Span, split_lines
+from tappet.lang.source import NOWHERE, Span, split_lines
 
 _ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
@@ -236,7 +236,9 @@ class Parser(TypeBlockParser):
             kind = kinds[self.i]
             if kind is ID and not pou.body and begins_step(self):
                 if pou.kind not in _CHARTED and not chart.steps:
-                    hint = "Write the chart in a program, a function block, an action or a method."
+                    hint = (
+                        "Write the chart in a program, a function block, an action, a method or a property."
+                    )
                     self.error("E0113", what=f"A chart in a {pou.kind}", hint=hint)
                 read_step(self, chart)
                 continue
@@ -340,9 +342,9 @@ class Parser(TypeBlockParser):
         while True:
             word = self.word()
             if word == "GET" and node.getter is None:
-                node.getter = self._accessor("GET")
+                node.getter = self._accessor("GET", name, name_span)
             elif word == "SET" and node.setter is None:
-                node.setter = self._accessor("SET")
+                node.setter = self._accessor("SET", name, name_span)
             elif self.kinds[self.i] in SECTIONS:
                 hint = "Declare it in the GET or SET that uses it."
                 self.error("E0114", what="A variable", where="a PROPERTY outside GET and SET", hint=hint)
@@ -357,31 +359,25 @@ class Parser(TypeBlockParser):
         node.span = self.span_from(start)
         return node
 
-    def _accessor(self, word: str) -> ast.Accessor:
+    def _accessor(self, word: str, name: str, name_span: Span) -> ast.Accessor:
+        """GET or SET of a property, which is read like a method."""
         start = self.i
         opener = (word, self.lines[start])
         self.i = start + 1
         while self.word() in _ACCESS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
             self.i += 1  # the property says who may use it
-        blocks: list[ast.VarBlock] = []
+        method = ast.Pou(span=NOWHERE, name=name, name_span=name_span, source=self.source, kind="METHOD")
         while self.kinds[self.i] in SECTIONS:
-            blocks.append(self.variable_block())
-        body: list[ast.Stmt] = []
-        if self.word() in ("GET", "SET") and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
-            return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)  # a bare head
-        if self.kinds[self.i] == "END_PROPERTY":
-            return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)
-        self.open.append(opener)
-        while True:
-            at = self.i
-            body += read_body(self) if not body and self._reads_rows() else self.statements()
-            if self.i == at and not self._foreign_end(self.kinds[at]):
-                break
-            if self.kinds[self.i] in SECTIONS or self.kinds[self.i] in OBJECT_HEADS:
-                break
-        self.open.pop()
-        self.close(opener)
-        return ast.Accessor(span=self.span_from(start), blocks=blocks, body=body)
+            method.blocks.append(self.variable_block())
+        bare = self.word() in ("GET", "SET") and self.kinds[self.i + 1] not in _BEHIND_VARIABLE
+        if not bare and self.kinds[self.i] != "END_PROPERTY":
+            self.open.append(opener)
+            self._members(method, opener)
+            self.open.pop()
+            self.close(opener)
+        return ast.Accessor(
+            span=self.span_from(start), blocks=method.blocks, body=method.body, language=method.language
+        )
 
     def interface(self) -> ast.Interface:
         """INTERFACE name EXTENDS a, b with the heads of methods and properties."""

@@ -267,7 +267,8 @@ class FunctionBlock:
     members: dict[str, Member] = field(default_factory=dict)
     """By upper-case name; VAR_IN_OUT members are 8-byte pointers. Not stored and so not here: VAR_TEMP,
     VAR_STAT, VAR_EXTERNAL, and variables AT an address. `__VFTABLE` (see analysis) is the first one of blocks
-    that take part in inheritance or have methods; `METHOD.NAME` holds VAR_INST of a method."""
+    that take part in inheritance or have methods; `METHOD.NAME` holds VAR_INST of a method, and that of an
+    accessor is `PROPERTY.GET.NAME`."""
     size: int = 0
     align: int = 1
     program: bool = False

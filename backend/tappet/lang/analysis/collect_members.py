@@ -120,6 +120,7 @@ def accessor_pou(
         return_type=property_.type_ref if prefix == "__get" else None,
         blocks=accessor.blocks,
         body=accessor.body,
+        language=accessor.language,
         access=property_.access,
         modifiers=property_.modifiers,
         attributes=property_.attributes,

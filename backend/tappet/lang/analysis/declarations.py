@@ -7,6 +7,7 @@ what is asked for while it is being resolved is a cycle and an error.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from tappet.lang import ast
@@ -297,11 +298,11 @@ class Declarations(TypeReferences):
         for variable in self.found.own[id(pou)].variables.values():
             if variable.section in _STORED:
                 self._block_member(body, type_, variable, placement, variable.name)
-        for method in (*pou.methods.values(), *pou.actions.values()):
-            for variable in self.found.own[id(method)].variables.values():
+        for name, part in _parts(pou):
+            for variable in self.found.own[id(part)].variables.values():
                 if variable.section == "VAR_INST":
-                    inner = self.bodies[id(method)]
-                    self._block_member(inner, type_, variable, placement, f"{method.name}.{variable.name}")
+                    inner = self.bodies[id(part)]
+                    self._block_member(inner, type_, variable, placement, f"{name}.{variable.name}")
         type_.size, type_.align = placement.size, placement.align
 
     def _block_member(
@@ -327,6 +328,15 @@ class Declarations(TypeReferences):
         type_.members[name.upper()] = t.Member(
             name, declared, variable.offset, variable.section, variable.flags, variable.decl
         )
+
+
+def _parts(pou: PouSymbol) -> Iterator[tuple[str, PouSymbol]]:
+    """What a block has below it, with the name that its variables are watched under."""
+    for child in (*pou.methods.values(), *pou.actions.values()):
+        yield child.name, child
+    for property_ in pou.properties.values():
+        for accessor in property_.accessors():
+            yield f"{property_.name}.{'Get' if accessor is property_.getter else 'Set'}", accessor
 
 
 def _stored_size(type_: Type) -> tuple[int, int]:

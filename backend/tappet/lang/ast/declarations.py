@@ -160,6 +160,7 @@ class Accessor(Node):
 
     blocks: list[VarBlock]
     body: list[Stmt]
+    language: str = "ST"
 
 
 @dataclass(slots=True, kw_only=True)

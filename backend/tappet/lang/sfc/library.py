@@ -16,8 +16,14 @@ NAME: Final = "IecSfc"
 
 def has_chart(unit: ast.Unit) -> bool:
     """Whether a text declares a POU written in SFC."""
-    pous = [d for d in unit.declarations if isinstance(d, ast.Pou)]
-    return any(p.language == "SFC" for pou in pous for p in (pou, *pou.actions, *pou.methods))
+    found: list[ast.Pou | ast.Accessor | None] = []
+    for declaration in unit.declarations:
+        properties = [declaration] if isinstance(declaration, ast.Property) else []
+        if isinstance(declaration, ast.Pou):
+            found += [declaration, *declaration.actions, *declaration.methods]
+            properties = declaration.properties
+        found += [accessor for p in properties for accessor in (p.getter, p.setter)]
+    return any(body is not None and body.language == "SFC" for body in found)
 
 
 def with_types(units: Sequence[ast.Unit], earlier: Sequence[ast.Unit]) -> Sequence[ast.Unit]:
