@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from typed_tree import BOOL, Scalar
 
 
 class Fault(Exception):  # noqa: N818 - a fault of the program
-    """The program ends here."""
+    """The program ends here, or goes on in a handler, which gets the number of the exception."""
+
+    NUMBERS: ClassVar = {"division by zero": 0x102, "array index": 0x101}
+    """Numbers of __SYSTEM.ExceptionCode; access through nothing is ACCESS_VIOLATION."""
+
+    @property
+    def number(self) -> int:
+        return self.NUMBERS.get(str(self), 0x51)
 
 
 def wrap(value: int, to: Scalar) -> int:

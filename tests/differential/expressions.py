@@ -246,7 +246,11 @@ class Maker(Leaves):
         if not found:
             return None
         place = self.filled(self.r.choice(found), depth)
-        return Bit(BOOL, BOOL, False, place, self.r.randrange(base_of(place.type).bits))
+        names = {bit: name for name, bit in self.bits}
+        bit = self.r.choice(tuple(names)) if names and self.chance(30) else 64
+        if bit >= base_of(place.type).bits:
+            bit = self.r.randrange(base_of(place.type).bits)
+        return Bit(BOOL, BOOL, False, place, bit, names.get(bit, "") if self.chance(60) else "")
 
     def comparison(self, depth: int) -> Expr:
         op = self.r.choice(COMPARISONS)

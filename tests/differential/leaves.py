@@ -67,6 +67,12 @@ class Leaves:
     texts: bool = True
     call: Callable[[Type, int], Expr | None] | None = None
     """Makes a call whose result counts as a type; None where expressions have no effects."""
+    hidden: set[str] = field(default_factory=set)
+    """Pointers that lead nowhere any more."""
+    heap: set[str] = field(default_factory=set)
+    """Pointers of __NEW: nothing else leads to where they lead."""
+    bits: list[tuple[str, int]] = field(default_factory=list)
+    """Constants that name bits."""
     properties: list[tree.Property] = field(default_factory=list)
     """Properties of the own instance that may be read in expressions."""
 
@@ -84,6 +90,8 @@ class Leaves:
             return r.choice(_WIDE if type_.wide else _TEXTS)[: type_.length]
         if isinstance(type_, tree.Subrange):
             return r.randint(type_.low, type_.high)
+        if isinstance(type_, tree.BitMember):
+            return bool(r.randrange(2))
         assert isinstance(type_, Scalar)
         if type_ == BOOL:
             return bool(r.randrange(2))
@@ -115,7 +123,7 @@ class Leaves:
         """All places of a kind: `wanted` is a test of the type."""
         found: list[Expr] = []
         for v in self.variables:
-            if writable and v.name in self.fixed:
+            if v.name in self.hidden or (writable and v.name in self.fixed):
                 continue
             self._descend(Name(v.type, base_of(v.type), False, v.name), wanted, depth, found, writable)
         if not writable:
@@ -145,7 +153,7 @@ class Leaves:
                 self._descend(
                     Member(type_, base_of(type_), False, e, name), wanted, depth - 1, found, writable
                 )
-        elif isinstance(e.type, Array):
+        elif isinstance(e.type, Array | tree.OpenArray):
             element = Index(e.type.element, base_of(e.type.element), False, e, [])
             self._descend(element, wanted, depth - 1, found, writable)
         elif isinstance(e.type, Pointer) and not isinstance(e.type.target, Block):
@@ -171,6 +179,10 @@ class Leaves:
             return Deref(e.type, e.held, False, self.filled(e.base, depth))
         if isinstance(e, Index):
             base = self.filled(e.base, depth)
+            if isinstance(base.type, tree.OpenArray):
+                assert isinstance(base, Name)
+                indices = [self.open_index(base, d, depth) for d in range(base.type.dimensions)]
+                return Index(e.type, e.held, False, base, indices)
             assert isinstance(base.type, Array)
             return Index(e.type, e.held, False, base, [self.index(*b, depth) for b in base.type.bounds])
         return e
@@ -188,6 +200,16 @@ class Leaves:
             self.literal(type_, high),
         ]
         return Builtin(type_, type_, False, "LIMIT", args, [type_] * 3)
+
+    def open_index(self, array: Name, dimension: int, depth: int) -> Expr:
+        """An index of an open array, nearly always inside the bounds."""
+        low, high = (tree.Bound(DINT, DINT, False, array, dimension, upper) for upper in (False, True))
+        if depth <= 0 or self.chance(40):
+            return self.r.choice((low, high))
+        if self.chance(10):
+            return self.literal(DINT, self.r.randint(-1, 3))
+        args = [low, self.moving(DINT, 0), high]
+        return Builtin(DINT, DINT, False, "LIMIT", args, [DINT] * 3)
 
     def variable(self, type_: Type, depth: int) -> Expr | None:
         """A place whose type counts as `type_`."""

@@ -7,7 +7,8 @@ from typing import Any
 
 import typed_tree as tree
 from expressions import CLOCKS, Maker
-from statements import Body, Statements
+from guarded_statements import GuardedStatements
+from statements import Body
 from typed_tree import (
     BOOL,
     DINT,
@@ -37,7 +38,7 @@ from typed_tree import (
 from typing_rules import assignable
 
 
-class ProgramMaker(Statements):
+class ProgramMaker(GuardedStatements):
     """One random program."""
 
     def __init__(self, r: Random, texts: bool = True, size: int = 10) -> None:
@@ -49,6 +50,9 @@ class ProgramMaker(Statements):
         self.blocks: list[Block] = []
         self.interfaces: list[Interface] = []
         self.globals: list[Variable] = []
+        self.plain = Maker(r, texts=texts)
+        self.bits: list[tuple[str, int]] = []
+        self.checks = self.chance(25)
 
     # -- declarations -------------------------------------------------------------------------------
 
@@ -68,7 +72,7 @@ class ProgramMaker(Statements):
         if choice < 16:
             base = self.r.choice((INT, DINT, USINT, UINT, SINT))
             low = self.r.choice([0, 1, 5, -10 if base.low < 0 else 2])
-            return Subrange(base, low, low + self.r.choice([1, 10, 100]))
+            return Subrange(base, low, low + self.r.choice([1, 10, 100]), self.checks)
         if choice < 26 and self.texts:
             return Text(self.r.choice([3, 5, 12, 20]), self.chance(30))
         return self.scalar()
@@ -90,14 +94,15 @@ class ProgramMaker(Statements):
     def variable(self, prefix: str, type_: Type | None = None) -> Variable:
         type_ = type_ or self.type()
         maker = Maker(self.r)
-        simple = not isinstance(type_, Block | Pointer | Interface)
+        simple = not isinstance(type_, Block | Pointer | Interface) and initialisable(type_)
         initial = self.initial(maker, type_) if simple and self.chance(75) else None
         return Variable(self.fresh(prefix), type_, initial)
 
     def initial(self, maker: Maker, type_: Type) -> Any:
         """An initial value; arrays and structures may leave parts open."""
         if isinstance(type_, Struct):
-            given = [(n, t) for n, t in type_.members if self.chance(70)] or [type_.members[0]]
+            fitting = [(n, t) for n, t in type_.members if initialisable(t)]
+            given = [m for m in fitting if self.chance(70)] or fitting[:1]
             return {n: self.initial(maker, t) for n, t in given}
         if not isinstance(type_, Array):
             return maker.literal_value(type_)
@@ -119,7 +124,9 @@ class ProgramMaker(Statements):
             self.types.append(Enum(name, self.r.choice((INT, INT, DINT, USINT)), tuple(members)))
         for _ in range(self.r.randint(0, 2)):
             members_ = tuple((self.fresh("m"), self.type(1)) for _ in range(self.r.randint(1, 4)))
-            self.types.append(Struct(self.fresh("S_"), members_))
+            self.types.append(self.packed(Struct(self.fresh("S_"), members_)))
+            if self.chance(50):
+                self.types.append(self.union())
 
     def given(self) -> Type:
         """Type of an input or a result: arrays and structures, too, are handed over by value."""
@@ -133,15 +140,21 @@ class ProgramMaker(Statements):
         else:
             made = Function(self.fresh("M" if block else "F"), self.given())
             made.inputs = [Variable(self.fresh("a"), self.given()) for _ in range(self.r.randint(0, 3))]
-            made.in_outs = [Variable(self.fresh("io"), self.type(1)) for _ in range(self.r.randint(0, 2))]
+            made.in_outs = [
+                Variable(self.fresh("io"), self.open_array() if self.chance(30) else self.type(1))
+                for _ in range(self.r.randint(0, 2))
+            ]
             made.outputs = [
                 Variable(self.fresh("o"), self.given()) for _ in range(self.r.choice((0, 0, 1, 2)))
             ]
             made.rank = self.number
         made.locals = [self.variable("l") for _ in range(self.r.randint(0, 3))]
+        made.statics = [self.variable("st") for _ in range(self.r.choice((0, 0, 1, 2)))]
+        if block is not None:
+            made.kept = [self.variable("vi") for _ in range(self.r.choice((0, 0, 1)))]
         result = Variable(made.name, made.result)
-        seen = [*made.inputs, *made.in_outs, *made.outputs, *made.locals, result, *self.globals]
-        maker = Maker(self.r, seen, texts=self.texts)
+        seen = [*made.inputs, *made.in_outs, *made.outputs, *made.locals, *made.statics, *made.kept, result]
+        maker = Maker(self.r, [*seen, *self.globals], texts=self.texts, bits=self.bits)
         if block is not None:
             known = block.all_properties.values()
             maker.properties = [p for p in known if p.pure and p.rank < made.rank]
@@ -213,7 +226,7 @@ class ProgramMaker(Statements):
         return [first]
 
     def pointed_at(self, type_: Type) -> bool:
-        return not isinstance(type_, Block | Pointer | Interface)
+        return not isinstance(type_, Block | Pointer | Interface | tree.BitMember | tree.OpenArray)
 
     def block(self) -> Block:
         base = self.r.choice(self.blocks) if self.blocks and self.chance(50) else None
@@ -222,7 +235,10 @@ class ProgramMaker(Statements):
         made.outputs = [self.variable("o", self.simple()) for _ in range(self.r.randint(1, 2))]
         made.locals = [self.variable("s") for _ in range(self.r.randint(1, 3))]
         if self.blocks and self.chance(50):
-            made.locals.append(Variable(self.fresh("fb"), self.r.choice(self.blocks)))
+            made.locals.append(self.instance(self.r.choice(self.blocks)))
+        made.statics = [self.variable("st") for _ in range(self.r.choice((0, 0, 1)))]
+        if (base is None or base.maker is None) and self.chance(40):
+            made.init = self.first_code(made)
         inherited = list(base.all_methods.values()) if base else []
         for method in inherited:
             if self.chance(60):
@@ -240,8 +256,8 @@ class ProgramMaker(Statements):
             known = self.r.sample(properties, self.r.randint(min(1, len(properties)), len(properties)))
             self.interfaces.append(Interface(self.fresh("I_"), some, known))
             made.interfaces.append(self.interfaces[-1])
-        seen = [*(v for v in made.members if not isinstance(v.type, Pointer)), *self.globals]
-        maker = Maker(self.r, seen, texts=self.texts)
+        seen = [*(v for v in made.members if not isinstance(v.type, Pointer)), *made.all_statics]
+        maker = Maker(self.r, [*seen, *self.globals], texts=self.texts, bits=self.bits)
         maker.properties = [p for p in made.all_properties.values() if p.pure]
         body = Body(maker, made.locals, list(self.functions), returns=True, owner=made, effects=self.applied)
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 5), 2)]
@@ -251,6 +267,7 @@ class ProgramMaker(Statements):
 
     def program(self) -> Program:
         self.declare_types()
+        self.bits = [(self.fresh("nBit"), self.r.randrange(16)) for _ in range(self.r.choice((0, 0, 2)))]
         self.globals = [self.variable("gv") for _ in range(self.r.choice((0, 1, 3)))]
         for _ in range(self.r.randint(0, 2)):
             self.functions.append(self.function())
@@ -258,8 +275,8 @@ class ProgramMaker(Statements):
             self.blocks.append(self.block())
         variables = [self.variable("p") for _ in range(self.r.randint(3, 8))]
         variables += [self.variable("n", t) for t in self.r.sample(NUMBERS, 3)]
-        variables += [Variable(self.fresh("fb"), b) for b in self.blocks]
-        maker = Maker(self.r, [*variables, *self.globals], texts=self.texts)
+        variables += [self.instance(b) for b in self.blocks]
+        maker = Maker(self.r, [*variables, *self.globals], texts=self.texts, bits=self.bits)
         body = Body(maker, variables, self.functions, effects=self.applied)
         first = self.pointers(body)
         for block in self.blocks:
@@ -268,6 +285,7 @@ class ProgramMaker(Statements):
         for interface in self.interfaces:
             first += self.lead(body, Variable(self.fresh("itf"), interface))
         statements = [*first, *self.statements(body, self.r.randint(2, self.size), 3)]
+        statements = [*self.sizes(body), *statements]
         cycles = self.r.randint(1, 3)
         return Program(
             self.types,
@@ -278,4 +296,22 @@ class ProgramMaker(Statements):
             cycles,
             self.interfaces,
             self.globals,
+            self.bits,
+            self.checks,
         )
+
+    def instance(self, block: Block) -> Variable:
+        """A variable that is an instance, with what FB_Init needs and perhaps values of its inputs."""
+        known = block.all_inputs  # what a list leaves open in an array that has values is not settled
+        given = [v for v in known if not isinstance(v.type, Array | Struct) and self.chance(60)]
+        values = {v.name: self.initial(self.plain, v.type) for v in given} if self.chance(40) else {}
+        return Variable(self.fresh("fb"), block, values or None, self.arguments(block))
+
+
+def initialisable(type_: Type) -> bool:
+    """Whether an initial value can be written: not of a UNION."""
+    if isinstance(type_, Array):
+        return initialisable(type_.element)
+    return not isinstance(type_, Struct) or (
+        not type_.union and any(initialisable(t) for _, t in type_.members)
+    )

@@ -19,146 +19,25 @@ from arithmetic import (
     wrap,
 )
 from builtin_functions import FUNCTIONS
-from typed_tree import Array, Block, Enum, Scalar, Struct, Subrange, Text, Type, Variable, base_of
-
-
-class _Exit(Exception):  # noqa: N818
-    pass
-
-
-class _Continue(Exception):  # noqa: N818
-    pass
-
-
-class _Return(Exception):  # noqa: N818
-    pass
-
-
-BLOCK = ""
-"""Where an instance tells what it is an instance of."""
-
-
-class TooLong(Exception):  # noqa: N818
-    """The program takes too many steps to be worth comparing."""
-
-
-def default(type_: Type) -> Any:
-    """Value of a variable without initial value."""
-    if isinstance(type_, Text):
-        return ""
-    if isinstance(type_, Enum):
-        return type_.members[0][1]
-    if isinstance(type_, Subrange):
-        return 0  # also where 0 is outside the limits
-    if isinstance(type_, Array):
-        low, high = type_.bounds[0]
-        rest = Array(type_.element, type_.bounds[1:]) if len(type_.bounds) > 1 else type_.element
-        return [default(rest) for _ in range(high - low + 1)]
-    if isinstance(type_, Struct):
-        return {name: default(t) for name, t in type_.members}
-    if isinstance(type_, Block):
-        return {**fresh(type_.members), BLOCK: type_}
-    if isinstance(type_, tree.Pointer | tree.Interface):
-        return None
-    return {"bool": False, "real": 0.0}.get(type_.kind, 0)
-
-
-def fresh(variables: list[Variable]) -> dict[str, Any]:
-    """A set of variables with their initial values."""
-    return {v.name: default(v.type) if v.initial is None else initial(v.type, v.initial) for v in variables}
-
-
-def initial(type_: Type, given: Any) -> Any:
-    """An initial value; what an array or structure leaves open has its default."""
-    if isinstance(type_, Struct):
-        return {n: initial(t, given[n]) if n in given else default(t) for n, t in type_.members}
-    if not isinstance(type_, Array):
-        return given
-    found = default(type_)
-    rest = type_.bounds[1:]
-    width = rest[0][1] - rest[0][0] + 1 if rest else 1
-    for number, value in enumerate(given):
-        row = found[number // width] if rest else found
-        row[number % width if rest else number] = initial(type_.element, value)
-    return found
-
-
-def copied(value: Any) -> Any:
-    """Arrays and structures are assigned by value."""
-    if isinstance(value, list):
-        return [copied(v) for v in value]
-    if isinstance(value, dict):
-        return {k: copied(v) for k, v in value.items()}
-    return value
-
-
-def overwrite(place: Any, value: Any) -> None:
-    """Puts the parts of an array or structure where they belong: pointers lead to them."""
-    for key in range(len(place)) if isinstance(place, list) else list(place):
-        if isinstance(place[key], list | dict):
-            overwrite(place[key], value[key])
-        else:
-            place[key] = value[key]
-
-
-def stored(value: Any, type_: Type) -> Any:
-    """A value as a variable of a type holds it."""
-    base = base_of(type_)
-    if isinstance(base, Scalar):
-        return convert(value, base)
-    if isinstance(base, Text):
-        return value[: base.length]
-    return copied(value)
-
-
-@dataclass
-class Slot:
-    """Where a value lies."""
-
-    holder: Any
-    key: Any
-    bit: int | None = None
-
-    def read(self) -> Any:
-        value = self.holder[self.key]
-        if isinstance(value, Slot):
-            return value.read()
-        return value if self.bit is None else bool(value >> self.bit & 1)
-
-    def write(self, value: Any, type_: Type) -> None:
-        inner = self.holder[self.key]
-        if isinstance(inner, Slot):
-            inner.write(value, type_)
-        elif isinstance(inner, list | dict):
-            overwrite(inner, copied(value))
-        elif self.bit is None:
-            self.holder[self.key] = stored(value, type_)
-        else:
-            base = base_of(type_)
-            cleared = inner & ~(1 << self.bit)
-            self.holder[self.key] = wrap(cleared | int(bool(value)) << self.bit, base)
-
-
-@dataclass(frozen=True)
-class Address:
-    """Value of a pointer, a reference or an interface."""
-
-    slot: Slot
-
-
-@dataclass
-class Frame:
-    """Variables a body sees: its own first, then those of the instance."""
-
-    scopes: list[dict[str, Any]]
-    this: dict[str, Any] | None = None
-    """The instance whose code runs."""
-
-    def slot(self, name: str) -> Slot:
-        for scope in self.scopes:
-            if name in scope:
-                return Slot(scope, name)
-        raise KeyError(name)
+from bytes_in_memory import Unsettled, size_and_alignment
+from reference_values import (
+    BLOCK,
+    BOUNDS,
+    Address,
+    Continue,
+    Exit,
+    Frame,
+    Return,
+    Slot,
+    TooLong,
+    copied,
+    default,
+    fresh,
+    initial,
+    line,
+    stored,
+)
+from typed_tree import Array, Block, OpenArray, Text, Variable, base_of
 
 
 @dataclass
@@ -169,20 +48,50 @@ class Machine:
     steps: int = 20_000
     variables: dict[str, Any] = field(init=False)
     globals: dict[str, Any] = field(init=False)
+    kept: dict[int, tuple[Any, dict[str, Any]]] = field(default_factory=dict)
+    """VAR_STAT by what declares it, VAR_INST by instance, each with its owner."""
 
     def __post_init__(self) -> None:
-        self.variables = fresh(self.program.variables)
         self.globals = fresh(self.program.globals)
+        self.variables = fresh(self.program.variables)
+        self._construct(self.program.variables, self.variables)
+
+    def _construct(self, variables: list[Variable], holder: dict[str, Any]) -> None:
+        """FB_Init of the blocks among some variables, then what their declarations say (LDEC-100)."""
+        for v in variables:
+            if isinstance(v.type, Block):
+                self._initialise(v.type, holder[v.name], v.arguments)
+                if v.initial is not None:
+                    types = {m.name: m.type for m in v.type.members}
+                    holder[v.name] |= {n: initial(types[n], x) for n, x in v.initial.items()}
+
+    def _initialise(self, block: Block, instance: dict[str, Any], given: tuple[Any, ...] | None) -> None:
+        self._construct(block.members, instance)
+        made = block.maker
+        if made is not None and given is not None:
+            own = {v.name: stored(x, v.type) for v, x in zip(made.inputs, given, strict=True)}
+            self._body(made.body, self._frame(own, instance))
 
     def cycle(self) -> None:
         """One call of the program; raises Fault."""
         self._body(self.program.body, self._frame(self.variables))
 
     def _frame(self, own: dict[str, Any], this: dict[str, Any] | None = None) -> Frame:
-        return Frame([own, *([this] if this is not None else []), self.globals], this)
+        inside: list[dict[str, Any]] = []
+        if this is not None:
+            inside = [this, *(self._static(b, b.statics) for b in line(this[BLOCK]) if b.statics)]
+        return Frame([own, *inside, self.globals], this)
+
+    def _static(self, owner: Any, variables: list[Variable]) -> dict[str, Any]:
+        """Variables that live as long as their owner: a function, a block, an instance."""
+        found = self.kept.setdefault(id(owner), (owner, {}))[1]
+        for v in variables:
+            if v.name not in found:
+                found |= fresh([v])
+        return found
 
     def _body(self, body: list[Any], frame: Frame) -> None:
-        with contextlib.suppress(_Return):
+        with contextlib.suppress(Return):
             self._run(body, frame)
 
     # -- statements ---------------------------------------------------------------------------------
@@ -226,9 +135,9 @@ class Machine:
             raise TooLong
         try:
             self._run(body, f)
-        except _Continue:
+        except Continue:
             pass
-        except _Exit:
+        except Exit:
             return False
         return True
 
@@ -255,7 +164,35 @@ class Machine:
                 return
 
     def _jump(self, s: tree.Jump, f: Frame) -> None:
-        raise {"EXIT": _Exit, "CONTINUE": _Continue, "RETURN": _Return}[s.word]
+        raise {"EXIT": Exit, "CONTINUE": Continue, "RETURN": Return}[s.word]
+
+    def _try(self, s: tree.Try, f: Frame) -> None:
+        unsettled = False
+        try:
+            self._run(s.body, f)
+        except Fault as fault:
+            if s.handler is None:
+                raise
+            if s.code is not None:
+                f.slot(s.code.name).write(fault.number, tree.DWORD)
+            self._run(s.handler, f)
+        except (TooLong, Unsettled):
+            unsettled = True
+            raise
+        finally:
+            if s.final is not None and not unsettled:
+                self._run(s.final, f)
+
+    def _new(self, s: tree.New, f: Frame) -> None:
+        assert isinstance(s.pointer.type, tree.Pointer)
+        made = s.pointer.type.target
+        holder = {"": default(made)}
+        if isinstance(made, Block):
+            self._initialise(made, holder[""], s.arguments)
+        pointer = f.slot(s.pointer.name)
+        pointer.holder[pointer.key] = Address(Slot(holder, ""))
+        self._run(s.body, f)
+        pointer.holder[pointer.key] = None
 
     def _callfunction(self, s: tree.CallFunction, f: Frame) -> None:
         assert s.target is not None
@@ -275,9 +212,16 @@ class Machine:
             own[variable.name] = stored(self.value(value, f), variable.type)
         for variable, target in zip(function.in_outs, s.in_outs, strict=True):
             own[variable.name] = self.place(target, f)
+            if isinstance(variable.type, OpenArray):
+                own[BOUNDS + variable.name] = self._bounds(target, f)
         own[function.name] = default(function.result)
         own |= fresh(function.outputs)
-        self._body(function.body, self._frame(own, this))
+        frame = self._frame(own, this)
+        if function.statics:
+            frame.scopes.insert(1, self._static(function, function.statics))
+        if function.kept:
+            frame.scopes.insert(1, self._static(this, function.kept))
+        self._body(function.body, frame)
         for name, target in s.outputs:
             self.place(target, f).write(copied(own[name]), target.type)
         return own[function.name]
@@ -354,12 +298,20 @@ class Machine:
         assert isinstance(e, tree.Index)
         indices = [self.value(i, f) for i in e.indices]
         slot = self.place(e.base, f)
-        assert isinstance(e.base.type, Array)
-        for index, (low, high) in zip(indices, e.base.type.bounds, strict=True):
+        for index, (low, high) in zip(indices, self._bounds(e.base, f), strict=True):
+            if self.program.checks and not isinstance(e.base.type, OpenArray):
+                index = min(max(wrap(index, tree.DINT), low), high)
             if not low <= index <= high:
                 raise Fault("array index")
             slot = Slot(slot.read(), index - low)
         return slot
+
+    def _bounds(self, e: Any, f: Frame) -> tuple[tuple[int, int], ...]:
+        """Of an array; an open one has those of its argument."""
+        if isinstance(e.type, OpenArray):
+            return f.slot(BOUNDS + e.name).read()  # type: ignore[no-any-return]
+        assert isinstance(e.type, Array)
+        return e.type.bounds
 
     # -- expressions --------------------------------------------------------------------------------
 
@@ -375,6 +327,10 @@ class Machine:
             return self._binary(e, f)
         if isinstance(e, tree.Clock):
             return self._clock(e, f)
+        if isinstance(e, tree.Bound):
+            return self._bounds(e.array, f)[e.dimension][e.upper]
+        if isinstance(e, tree.SizeOf):
+            return size_and_alignment(e.of)[0]
         if isinstance(e, tree.Builtin):
             return self._builtin(e, f)
         if isinstance(e, tree.Get):
@@ -402,6 +358,8 @@ class Machine:
             return compare(e.op, left, right)
         if e.op in ("AND", "OR", "XOR"):
             return bitwise(e.op, left, right, e.computed)
+        if self.program.checks and right == 0 and e.op in ("/", "MOD"):
+            right = convert(1, e.computed)
         return arithmetic(e.op, left, right, e.computed)
 
     def _clock(self, e: tree.Clock, f: Frame) -> Any:
@@ -414,6 +372,8 @@ class Machine:
             if isinstance(right, float):
                 product = arithmetic(e.op, float(left), right, tree.LREAL)
                 return wrap(saturate(round_away(product), tree.LINT), result)
+            if self.program.checks and e.op == "/":
+                right = right or 1
             return wrap(left * right if e.op == "*" else divide(left, right), result)
         if left_unit == right_unit:
             number = left + right if e.op == "+" else left - right

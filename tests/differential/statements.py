@@ -104,7 +104,7 @@ class Statements:
             bit = m.bit_place(1, writable=True)
             if bit is not None:
                 return bit
-        other = Block | Pointer | Interface
+        other = Block | Pointer | Interface | tree.OpenArray
         simple = list(m.places(lambda t: not isinstance(t, other), writable=True))
         return m.filled(self.r.choice(simple), 1) if simple else None
 
@@ -114,7 +114,13 @@ class Statements:
             found += self.statement(b, depth)
         return found
 
+    def further(self, b: Body, depth: int) -> list[Any]:
+        """A statement that a subclass knows, or nothing."""
+        return []
+
     def statement(self, b: Body, depth: int) -> list[Any]:
+        if depth > 0 and (found := self.further(b, depth)):
+            return found
         choice = self.r.randrange(100)
         if depth > 0 and choice < 40:
             if choice < 14:
@@ -203,7 +209,7 @@ class Statements:
 
     def bind(self, b: Body, target: Variable | None = None) -> tree.Bind | None:
         """Makes a pointer, a reference or an interface of the body lead somewhere."""
-        own = [v for v in b.room if isinstance(v.type, Pointer | Interface)]
+        own = [v for v in b.room if isinstance(v.type, Pointer | Interface) and v.name not in b.maker.heap]
         if target is None and not own:
             return None
         target = target or self.r.choice(own)
@@ -215,7 +221,7 @@ class Statements:
         else:
             assert isinstance(kind, Pointer)
             found = b.maker.places(lambda t: t == kind.target, writable=True)
-            found = [e for e in found if not isinstance(e, tree.Deref)]
+            found = [e for e in found if not isinstance(e, tree.Deref) and _root(e) not in b.maker.heap]
         if not found:
             return None
         place = b.maker.filled(self.r.choice(found), 1)
@@ -234,6 +240,8 @@ class Statements:
         places: list[Expr] = []
         for v in b.maker.variables:
             name = Name(v.type, None, False, v.name)
+            if v.name in b.maker.hidden:
+                continue
             if isinstance(v.type, Block | Interface):
                 places.append(name)
             elif isinstance(v.type, Pointer) and isinstance(v.type.target, Block):
@@ -309,7 +317,7 @@ class Statements:
         self, b: Body, function: Function, place: Expr | None, via: str, depth: int
     ) -> tree.CallFunction | None:
         m = b.maker
-        places = [m.places(lambda t, v=v: t == v.type, writable=True) for v in function.in_outs]
+        places = [m.places(lambda t, v=v: _fits(t, v.type), writable=True) for v in function.in_outs]
         if not all(places) or not all(self.can_give(m, v.type) for v in function.inputs):
             return None
         in_outs = [m.filled(self.r.choice(found), 1) for found in places]
@@ -344,6 +352,20 @@ class Statements:
         call = self._with_arguments(b, function, place, via, min(depth, 1))
         result = function.result
         return None if call is None else tree.Applied(result, base_of(result), False, call)
+
+
+def _root(e: Expr) -> str:
+    """The variable a place belongs to."""
+    while not isinstance(e, Name):
+        e = e.base  # type: ignore[attr-defined]
+    return e.name
+
+
+def _fits(given: Type, in_out: Type) -> bool:
+    """Whether a place may stand for an in-out."""
+    if isinstance(in_out, tree.OpenArray) and isinstance(given, Array):
+        return given.element == in_out.element and len(given.bounds) == in_out.dimensions
+    return given == in_out
 
 
 def _line(block: Block | None) -> list[Block]:

@@ -22,11 +22,44 @@ from typed_tree import (
     base_of,
 )
 
+CHECKS = """FUNCTION CheckBounds : DINT
+VAR_INPUT index, lower, upper : DINT; END_VAR
+CheckBounds := LIMIT(lower, index, upper);
+END_FUNCTION
+FUNCTION CheckDivInt : DINT
+VAR_INPUT divisor : DINT; END_VAR
+CheckDivInt := SEL(divisor = 0, divisor, 1);
+END_FUNCTION
+FUNCTION CheckDivLInt : LINT
+VAR_INPUT divisor : LINT; END_VAR
+CheckDivLInt := SEL(divisor = 0, divisor, 1);
+END_FUNCTION
+FUNCTION CheckDivReal : REAL
+VAR_INPUT divisor : REAL; END_VAR
+CheckDivReal := SEL(divisor = 0, divisor, 1);
+END_FUNCTION
+FUNCTION CheckDivLReal : LREAL
+VAR_INPUT divisor : LREAL; END_VAR
+CheckDivLReal := SEL(divisor = 0, divisor, 1);
+END_FUNCTION
+FUNCTION CheckRangeSigned : DINT
+VAR_INPUT value, lower, upper : DINT; END_VAR
+CheckRangeSigned := LIMIT(lower, value, upper);
+END_FUNCTION
+FUNCTION CheckRangeUnsigned : UDINT
+VAR_INPUT value, lower, upper : UDINT; END_VAR
+CheckRangeUnsigned := LIMIT(lower, value, upper);
+END_FUNCTION
+"""
+"""What a program that checks for itself brings: it limits, and divides by 1 instead of 0."""
+
 
 def literal(type_: Type, value: Any, untyped: bool = False) -> str:
     """A literal, also an initial value of an array or structure; equal elements are counted."""
-    if isinstance(type_, Struct):
-        members = dict(type_.members)
+    if isinstance(type_, Struct | Block):
+        members = (
+            dict(type_.members) if isinstance(type_, Struct) else {v.name: v.type for v in type_.members}
+        )
         return f"({', '.join(f'{name} := {literal(members[name], v)}' for name, v in value.items())})"
     if isinstance(type_, Array):
         texts = [literal(type_.element, v) for v in value]
@@ -80,7 +113,11 @@ def expression(e: Any) -> str:
         assert isinstance(e.base.type, tree.Pointer)
         return expression(e.base) + ("" if e.base.type.reference else "^")
     if isinstance(e, tree.Bit):
-        return f"{expression(e.base)}.{e.bit}"
+        return f"{expression(e.base)}.{e.constant_name or e.bit}"
+    if isinstance(e, tree.Bound):
+        return f"{'UPPER' if e.upper else 'LOWER'}_BOUND({e.array.name}, {e.dimension + 1})"
+    if isinstance(e, tree.SizeOf):
+        return f"SIZEOF({e.of.name})"
     if isinstance(e, tree.Unary):
         return f"({e.op} {expression(e.operand)})"
     if isinstance(e, tree.Binary | tree.Clock):
@@ -143,6 +180,10 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
             lines.append(f"{indent}SUPER^();")
         elif isinstance(s, tree.Bind):
             lines.append(indent + _bind(s))
+        elif isinstance(s, tree.Try):
+            lines += _try(s, indent)
+        elif isinstance(s, tree.New):
+            lines += _new(s, indent)
         else:
             args = [f"{name} := {expression(e)}" for name, e in s.inputs]
             args += [f"{name} => {expression(e)}" for name, e in s.outputs]
@@ -158,6 +199,38 @@ def _bind(s: tree.Bind) -> str:
     return (
         f"{s.target.name} REF= {place};" if s.target.type.reference else f"{s.target.name} := ADR({place});"
     )
+
+
+def _try(s: tree.Try, indent: str) -> list[str]:
+    deeper = indent + "    "
+    lines = [f"{indent}__TRY", *statements(s.body, deeper)]
+    if s.handler is not None:
+        caught = f"({s.code.name})" if s.code else ""
+        lines += [f"{indent}__CATCH{caught}", *statements(s.handler, deeper)]
+    if s.final is not None:
+        lines += [f"{indent}__FINALLY", *statements(s.final, deeper)]
+    return [*lines, f"{indent}__ENDTRY"]
+
+
+def _new(s: tree.New, indent: str) -> list[str]:
+    target = s.pointer.type
+    assert isinstance(target, tree.Pointer)
+    made = target.target.name
+    if isinstance(target.target, Block):
+        made += _arguments(target.target, s.arguments)
+    return [
+        f"{indent}{s.pointer.name} := __NEW({made});",
+        *statements(s.body, indent),
+        f"{indent}__DELETE({s.pointer.name});",
+    ]
+
+
+def _arguments(block: Block, given: tuple[Any, ...] | None) -> str:
+    """What FB_Init gets, by name."""
+    if not given or block.maker is None:
+        return ""
+    pairs = zip(block.maker.inputs, given, strict=True)
+    return f"({', '.join(f'{v.name} := {literal(v.type, value)}' for v, value in pairs)})"
 
 
 def _while(s: tree.While, indent: str) -> list[str]:
@@ -182,7 +255,8 @@ def _section(word: str, variables: list[Variable]) -> list[str]:
     lines = [word]
     for v in variables:
         initial = "" if v.initial is None else f" := {literal(v.type, v.initial)}"
-        lines.append(f"    {v.name} : {v.type.name}{initial};")
+        made = _arguments(v.type, v.arguments) if isinstance(v.type, Block) else ""
+        lines.append(f"    {v.name} : {v.type.name}{made}{initial};")
     return [*lines, "END_VAR"]
 
 
@@ -199,6 +273,8 @@ def _function(f: Function, word: str) -> list[str]:
     return [
         *_head(f, word),
         *_section("VAR", f.locals),
+        *_section("VAR_STAT", f.statics),
+        *_section("VAR_INST", f.kept),
         *statements(f.body),
         f"END_{word}",
     ]
@@ -211,12 +287,22 @@ def _parents(b: Block) -> list[str]:
 
 def _block(b: Block) -> list[str]:
     lines = [
+        "{attribute 'enable_dynamic_creation'}",
         " ".join([f"FUNCTION_BLOCK {b.name}", *_parents(b)]),
         *_section("VAR_INPUT", b.inputs),
         *_section("VAR_OUTPUT", b.outputs),
         *_section("VAR", b.locals),
+        *_section("VAR_STAT", b.statics),
         *statements(b.body),
     ]
+    if b.init is not None:
+        lines += [
+            "METHOD FB_Init : BOOL",
+            "VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR",
+            *_section("VAR_INPUT", b.init.inputs),
+            *statements(b.init.body),
+            "END_METHOD",
+        ]
     for method in b.methods:
         lines += _function(method, "METHOD")
     for p in b.properties:
@@ -237,7 +323,13 @@ def program(p: Program) -> str:
         else:
             assert isinstance(t, Struct)
             members = " ".join(f"{name} : {m.name};" for name, m in t.members)
-            lines.append(f"TYPE {t.name} : STRUCT {members} END_STRUCT END_TYPE")
+            word = "UNION" if t.union else "STRUCT"
+            lines += [] if t.pack is None else [f"{{attribute 'pack_mode' := '{t.pack}'}}"]
+            lines.append(f"TYPE {t.name} : {word} {members} END_{word} END_TYPE")
+    if p.bits:
+        named = " ".join(f"{name} : INT := {bit};" for name, bit in p.bits)
+        lines.append(f"VAR_GLOBAL CONSTANT {named} END_VAR")
+    lines += CHECKS.splitlines() if p.checks else []
     lines += _section("VAR_GLOBAL", p.globals)
     for f in p.functions:
         lines += _function(f, "FUNCTION")

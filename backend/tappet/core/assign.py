@@ -74,7 +74,7 @@ def store_scalar(b: Body, target: ast.Expr, value: ir.Expr) -> None:
         frozen = places.freeze(b, place, b.out)
         b.emit(ir.Store(frozen, merge_bit(ir.Load(ir.U8, frozen), bit, value)))
         return
-    b.emit(ir.Store(place, range_checked(b, value, target.type)))
+    b.emit(ir.Store(place, range_checked(b, value, declared_type(target))))
 
 
 def store_bit(b: Body, base: ast.Expr, bit: int, value: ir.Expr) -> None:
@@ -261,7 +261,7 @@ def assign_value(b: Body, e: ast.AssignExpr) -> ir.Expr:
             b.emit(ir.Store(local, b.value_as(e.value, declared_type(target))))
             place = places.freeze(b, b.target(target), b.out)
             b.touch(place)
-            b.emit(ir.Store(place, range_checked(b, ir.Load(scalar, local), target.type)))
+            b.emit(ir.Store(place, range_checked(b, ir.Load(scalar, local), declared_type(target))))
             return ir.Sequence(scalar, statements, ir.Load(scalar, place))
         assign(b, e.op, target, e.value)
     return ir.Sequence(scalar, statements, convert(b.value(target), scalar))

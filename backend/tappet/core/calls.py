@@ -315,7 +315,7 @@ def _argument(
     if not by_address(type_):
         if value is None:
             return ir.Const(require_scalar(type_), default_number(type_))
-        return b.value_as(value, type_)
+        return assign.range_checked(b, b.value_as(value, type_), type_)
     if value is not None and is_any(type_) and not is_any(value.type):
         return _any_argument(b, value)
     return _aggregate_argument(b, type_, value, disturbed)
