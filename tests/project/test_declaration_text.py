@@ -4,7 +4,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.project.declaration_text import declaration_end, end_keyword, rename_header, subkind_of
+from tappet.project.declaration_text import (
+    as_parameter_list,
+    declaration_end,
+    end_keyword,
+    is_parameter_list,
+    rename_header,
+    subkind_of,
+)
 
 
 @pytest.mark.parametrize(
@@ -117,3 +124,21 @@ def test_any_text_is_read(text: str) -> None:
     subkind_of(text)
     end_keyword(text)
     rename_header(text, "New")
+
+
+@pytest.mark.parametrize(
+    ("text", "marked"),
+    [
+        ("VAR_GLOBAL CONSTANT\nEND_VAR", "{attribute 'parameter_list'}\nVAR_GLOBAL CONSTANT\nEND_VAR"),
+        (
+            "// {attribute 'parameter_list'}\n{attribute 'qualified_only'} VAR_GLOBAL CONSTANT END_VAR",
+            "// {attribute 'parameter_list'}\n{attribute 'parameter_list'}\n"
+            "{attribute 'qualified_only'} VAR_GLOBAL CONSTANT END_VAR",
+        ),
+        ("", "{attribute 'parameter_list'}\n"),
+    ],
+)
+def test_the_mark_of_a_parameter_list(text: str, marked: str) -> None:
+    assert not is_parameter_list(text)
+    assert as_parameter_list(text) == as_parameter_list(marked) == marked
+    assert is_parameter_list(marked.replace("{attribute 'parameter_list'}", "{ ATTRIBUTE 'Parameter_List' }"))

@@ -45,6 +45,24 @@ def motor() -> Project:
     return edit.change_data(project, getter.id, {"implementation": "Speed := TRUE;"})
 
 
+def test_values_for_parameters_of_libraries_are_kept_and_others_leave_no_trace() -> None:
+    project = new_project("Press")
+    manager = at(project, f"{APP.removeprefix('Devices/')}/Library Manager")
+    path = f"{APP}/Library Manager.library_manager.json"
+    assert encode(project)[path] == (
+        b'{\n  "references": [\n    {\n      "name": "Standard",\n      "namespace": "",\n'
+        b'      "version": "*"\n    }\n  ]\n}\n'
+    )
+    values = [{"list": "GVL_Param", "name": "cMax", "value": "2 * GVL.cLines"}]
+    references = [{"name": "Tools", "parameters": values}, {"name": "Standard"}]
+    project = edit.change_data(project, manager.id, {"references": references})
+    files = encode(project)
+    assert encode(decode(files).project) == files
+    read = at(decode(files).project, f"{APP.removeprefix('Devices/')}/Library Manager").data.model_dump()
+    assert list(read["references"][0]["parameters"]) == values
+    assert "parameters" not in read["references"][1]
+
+
 def test_the_files_of_a_project() -> None:
     project = motor()
     files = encode(project)

@@ -1,9 +1,12 @@
 """What the compiler gets of a project (seams 1 and 5; POU-07, CON-06..CON-09, TASK-12..TASK-20)."""
 
+from dataclasses import asdict
+
 import pytest
 
 from tappet.project import edit
 from tappet.project.errors import InvalidDataError, UnknownObjectError
+from tappet.project.library_reference import LibraryReference, ParameterValue
 from tappet.project.model import Project, ProjectObject
 from tappet.project.sources import (
     Place,
@@ -11,6 +14,7 @@ from tappet.project.sources import (
     WatchdogDefinition,
     application_sources,
     libraries,
+    library_managers,
     source_of,
     tasks,
 )
@@ -168,6 +172,22 @@ def test_libraries_come_from_the_application_and_the_pous_view() -> None:
     data = {"references": [{"name": "Util", "namespace": "U"}, {"name": "STANDARD"}]}
     project = edit.change_data(project, manager.id, data)
     assert [item.name for item in libraries(project, at(project, APP).id)] == ["Standard", "Util"]
+
+
+def test_a_reference_comes_with_its_parameters_and_its_place() -> None:
+    project = new_project("x")
+    manager = at(project, f"{APP}/Library Manager")
+    values = [{"list": "GVL_Param", "name": "cMax", "value": "3"}, {"name": "cMin", "value": "1"}]
+    references = [{"name": "Util", "version": "1.0", "placeholder": "U", "parameters": values}]
+    project = edit.change_data(project, manager.id, {"references": references})
+    given = (ParameterValue("GVL_Param", "cMax", "3"), ParameterValue("", "cMin", "1"))
+    (found,) = libraries(project, at(project, APP).id)
+    assert found == LibraryReference("Util", "1.0", None, "U", given, f"{APP}/Library Manager")
+    assert LibraryReference.of(asdict(found)) == found
+    assert [item.id for item in library_managers(project, at(project, APP).id)] == [manager.id]
+    twice = [{"name": "cMax", "value": "1"}, {"name": "CMAX", "value": "2"}]
+    with pytest.raises(InvalidDataError, match="the parameter 'CMAX' of 'Util' has two values"):
+        edit.change_data(project, manager.id, {"references": [{"name": "Util", "parameters": twice}]})
 
 
 def test_only_an_application_is_compiled() -> None:

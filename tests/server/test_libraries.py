@@ -71,11 +71,15 @@ def test_bad_library_files_and_those_of_the_product(admin: TestClient) -> None:
 
 def test_who_uses_a_version_and_what_a_library_needs(admin: TestClient) -> None:
     for version in ("1.0.0.0", "1.1.0.0"):
-        facts = archive.manifest("Plant", version, requires=[{"name": "Util", "version": "*"}])
+        needed = {"name": "Util", "parameters": [{"list": "GVL", "name": "cMax", "value": "3"}]}
+        facts = archive.manifest("Plant", version, requires=[needed])
         data = archive.pack(facts, {"Twice": "FUNCTION Twice : INT\nEND_FUNCTION\n"})
         assert admin.post(URL, files={"file": ("plant.tappetlib", data)}).status_code == 201
     listed = {(item["name"], item["version"]): item for item in admin.get(URL).json()}
-    assert listed["Plant", "1.0.0.0"]["requires"] == [{"name": "Util", "version": "*", "namespace": ""}]
+    values = [{"list": "GVL", "name": "cMax", "value": "3"}]
+    assert listed["Plant", "1.0.0.0"]["requires"] == [
+        {"name": "Util", "version": "*", "namespace": "", "parameters": values}
+    ]
     assert (
         "Tc2_Standard" in next(item for (name, _), item in listed.items() if name == "Standard")["stands_for"]
     )

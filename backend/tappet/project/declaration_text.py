@@ -27,6 +27,7 @@ _END_VAR = re.compile(
     re.VERBOSE | re.DOTALL | re.IGNORECASE,
 )
 """The end of a section, or what it must not be looked for in."""
+_PARAMETER_LIST = re.compile(r"\{\s*attribute\s+'parameter_list'", re.IGNORECASE)
 _TRIVIA = frozenset(["blank", "line_comment", "comment", "c_comment", "pragma"])
 _COMMENT_EDGE = re.compile(r"\(\*|\*\)")
 
@@ -80,6 +81,27 @@ def words(text: str, start: int = 0) -> Iterator[Word]:
         if kind not in _TRIVIA:
             token = text[begin:end]
             yield Word(token.upper() if kind == "word" else token, begin, end)
+
+
+PARAMETER_LIST = "{attribute 'parameter_list'}"
+"""Marks a global variable list as the parameters of a library."""
+
+
+def is_parameter_list(text: str) -> bool:
+    """Whether a global variable list has the mark of a parameter list."""
+    if "parameter_list" not in text.lower():
+        return False
+    pragmas = (text[begin:end] for kind, begin, end in _scan(text, 0) if kind == "pragma")
+    return any(_PARAMETER_LIST.match(pragma) for pragma in pragmas)
+
+
+def as_parameter_list(text: str) -> str:
+    """The text of a global variable list with the mark, in the line before its first section."""
+    if is_parameter_list(text):
+        return text
+    first = next(words(text), None)
+    start = text.rfind("\n", 0, first.start) + 1 if first is not None else len(text)
+    return f"{text[:start]}{PARAMETER_LIST}\n{text[start:]}"
 
 
 def _scan(text: str, start: int) -> Iterator[tuple[str, int, int]]:

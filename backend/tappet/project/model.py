@@ -37,7 +37,7 @@ from tappet.project.data import (
     TaskData,
     UnknownData,
 )
-from tappet.project.declaration_text import subkind_of
+from tappet.project.declaration_text import is_parameter_list, subkind_of
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.naming import name_key
 from tappet.project.scene import Scene
@@ -161,10 +161,15 @@ class DutObject(ObjectHead):
 
 
 class GvlObject(ObjectHead):
-    """A global variable list (GVL-01)."""
+    """A global variable list (GVL-01), or the parameter list of a library."""
 
     kind: Literal["gvl"] = "gvl"
     data: DeclarationData = DeclarationData()
+
+    @property
+    def subkind(self) -> str | None:
+        """Of parameter_list; None for other lists."""
+        return "parameter_list" if is_parameter_list(self.data.declaration) else None
 
 
 class PersistentObject(ObjectHead):

@@ -83,7 +83,12 @@ RULES: Mapping[str, PlacementRule] = MappingProxyType(
                 proposal="DUT",
                 subkinds=("struct", "enum", "union", "alias", "subrange"),
             ),
-            PlacementRule(kind="gvl", parents=_CODE_PLACES, proposal="GVL"),
+            PlacementRule(
+                kind="gvl",
+                parents=_CODE_PLACES,
+                proposal="GVL",
+                subkinds=("variable_list", "parameter_list"),
+            ),
             PlacementRule(kind="persistent", parents=("application",), once=True, proposal="PersistentVars"),
             PlacementRule(
                 kind="method",

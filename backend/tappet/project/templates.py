@@ -17,6 +17,7 @@ from tappet.project.data import (
     ProgramCall,
     TaskData,
 )
+from tappet.project.declaration_text import PARAMETER_LIST
 from tappet.project.errors import InvalidDataError
 from tappet.project.model import Project, ProjectObject, make_object, new_id
 from tappet.project.placement import RULES
@@ -34,10 +35,13 @@ _DUT_TEXTS = {
     "alias": "TYPE {name} : INT;\nEND_TYPE",
     "subrange": "TYPE {name} : INT (0..100);\nEND_TYPE",
 }
+_LIST_TEXTS = {
+    "variable_list": "VAR_GLOBAL\nEND_VAR",
+    "parameter_list": (f"{{attribute 'qualified_only'}}\n{PARAMETER_LIST}\nVAR_GLOBAL CONSTANT\nEND_VAR"),
+}
 _DECLARATIONS = {
     "property": "PROPERTY {name} : BOOL",
     "interface": "INTERFACE {name}",
-    "gvl": "VAR_GLOBAL\nEND_VAR",
     "persistent": "VAR_GLOBAL PERSISTENT RETAIN\nEND_VAR",
 }
 
@@ -73,6 +77,8 @@ def _template(kind: str, name: str, subkind: str | None) -> Data:
         return PouData(declaration=_POU_TEXTS[subkind or subkinds[0]].format(name=name))
     if kind == "dut":
         return DeclarationData(declaration=_DUT_TEXTS[subkind or subkinds[0]].format(name=name))
+    if kind == "gvl":
+        return DeclarationData(declaration=_LIST_TEXTS[subkind or subkinds[0]])
     if kind == "method":
         return MethodData(declaration=f"METHOD {name} : BOOL\nVAR_INPUT\nEND_VAR")
     if kind == "library_manager":

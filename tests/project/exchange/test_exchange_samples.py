@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from twincat_project import tcpou
 
-from tappet.project.exchange import ImportReport, import_files
+from tappet.project.exchange import ImportReport, Place, import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.model import Project, ProjectObject
-from tappet.project.sources import application_sources
+from tappet.project.sources import application_sources, libraries
 
 SAMPLES = Path(__file__).parent / "samples"
 
@@ -118,7 +118,8 @@ def test_libraries_of_an_export_keep_their_names_and_what_is_not_read_is_said() 
     found = [(item["name"], item["namespace"], item["version"]) for item in manager["references"]]
     assert found == [("Standard", "", "*"), ("Standard64", "", "*"), ("Tools", "TL", "*")]
     notes = [entry.text for entry in done.report.entries if entry.object == "Tools"]
-    assert "parameters of libraries are not read: DEPTH, WIDTH keep their own values" in notes
+    assert "version 1.2.0.0 is not asked for: any version is taken" in notes
+    assert parameters(done.project) == [("Tools", "", "DEPTH", "8"), ("Tools", "", "WIDTH", "3")]
 
 
 def test_beremiz_external_variables_il_sfc_and_instances() -> None:
@@ -290,10 +291,80 @@ def test_twincat_parameters_of_libraries_and_empty_folders_of_functions() -> Non
         '<Folder Name="Old" Id="{1}" /></POU></TcPlcObject>'
     )
     done = import_files({"P.plcproj": project_file.encode(), "F_Half.TcPOU": function.encode()})
-    assert [str(entry).partition(": ")[2] for entry in done.report.noteworthy()] == [
-        "changed TcUnit: parameters of libraries are not read: "
-        "GVL_PARAM_TCUNIT.XUNITENABLEPUBLISH keep their own values"
+    assert said(done.report) == set()
+    assert parameters(done.project) == [("TcUnit", "GVL_PARAM_TCUNIT", "XUNITENABLEPUBLISH", "TRUE")]
+    again = import_files({"x.xml": write_plcopen(done.project)})
+    assert parameters(again.project) == parameters(done.project)
+
+
+def parameters(project: Project) -> list[tuple[str, str, str, str]]:
+    """Values that the references of the only application give to parameters."""
+    (application,) = project.applications()
+    return [
+        (reference.name, one.list, one.name, one.value)
+        for reference in libraries(project, application.id)
+        for one in reference.parameters
     ]
+
+
+def test_parameters_of_libraries_in_a_codesys_export() -> None:
+    library = (
+        '<Library Name="#Util" Namespace="Util" DefaultResolution="Util, * (System)"><Parameters>'
+        '<Parameter Name="IBLOCKSIZE" Value="22800" /><Parameter Name="CEMPTY" Value="" />'
+        "</Parameters></Library>"
+    )
+    export = (
+        '<project xmlns="http://www.plcopen.org/xml/tc6_0200"><types><dataTypes /><pous /></types><instances>'
+        '<configurations><configuration name="Device"><resource name="Application"><addData>'
+        '<data name="http://www.3s-software.com/plcopenxml/libraries" handleUnknown="implementation">'
+        f"<Libraries>{library}</Libraries></data></addData></resource></configuration></configurations>"
+        "</instances></project>"
+    )
+    done = import_files({"x.xml": export.encode()})
+    assert parameters(done.project) == [("Util", "", "IBLOCKSIZE", "22800")]
+    assert [entry.text for entry in done.report.noteworthy()] == [
+        "the parameter 'CEMPTY' is given no value: it keeps its own"
+    ]
+
+
+def test_values_for_parameters_join_those_that_are_there() -> None:
+    project_file = (
+        "<Project><ItemGroup>"
+        '<PlaceholderReference Include="TcUnit"><DefaultResolution>TcUnit, *</DefaultResolution><Parameters>'
+        '<Parameter ListName="GVL_PARAM_TCUNIT"><Key>XUNITENABLEPUBLISH</Key><Value>{}</Value></Parameter>'
+        '<Parameter ListName="GVL_PARAM_TCUNIT"><Key>{}</Key><Value>5</Value></Parameter>'
+        "</Parameters></PlaceholderReference></ItemGroup></Project>"
+    )
+    first = import_files({"P.plcproj": project_file.format("TRUE", "MAXNUMBEROFTESTSUITES").encode()})
+    (application,) = first.project.applications()
+    second = project_file.format("FALSE", "XUNITBUFFERSIZE").encode()
+    done = import_files({"P.plcproj": second}, first.project, where=Place(application.id))
+    assert parameters(done.project) == [
+        ("TcUnit", "GVL_PARAM_TCUNIT", "XUNITENABLEPUBLISH", "TRUE"),
+        ("TcUnit", "GVL_PARAM_TCUNIT", "MAXNUMBEROFTESTSUITES", "5"),
+        ("TcUnit", "GVL_PARAM_TCUNIT", "XUNITBUFFERSIZE", "5"),
+    ]
+
+
+def test_parameter_lists_of_twincat_are_parameter_lists() -> None:
+    xml = (
+        '<TcPlcObject><GVL Name="GVL_Param" Id="{0}" ParameterList="True"><Declaration>'
+        "<![CDATA[{attribute 'qualified_only'}\n// Sizes\nVAR_GLOBAL CONSTANT\n  cMax : INT := 5;\nEND_VAR]]>"
+        "</Declaration></GVL></TcPlcObject>"
+    )
+    done = import_files({"GVL_Param.TcGVL": xml.encode()})
+    path = "Tappet Soft PLC/PLC Logic/Application/GVL_Param"
+    assert text(done.project, path).splitlines()[:4] == [
+        "{attribute 'qualified_only'}",
+        "// Sizes",
+        "{attribute 'parameter_list'}",
+        "VAR_GLOBAL CONSTANT",
+    ]
+    found = done.project.find(path)
+    assert found is not None
+    assert found.subkind == "parameter_list"
+    again = import_files({"x.xml": write_plcopen(done.project)})
+    assert text(again.project, path) == text(done.project, path)
 
 
 def test_what_is_in_an_excluded_folder_of_a_twincat_project_is_not_built() -> None:

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 from tappet.project.exchange.report import ImportReport
+from tappet.project.exchange.xml_tree import Element
 
 _SAME = {"tc2_standard": "Standard", "iec_standard": "Standard"}
 """Libraries whose contents are in one of ours; the file's namespace is kept for qualified names."""
 
 
-def tell_parameters(
-    source: str, name: str, given: list[str], report: ImportReport, line: int | None = None
-) -> None:
-    """Say that values for the parameters of a library are not read."""
-    if given:
-        text = f"parameters of libraries are not read: {', '.join(given)} keep their own values"
-        report.add("changed", source, text, name=name, line=line)
-
-
 def reference(
     source: str, name: str, version: str, namespace: str, report: ImportReport, line: int | None = None
-) -> dict[str, str]:
+) -> dict[str, Any]:
     """The data of a library reference. Versions of other systems say nothing here, so any will do."""
     ours = _SAME.get(name.casefold())
     if ours is not None:
@@ -29,3 +24,41 @@ def reference(
         text = f"version {version} is not asked for: any version is taken"
         report.add("changed", source, text, name=name, line=line)
     return {"name": name, "version": "*", "namespace": "" if namespace == name else namespace}
+
+
+def take_parameters(
+    source: str, made: dict[str, Any], library: Element, report: ImportReport
+) -> dict[str, Any]:
+    """The data of a reference with the values that an element gives to parameters of the library.
+
+    CODESYS writes `<Parameter Name="CMAX" Value="20" />` without the list, TwinCAT `<Parameter
+    ListName="GVL_PARAM"><Key>CMAX</Key><Value>20</Value></Parameter>`, all names in upper case.
+    """
+    found: dict[tuple[str, str], dict[str, str]] = {}
+    for part in (part for holder in library.children("Parameters") for part in holder):
+        name, value = (part.get(key.title()) or _inner(part, key) for key in ("name", "value"))
+        name = name or _inner(part, "key")
+        if not name or not value:
+            text = f"the parameter '{name}' is given no value: it keeps its own"
+            report.add("changed", source, text, name=made["name"], line=part.line)
+            continue
+        list_name = part.get("ListName")
+        found[list_name.casefold(), name.casefold()] = {"list": list_name, "name": name, "value": value}
+    return made | {"parameters": list(found.values())} if found else made
+
+
+def _inner(part: Element, tag: str) -> str:
+    child = part.child(tag.title())
+    return child.text().strip() if child is not None else ""
+
+
+def with_more_parameters(reference: dict[str, Any], other: Iterable[dict[str, Any]]) -> dict[str, Any]:
+    """A reference with the values of others to the same library, for parameters that it gives none."""
+    kept = list(reference.get("parameters", ()))
+    known = {(one["list"].casefold(), one["name"].casefold()) for one in kept}
+    for one in (one for more in other for one in more.get("parameters", ())):
+        key = (one["list"].casefold(), one["name"].casefold())
+        if key not in known:
+            known.add(key)
+            kept.append(one)
+    return reference | {"parameters": kept} if kept else reference

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from tappet.project.declaration_text import rename_header
 from tappet.project.errors import InvalidDataError, InvalidNameError, UnknownObjectError
 from tappet.project.exchange.drafts import Batch, Draft, library_manager, plc_logic, task_configuration
+from tappet.project.exchange.libraries import with_more_parameters
 from tappet.project.exchange.report import ImportReport
 from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
 from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
@@ -255,8 +256,15 @@ class _Placer:
             return
         old = there.data.model_dump()
         known = {name_key(reference["name"]) for reference in old["references"]}
-        more = [item for item in draft.data.get("references", ()) if name_key(item["name"]) not in known]
-        data = {"references": [*old["references"], *more]}
+        read = draft.data.get("references", ())
+        more = [item for item in read if name_key(item["name"]) not in known]
+        kept = [
+            with_more_parameters(
+                reference, [item for item in read if name_key(item["name"]) == name_key(reference["name"])]
+            )
+            for reference in old["references"]
+        ]
+        data = {"references": [*kept, *more]}
         self.objects[there.id] = changed_object(there, data=data)
 
     def _made(self, draft: Draft, parent_id: str | None) -> ProjectObject:

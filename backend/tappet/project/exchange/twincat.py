@@ -6,7 +6,7 @@ name their folder in an attribute.
 
 from __future__ import annotations
 
-from tappet.project.declaration_text import subkind_of
+from tappet.project.declaration_text import as_parameter_list, subkind_of
 from tappet.project.exchange.drafts import Draft, body, hex_id
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.standard_tasks import cycle, priority
@@ -42,6 +42,8 @@ def read_object(source: str, content: bytes, report: ImportReport) -> list[Draft
 def _object(source: str, item: Element, report: ImportReport) -> Draft:
     draft = _draft(source, item, _KINDS[item.tag])
     draft.data = {"declaration": _text(item, "Declaration")}
+    if draft.kind == "gvl" and item.get("ParameterList").casefold() == "true":
+        draft.data["declaration"] = as_parameter_list(draft.data["declaration"])
     if draft.kind == "pou":
         _implementation(draft, item, report, draft.name)
         mark_without_result(draft, report)

@@ -15,7 +15,7 @@ from tappet.project.exchange.drafts import (
     plc_logic,
     task_configuration,
 )
-from tappet.project.exchange.libraries import reference, tell_parameters
+from tappet.project.exchange.libraries import reference, take_parameters
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.twincat import ENDINGS, read_object
 from tappet.project.exchange.twincat_system import SystemTask, adjust_task
@@ -123,14 +123,8 @@ def _library(source: str, item: Element, include: str, application: Draft, repor
         report,
         item.line,
     )
+    made = take_parameters(source, made, item, report)
     library_manager(application).data.setdefault("references", []).append(made)
-    given = [
-        f"{parameter.get('ListName')}.{key.text().strip()}"
-        for holder in item.children("Parameters")
-        for parameter in holder
-        if (key := parameter.child("Key")) is not None
-    ]
-    tell_parameters(source, made["name"], given, report, item.line)
 
 
 def _include(item: Element) -> str:
