@@ -22,8 +22,8 @@ def import_project(
         list[Path],
         typer.Argument(
             metavar="FILE...",
-            help="PLCopen XML, TwinCAT .plcproj or single .Tc* files, CoDeSys .EXP, .st, folders of these, "
-            "or the archive of a project",
+            help="PLCopen XML, TwinCAT .sln, .tsproj, .plcproj or single .Tc* files, CoDeSys .EXP, .st, "
+            "folders of these, or the archive of a project",
         ),
     ],
     to: Annotated[
@@ -56,7 +56,7 @@ def _name(files: list[Path]) -> str:
 
 
 def _files(paths: list[Path]) -> dict[str, bytes]:
-    """The files to import by path; those beside a `.plcproj` belong to it, archives are unpacked.
+    """The files to import by path; those beside a TwinCAT project belong to it, archives are unpacked.
 
     A file that is named by itself and lies in a folder or project of `paths` is read once.
     """
@@ -69,8 +69,8 @@ def _files(paths: list[Path]) -> dict[str, bytes]:
         elif path.is_dir():
             found |= _below(path, path)
             folders.append(path.resolve())
-        elif path.suffix.lower() == ".plcproj":
-            found |= _below(path.parent, path.parent, only_project=path.name)
+        elif path.suffix.lower() in _PROJECTS:
+            found |= _below(path.parent, path.parent, project=path)
             folders.append(path.resolve().parent)
         else:
             single.append(path)
@@ -80,14 +80,23 @@ def _files(paths: list[Path]) -> dict[str, bytes]:
     return found
 
 
-def _below(top: Path, base: Path, only_project: str | None = None) -> dict[str, bytes]:
+_TEXTS = (".xml", ".st", ".txt", ".exp")
+_PROJECTS = {
+    ".plcproj": (".plcproj", ".tsproj", ".tspproj", ".sln", *_TEXTS),
+    ".tsproj": (".tsproj", ".tspproj", ".sln", *_TEXTS),
+    ".tspproj": (".tsproj", ".tspproj", ".sln", *_TEXTS),
+    ".sln": (".sln", *_TEXTS),
+}
+"""Files that say what else belongs to them, and endings of the files beside them that do not."""
+
+
+def _below(top: Path, base: Path, project: Path | None = None) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
+    others = _PROJECTS[project.suffix.lower()] if project is not None else ()
     for path in sorted(top.rglob("*")):
         name = path.relative_to(base).as_posix()
         hidden = any(part.startswith(".") for part in Path(name).parts)
-        other = only_project is not None and (
-            path.suffix.lower() in (".plcproj", ".xml", ".st", ".txt", ".exp") and name != only_project
-        )
+        other = path.suffix.lower() in others and path != project
         if path.is_file() and not path.is_symlink() and not hidden and not other and is_importable(path.name):
             found[name] = path.read_bytes()
     return found

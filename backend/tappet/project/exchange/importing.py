@@ -20,6 +20,7 @@ from tappet.project.exchange.split_text import split_text
 from tappet.project.exchange.standard_tasks import read_configurations
 from tappet.project.exchange.text_tree import folders_of, is_member, owner_paths, read_member, unmarked
 from tappet.project.exchange.twincat_project import read_project
+from tappet.project.exchange.twincat_types import FOLDER
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.model import Project
 
@@ -62,8 +63,8 @@ def import_files(
     report = ImportReport()
     batch = Batch()
     failures = _read_all(files, batch, report)
-    if failures and batch.empty:
-        raise failures[0]
+    if batch.empty:
+        _raise_reason(failures, report)
     nodes = nodes_of(batch)
     if chosen is not None:
         keep_chosen(batch, chosen)
@@ -76,6 +77,16 @@ def import_files(
     if whole:  # our own archive as a new project: with its further files, too
         placed = replace(placed, extra_files=project_in(tops[0], files).extra_files)
     return Imported(placed, report, nodes)
+
+
+def _raise_reason(failures: list[ExchangeError], report: ImportReport) -> None:
+    """Say why nothing could be read, where there is a reason."""
+    if failures:
+        raise failures[0]
+    for entry in report.entries:
+        if entry.outcome == "refused":
+            named = f"{entry.object}: {entry.text}" if entry.object else entry.text
+            raise ExchangeError(entry.source, named, entry.line)
 
 
 def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) -> list[ExchangeError]:
@@ -92,6 +103,8 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
     rest = {path: content for path, content in files.items() if path not in used}
     systems = twincat_system.read_systems(rest, report)
     used |= systems.used
+    for failure in systems.failures:
+        _failed(failure.source, failure, report, failures)
     if len(systems.names) == 1:
         batch.name = batch.name or systems.names[0]
     own_device = len(systems.tasks or projects) > 1
@@ -108,6 +121,7 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
         except ExchangeError as error:
             _failed(path, error, report, failures)
             used.add(path)
+    _add_types(systems.types, batch, own_device)
     rest = {path: content for path, content in files.items() if path not in used}
     pages = shared_pages(rest[path] for path in sorted(rest) if path.lower().endswith(_TEXT_ENDINGS))
     owners = owner_paths(rest)
@@ -121,6 +135,21 @@ def _read_all(files: Mapping[str, bytes], batch: Batch, report: ImportReport) ->
         except ExchangeError as error:
             _failed(path, error, report, failures)
     return failures
+
+
+def _add_types(types: list[Draft], batch: Batch, own_device: bool) -> None:
+    """The data types of a system go where all its PLC projects see them; those that a project has stay."""
+    waiting = [batch.loose, *batch.devices]
+    known = set()
+    while waiting:
+        draft = waiting.pop()
+        waiting += draft.children
+        if draft.kind == "dut":
+            known.add(draft.name.casefold())
+    added = [draft for draft in types if draft.name.casefold() not in known]
+    if added:
+        place = batch.pous if own_device else batch.loose
+        place.folder(FOLDER, added[0].source).children += added
 
 
 def _owner(path: str | None, folder: tuple[str, ...], batch: Batch) -> Draft | None:

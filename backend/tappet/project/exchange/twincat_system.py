@@ -1,4 +1,4 @@
-"""TwinCAT 3: `.tsproj`, the system project: the PLC projects in it, their tasks, what the report tells of the rest.
+"""TwinCAT 3: `.tsproj`, the system project: its PLC projects, their tasks, data types; the rest is reported.
 
 PLC projects stand in it or in an `.xti` file of their own; a solution, `.sln`, lists the system projects.
 """
@@ -15,6 +15,7 @@ from tappet.project.errors import InvalidTimeError
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.standard_tasks import cycle, priority
+from tappet.project.exchange.twincat_types import read_types
 from tappet.project.exchange.xml_tree import Element, read_xml
 
 ENDINGS = (".tsproj", ".tspproj", ".sln", ".xti")
@@ -49,6 +50,9 @@ class Systems:
     """Of each `.plcproj` by path: the tasks of its system by folded name."""
     used: set[str] = field(default_factory=set)
     """Files that are read or need not be read."""
+    types: list[Draft] = field(default_factory=list)
+    """Data types that the systems hold for their PLC projects."""
+    failures: list[ExchangeError] = field(default_factory=list)
 
 
 def read_systems(files: Mapping[str, bytes], report: ImportReport) -> Systems:
@@ -64,7 +68,7 @@ def read_systems(files: Mapping[str, bytes], report: ImportReport) -> Systems:
         try:
             _System(path, files, found, report).read()
         except ExchangeError as error:
-            report.add("refused", error.source, str(error).partition(": ")[2], line=error.line)
+            found.failures.append(error)
     return found
 
 
@@ -122,9 +126,7 @@ def _shown_time(text: str) -> str:
 class _System:
     """One system project."""
 
-    def __init__(
-        self, source: str, files: Mapping[str, bytes], found: Systems, report: ImportReport
-    ) -> None:
+    def __init__(self, source: str, files: Mapping[str, bytes], found: Systems, report: ImportReport) -> None:
         self.source = source
         self.folder = posixpath.dirname(source)
         self.files = files
@@ -138,17 +140,23 @@ class _System:
         project = root.child("Project")
         if root.tag != "TcSmProject" or project is None:
             raise ExchangeError(self.source, "is no system project: <TcSmProject> is missing", root.line)
+        self._types(root, self.source)
         self.found.names.append(posixpath.basename(self.source).rpartition(".")[0])
         for item in project.walk():
             if item.tag == "Task":
                 self._task(item)
+        for item in project.children("Plc"):
+            for plc in item.children("Project"):
+                self._plc(plc)
         for item in project:
-            if item.tag == "Plc":
-                for plc in item.children("Project"):
-                    self._plc(plc)
-            elif item.tag in _PARTS:
+            if item.tag in _PARTS:
                 self._part(item)
         self._links(root, self.source)
+
+    def _types(self, root: Element, source: str) -> None:
+        known = {draft.name.casefold() for draft in self.found.types}
+        found = read_types(root, source, self.report)
+        self.found.types += [draft for draft in found if draft.name.casefold() not in known]
 
     def _task(self, item: Element) -> None:
         tenths = item.get("CycleTime")
@@ -181,6 +189,7 @@ class _System:
             inner = root.child("Project")
             if inner is None:
                 raise ExchangeError(source, "holds no PLC project: <Project> is missing", root.line)
+            self._types(root, source)
             self._links(root, source)
             item = inner
         path = file_at(self.files, folder, item.get("PrjFilePath"))
@@ -215,7 +224,9 @@ class _System:
             return
         more = f" and {len(names) - _NAMES_SHOWN} more" if len(names) > _NAMES_SHOWN else ""
         listed = f": {', '.join(names[:_NAMES_SHOWN])}{more}" if names else ""
-        advice = "; add the devices here" if item.tag == "Io" else "; add the axes here" * (item.tag == "Motion")
+        advice = (
+            "; add the devices here" if item.tag == "Io" else "; add the axes here" * (item.tag == "Motion")
+        )
         text = f"{_PARTS[item.tag]} of the system project are not read{advice}{listed}"
         self.report.add("refused", self.source, text, name=item.tag, line=item.line)
 
@@ -235,8 +246,10 @@ class _System:
                         continue
                     more = f" and {len(links) - _LINKS_SHOWN} more" if len(links) > _LINKS_SHOWN else ""
                     place = " > ".join(second.get("Name").split("^")[1:])
-                    text = f"links with '{place}' are not read; map the variables to channels of a device here: "
-                    text += f"{', '.join(links[:_LINKS_SHOWN])}{more}"
+                    axis = second.get("Name").startswith("TINC^")
+                    advice = "" if axis else "; map the variables to channels of a device here"
+                    told = f"links with {'the axis ' if axis else ''}'{place}' are not read{advice}"
+                    text = f"{told}: {', '.join(links[:_LINKS_SHOWN])}{more}"
                     self.report.add("refused", source, text, name=plc, line=second.line)
 
 
@@ -250,7 +263,7 @@ def _instance(owner: str) -> str | None:
 
 def _variable(text: str) -> str:
     """The variable of an end of a link: `PlcTask Outputs^Main.M1.bBrake` is `Main.M1.bBrake`."""
-    return text.partition("^")[2].replace("^", ".") or text
+    return text.partition("^")[2].replace("^", ".").replace(".[", "[") or text
 
 
 def _child_text(item: Element, tag: str) -> str:
