@@ -10,7 +10,8 @@ from edited_project import CHOICES, OBJECTS, knowledge, messages, text_of, units
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tappet.lang.analysis import Analysis, analyse
+from tappet.lang.analysis import Analysis, analyse, go_on
+from tappet.lang.analysis import redeclare as redeclaring
 from tappet.lang.analysis.bodies import State
 from tappet.lang.analysis.dependents import Dependents
 from tappet.lang.analysis.words import words_of
@@ -45,6 +46,53 @@ def test_every_edit_leads_to_what_a_full_analysis_knows(
         assert _differences(messages(analysis), messages(full)) == []
         known = knowledge(analysis, units.values())
         assert _differences(known, knowledge(full, fresh.values())) == []
+
+
+@settings(max_examples=15, deadline=None, derandomize=True)
+@given(EDITS, st.lists(st.tuples(EDITS, st.sampled_from([*OBJECTS]), st.booleans()), min_size=4, max_size=8))
+def test_what_waits_is_made_up_for(
+    begin: list[tuple[str, int]], edits: list[tuple[list[tuple[str, int]], str, bool]]
+) -> None:
+    """Bodies wait for the next edits or are analysed between them; in the end nothing is missing."""
+    chosen = dict(begin)
+    units = units_of(chosen)
+    analysis = analyse(list(units.values()))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(redeclaring, "AT_ONCE", 0)
+        for edit, first, some in edits:
+            chosen |= dict(edit)
+            for name in OBJECTS:
+                source = text_of(name, chosen)
+                if source != units[name].source:
+                    units[name] = parse(source).unit
+            analysis = analyse(list(units.values()), None, analysis, frozenset([first]))
+            if some:
+                go_on(analysis, 0.0)
+        analysis = analyse(list(units.values()), previous=analysis)
+    assert not analysis.is_waiting
+    fresh = units_of(chosen)
+    full = analyse(list(fresh.values()))
+    assert _differences(messages(analysis), messages(full)) == []
+    assert _differences(knowledge(analysis, units.values()), knowledge(full, fresh.values())) == []
+
+
+def test_an_edited_text_is_told_of_before_others() -> None:
+    begin = {"other_body": 2, "axis_body": 2}
+    units = units_of(begin)
+    first = analyse(list(units.values()))
+    units["Common"] = parse(text_of("Common", begin | {"shared": 3})).unit
+    units["P_Other"] = parse(text_of("P_Other", begin | {"other_body": 1})).unit
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(redeclaring, "AT_ONCE", 0)
+        early = analyse(list(units.values()), None, first, frozenset(["P_Other"]))
+    assert early.is_waiting
+    known = {uri: [str(d) for d in early.diagnostics if d.uri == uri] for uri in ("P_Other", "FB_Axis")}
+    while not go_on(early, 0.0):
+        pass
+    late = analyse(list(units.values()), previous=early)
+    told = {uri: [str(d) for d in late.diagnostics if d.uri == uri] for uri in ("P_Other", "FB_Axis")}
+    assert known["P_Other"] == told["P_Other"]
+    assert known["FB_Axis"] != told["FB_Axis"]
 
 
 def _differences(found: list[str], expected: list[str]) -> list[tuple[str | None, str | None]]:

@@ -5,7 +5,16 @@ Imports only `lang`. Start reading at `result` (what analysis leaves for code ge
 """
 
 from tappet.lang.analysis.result import Analysis, AnalysisOptions, ConfiguredAddress, carried_type
-from tappet.lang.analysis.run import analyse
+from tappet.lang.analysis.run import analyse, go_on, prepare
 from tappet.lang.analysis.tasks import check_tasks
 
-__all__ = ["Analysis", "AnalysisOptions", "ConfiguredAddress", "analyse", "carried_type", "check_tasks"]
+__all__ = [
+    "Analysis",
+    "AnalysisOptions",
+    "ConfiguredAddress",
+    "analyse",
+    "carried_type",
+    "check_tasks",
+    "go_on",
+    "prepare",
+]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import inf
+from time import monotonic
 
 from tappet.lang import ast
 from tappet.lang.analysis import program
@@ -33,6 +35,18 @@ class State:
     """What coding rules report about the declarations and comments of a text, by id() of its unit."""
     words: dict[str, Words] = field(default_factory=dict)
     """Of the texts, by uri, where an edit of declarations has asked for them."""
+    waiting: dict[int, PouSymbol] = field(default_factory=dict)
+    """Bodies that have to be analysed still, by id() of their symbol; their records are those of before."""
+
+    def analyse_waiting(self, seconds: float = inf, first: frozenset[str] | None = None) -> None:
+        """Analyses bodies that wait, of the texts `first` only when it is given, until the time is up."""
+        end = monotonic() + seconds
+        for key, pou in list(self.waiting.items()):
+            if first is None or (pou.source is not None and pou.source.uri in first):
+                del self.waiting[key]
+                self.records[key] = analyse_body(self.session, pou, self.declarations.bodies[key])
+                if monotonic() > end:
+                    return
 
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
@@ -118,5 +132,6 @@ def finish(state: State) -> Analysis:
     analysis = session.analysis
     analysis.diagnostics = with_severity(kept(found, state.units), session.options.static.errors)
     analysis.called = session.called
+    analysis.is_waiting = bool(state.waiting)
     analysis.state = state
     return analysis

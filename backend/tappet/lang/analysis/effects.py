@@ -34,7 +34,8 @@ from tappet.lang.types import Type
 Made = Mapping[str, Mapping[Key, Any]]
 """What stands for the declarations of texts, by uri."""
 _OF_SIZE = ("SIZEOF", "XSIZEOF")
-_PINS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT")
+_WITH_TYPE = (VarSymbol, PropertySymbol, TypeSymbol, EnumValueSymbol, InterfaceSymbol)
+_MADE_OF_ANOTHER = (t.Array, t.Pointer, t.Reference)
 
 
 # -- what others can tell of a thing ----------------------------------------------------------------
@@ -167,6 +168,11 @@ class Effects:
         self._found = together(found, layout.found)
         tables = [*made.values(), *layout.made.values()]
         self._things = [(key, thing) for table in tables for key, thing in table.items()]
+        self._of_type: defaultdict[int, list[tuple[Key, Symbol]]] = defaultdict(list)
+        """What has or returns values made of a type, by id() of it."""
+        self._with_parameter: defaultdict[int, list[tuple[Key, Symbol]]] = defaultdict(list)
+        """What has a parameter, by id() of it."""
+        self._index()
         self._members: defaultdict[str, set[str]] = defaultdict(set)
         """Changed names inside objects, by upper-case name of the object."""
         self._shapes: set[int] = set()
@@ -188,6 +194,15 @@ class Effects:
         self._by_variable: defaultdict[int, list[_Inside]] = defaultdict(list)
         """id() of the variables that hold or refer to an instance."""
         self._find_instances()
+
+    def _index(self) -> None:
+        for key, thing in self._things:
+            if isinstance(thing, PouSymbol):
+                self._of_type[id(_inner(thing.return_type))].append((key, thing))
+                for parameter in thing.parameters:
+                    self._with_parameter[id(parameter)].append((key, thing))
+            elif isinstance(thing, _WITH_TYPE):
+                self._of_type[id(_inner(thing.type))].append((key, thing))
 
     def note(self, words: Iterable[str]) -> None:
         """Other global names that mean something else now."""
@@ -238,25 +253,19 @@ class Effects:
 
     def _spread(self) -> None:
         """What has a part or parameter of a changed type is changed, too."""
-        told = self._told
-        size = -1
-        while size != len(told) + len(self._shapes):
-            size = len(told) + len(self._shapes)
-            for key, thing in self._things:
-                if id(thing) in told:
-                    continue
-                if isinstance(thing, PouSymbol):
-                    changed = any(id(p) in told for p in thing.parameters)
-                    changed = changed or _mentions(thing.return_type, self._shapes)
-                else:
-                    type_ = getattr(thing, "type", None) if isinstance(thing, Symbol) else None
-                    changed = type_ is not None and _mentions(type_, self._shapes)
-                if changed:
+        told: set[int] = set()
+        shapes: set[int] = set()
+        while len(told) < len(self._told) or len(shapes) < len(self._shapes):
+            fresh = [entry for i in self._shapes - shapes for entry in self._of_type.get(i, ())]
+            fresh += [entry for i in self._told - told for entry in self._with_parameter.get(i, ())]
+            shapes, told = set(self._shapes), set(self._told)
+            for key, thing in fresh:
+                if id(thing) not in self._told:
                     self._tell(key, thing)
         for pou, _ in self._found.pous:
             for part in pou.with_children():
                 own = self._found.own[id(part)].variables.values()
-                if any(id(v) in told for v in own) or (part.result is not None and id(part.result) in told):
+                if not self._told.isdisjoint(map(id, own)) or id(part.result) in self._told:
                     self.pous.add(id(part))
 
     def _enums_moved(self) -> None:
@@ -282,15 +291,11 @@ class Effects:
                 self._by_word[name.upper()] += found
                 for text in texts:
                     self._by_text[text] += found
-        for key, thing in self._things if reach else ():
-            if isinstance(thing, VarSymbol):
-                found = reach.get(id(_inner(thing.type)), [])
-                if found:
+        for type_id, found in reach.items():
+            for key, thing in self._of_type.get(type_id, ()):
+                if isinstance(thing, VarSymbol):
                     self._by_variable[id(thing)] += found
-            elif isinstance(thing, (PouSymbol, TypeSymbol, PropertySymbol)):
-                type_ = thing.return_type if isinstance(thing, PouSymbol) else thing.type
-                found = reach.get(id(_inner(type_)), [])
-                if found:
+                elif not isinstance(thing, (EnumValueSymbol, InterfaceSymbol)):
                     self._by_word[key[2].removeprefix("__GET")] += found
 
     def _objects(self) -> Iterator[tuple[str, list[Type | None], set[str]]]:
@@ -332,11 +337,6 @@ def _base_interfaces(interface: InterfaceSymbol) -> Iterator[InterfaceSymbol]:
 
 def _inner(type_: Type | None) -> Type | None:
     """What arrays, pointers and references are made of."""
-    while isinstance(type_, (t.Array, t.Pointer, t.Reference)):
+    while type_.__class__ in _MADE_OF_ANOTHER:
         type_ = type_.element if isinstance(type_, t.Array) else type_.base
     return type_
-
-
-def _mentions(type_: Type | None, types: set[int]) -> bool:
-    """Whether a type is made of one of `types`, given by id()."""
-    return id(_inner(type_)) in types

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import fields, replace
 
 from tappet.lang import ast
-from tappet.lang.analysis.bodies import State, analyse_body, finish
+from tappet.lang.analysis.bodies import State, finish
 from tappet.lang.analysis.collect_members import accessor_pou
-from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.context import SUGGESTION_LIMIT, Body
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.program import check_fb_init
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
@@ -28,8 +28,14 @@ _NOT_COMPARED = frozenset(
 _UNNAMED = (ast.EnumType, ast.StructType)
 
 
-def reanalyse(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOptions) -> Analysis | None:
-    """The analysis of `units` made from `previous`; None when more than bodies has changed."""
+def reanalyse(
+    previous: Analysis,
+    units: Sequence[ast.Unit],
+    options: AnalysisOptions,
+    first: frozenset[str] | None = None,
+) -> Analysis | None:
+    """The analysis of `units` made from `previous`; None when more than bodies has changed. With `first`,
+    those that waited wait on."""
     state = previous.state
     if not isinstance(state, State) or options != previous.options or len(units) != len(state.units):
         return None
@@ -39,7 +45,8 @@ def reanalyse(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOp
     edited = {old.source.uri for old, _ in pairs}
     if any(uri in edited and record.messages for uri, record in state.session.declared.items()):
         return None
-    state.session.suggestions = 0
+    if not state.waiting:
+        state.session.suggestions = 0
     changed: list[PouSymbol] = []
     state.session.analysis = replace(previous, changed=changed, continued=True)
     previous.state = None
@@ -47,8 +54,11 @@ def reanalyse(previous: Analysis, units: Sequence[ast.Unit], options: AnalysisOp
         for before, after in zip(old.declarations, new.declarations, strict=True):
             _rebind(state, before, after, new.source, changed)
     state.units = tuple(units)
-    for symbol in changed:
-        state.records[id(symbol)] = analyse_body(state.session, symbol, state.declarations.bodies[id(symbol)])
+    late = bool(state.waiting)
+    state.waiting.update((id(symbol), symbol) for symbol in changed)
+    state.analyse_waiting(first=frozenset(edited) if first is not None else None)
+    if late and state.session.suggestions >= SUGGESTION_LIMIT:
+        return None
     result = finish(state)
     # a new address in a body may take the place of a variable that other bodies are linked with
     return result if result.configured == previous.configured else None

@@ -31,7 +31,7 @@ from tappet.lang.sfc.library import has_chart
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Symbol
 
-_AT_ONCE = 20
+AT_ONCE = 20
 """So many bodies do not wait: to put all messages together twice takes longer."""
 _OF_CIRCLES = ("E0408", "E0107")
 _CHART_FLAGS = "SFC"
@@ -44,8 +44,8 @@ def redeclare(
     options: AnalysisOptions,
     first: frozenset[str] | None = None,
 ) -> Analysis | None:
-    """The analysis of `units` made from `previous`; None when the edit does not qualify. Bodies of other texts
-    than those with the uris `first` may wait, see `analyse`."""
+    """The analysis of `units` made from `previous`; None when the edit does not qualify. Bodies of other
+    texts than `first` may wait, see `analyse`."""
     state = previous.state
     if not isinstance(state, State) or options != previous.options or options.static.codes:
         return None
@@ -91,6 +91,21 @@ def _same_head(old: ast.Declaration, new: ast.Declaration, owned: bool) -> bool:
     return not configures(old) and not configures(new)
 
 
+def read_words(state: State) -> None:
+    """Reads the words of all texts, which every edit of declarations asks for."""
+    state.words = _words(state, state.units)
+
+
+def _words(state: State, units: Iterable[ast.Unit]) -> dict[str, Words]:
+    """Of all texts but those of libraries, which see nothing of the project."""
+    found: dict[str, Words] = {}
+    for unit in units:
+        if unit.source.scope is not Scope.LIBRARY:
+            known = state.words.get(unit.source.uri)
+            found[unit.source.uri] = known if known and known.unit is unit else words_of(unit)
+    return found
+
+
 class _Again:
     """One analysis after an edit."""
 
@@ -102,12 +117,7 @@ class _Again:
         self.units = units
         self.edited = edited
         """Texts that are new: old and new tree by uri."""
-        self.words: dict[str, Words] = {}
-        """Of all texts but those of libraries, which see nothing of the project."""
-        for unit in units:
-            if unit.source.scope is not Scope.LIBRARY:
-                known = state.words.get(unit.source.uri)
-                self.words[unit.source.uri] = known if known and known.unit is unit else words_of(unit)
+        self.words = _words(state, units)
         self._numbers = {unit.source.uri: (number, unit) for number, unit in enumerate(units)}
         found = Dependents(session, self.words, edited)
         self.texts = found.again
@@ -199,7 +209,7 @@ class _Again:
             words = self.words.get(pou.source.uri)
             if record is None or (words is not None and effects.concern(pou, record, words)):
                 state.waiting[id(pou)] = pou
-        if first is None or len(state.waiting) <= _AT_ONCE:
+        if first is None or len(state.waiting) <= AT_ONCE:
             state.analyse_waiting()
         else:
             state.analyse_waiting(first=first | self.edited.keys())

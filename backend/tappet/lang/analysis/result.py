@@ -166,6 +166,9 @@ class Analysis:
     """POUs, methods and accessors with a new body since the previous analysis; None: everything is new."""
     continued: bool = False
     """Whether symbols of the previous analysis live on here."""
+    is_waiting: bool = False
+    """Whether bodies have not been analysed yet; `go_on` analyses them, and the next analysis tells of
+    them."""
     state: object | None = None
     """What the next analysis may reuse; no business of others."""
 

@@ -24,7 +24,7 @@ from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.declare import all_pous, declare
 from tappet.lang.analysis.incremental import reanalyse
-from tappet.lang.analysis.redeclare import redeclare
+from tappet.lang.analysis.redeclare import read_words, redeclare
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.sfc.library import with_types
 
@@ -36,19 +36,22 @@ def analyse(
     units: Sequence[ast.Unit],
     options: AnalysisOptions | None = None,
     previous: Analysis | None = None,
+    first: frozenset[str] | None = None,
 ) -> Analysis:
     """Resolves and checks a program; every message is in `Analysis.diagnostics`. Never raises.
 
     The trees of `units` are filled in place: one tree takes part in one analysis at a time.
     When the units are those of `previous` but for bodies, only these are analysed (`Analysis.changed`). When
     they declare the same objects, what depends on the edited declarations is analysed. `previous` is used up
-    then, its symbols live on in the result (`Analysis.continued`).
+    then, its symbols live on in the result (`Analysis.continued`). Where many bodies have to be analysed
+    again, those of texts that are not among the uris `first` may wait (`Analysis.is_waiting`): the next
+    analysis, of the same or other units, takes them up.
     """
     options = options or AnalysisOptions()
     earlier = previous.state.units if previous is not None and isinstance(previous.state, State) else ()
     units = with_types(units, earlier)
     if previous is not None:
-        again = reanalyse(previous, units, options) or redeclare(previous, units, options)
+        again = reanalyse(previous, units, options, first) or redeclare(previous, units, options, first)
         if again is not None:
             return again
     analysis = Analysis(options)
@@ -63,3 +66,18 @@ def analyse(
     for pou in all_pous(found):
         state.records[id(pou)] = analyse_body(session, pou, declarations.bodies[id(pou)])
     return finish(state)
+
+
+def go_on(analysis: Analysis, seconds: float) -> bool:
+    """Analyses bodies that wait, for about so many seconds; whether none waits any more."""
+    state = analysis.state
+    if isinstance(state, State):
+        state.analyse_waiting(seconds)
+        return not state.waiting
+    return True
+
+
+def prepare(analysis: Analysis) -> None:
+    """Reads what the first edit of declarations would have to read of every text."""
+    if isinstance(analysis.state, State):
+        read_words(analysis.state)

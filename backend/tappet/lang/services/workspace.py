@@ -7,12 +7,12 @@ analysis knows; every service works on one. One thread at a time may use a works
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cached_property
 from typing import Any
 
 from tappet.lang import ast
-from tappet.lang.analysis import Analysis, AnalysisOptions, analyse
+from tappet.lang.analysis import Analysis, AnalysisOptions, analyse, go_on, prepare
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed, lex
@@ -108,6 +108,11 @@ class Snapshot:
         for text, result in zip(self.program.texts, self.results, strict=True):
             yield text, result.unit
 
+    @property
+    def is_waiting(self) -> bool:
+        """Whether texts are left for later: messages of others than the first ones may be old."""
+        return self.analysis.is_waiting
+
     @cached_property
     def diagnostics(self) -> list[Diagnostic]:
         """All messages, those of the parser first."""
@@ -194,6 +199,30 @@ class Workspace:
         """The analyses of all programs."""
         return [self._analyse(program) for program in self.programs()]
 
+    def first_snapshots(self, documents: Collection[str]) -> list[Snapshot]:
+        """Analyses of all programs that may leave other texts than these for later
+        (`Snapshot.is_waiting`)."""
+        return [self._analyse(program, documents) for program in self.programs()]
+
+    def in_texts_of(self, documents: Collection[str]) -> set[str]:
+        """Documents and those that are parts of the same texts, as declaration and implementation are."""
+        found = set(documents)
+        for program in self.programs():
+            for text in program.texts:
+                shown = {segment.document for segment in text.segments}
+                if not shown.isdisjoint(documents):
+                    found |= shown
+        return found
+
+    def go_on(self, seconds: float) -> bool:
+        """Work on what `first_snapshots` has left, for so long; whether nothing is left."""
+        return all(go_on(snapshot.analysis, seconds) for snapshot in self._snapshots.values())
+
+    def prepare(self) -> None:
+        """Do what the first edit of declarations would have to do for every text."""
+        for snapshot in self._snapshots.values():
+            prepare(snapshot.analysis)
+
     def quick_view(self, document: str, position: Position) -> View:
         """What stands at a position now, with symbols of the last analysis if a new one would take long."""
         program = self.program_of(document)
@@ -223,22 +252,35 @@ class Workspace:
                     return View(snapshot, index, text, result, inside)
         raise ServiceError(f"'{document}' belongs to no application; it is not compiled")
 
-    def _analyse(self, program: Program) -> Snapshot:
-        if self._analysed.get(program.name) == self.generation:
-            return self._snapshots[program.name]
-        started = time.perf_counter()
-        sources = [text.source for text in program.texts]
-        plain = self._parsed.get(program.name, {})
-        options = ParseOptions(defines=program.defines, tasks=program.tasks)
-        settings = AnalysisOptions(static=program.static)
-        results = parse_sources(sources, options, plain=plain)
-        self._parsed[program.name] = dict(zip(sources, results, strict=True))
+    def _analyse(self, program: Program, documents: Collection[str] | None = None) -> Snapshot:
+        """The analysis of a program; `documents` come first and the others may wait."""
         last = self._snapshots.get(program.name)
+        fresh = last is not None and self._analysed.get(program.name) == self.generation
+        if last is not None and fresh and (documents is not None or not last.is_waiting):
+            return last
+        started = time.perf_counter()
+        settings = AnalysisOptions(static=program.static)
+        if last is not None and fresh:
+            results = last.results
+        else:
+            sources = [text.source for text in program.texts]
+            plain = self._parsed.get(program.name, {})
+            options = ParseOptions(defines=program.defines, tasks=program.tasks)
+            results = parse_sources(sources, options, plain=plain)
+            self._parsed[program.name] = dict(zip(sources, results, strict=True))
         previous = last.analysis if last is not None else None
-        analysis = analyse([result.unit for result in results], settings, previous)
+        first = None if documents is None else _sources_of(program, documents)
+        analysis = analyse([result.unit for result in results], settings, previous, first)
         self.whole_analyses += not analysis.continued
         snapshot = Snapshot(program, results, analysis)
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation
         self._seconds[program.name] = time.perf_counter() - started
         return snapshot
+
+
+def _sources_of(program: Program, documents: Collection[str]) -> frozenset[str]:
+    """Uris of the texts that show documents."""
+    return frozenset(
+        text.source.uri for text in program.texts if any(s.document in documents for s in text.segments)
+    )

@@ -34,6 +34,8 @@ from tappet.server.lsp.positions import Line, apply_change, lines_of, to_positio
 
 DEBOUNCE_S: Final = 0.3
 """Pause in the typing after which messages are worked out anew."""
+SLICE_S: Final = 0.03
+"""Requests and edits wait at most so long for a check that goes on behind the messages of the edited text."""
 MAX_DOCUMENT: Final = 4_000_000
 """Characters of one document."""
 READ_DOCUMENT: Final = "tappet/document"
@@ -103,6 +105,10 @@ class LanguageSession:
         self._published: dict[str, list[Report]] = {}
         self._opened_since: set[str] = set()
         """Documents opened since messages were published last: a new text in an editor shows none yet."""
+        self._edited_since: set[str] = set()
+        """Documents edited since messages were published last: theirs come first."""
+        self._left = False
+        """Whether messages of other documents are still to be worked out."""
         self._timer: asyncio.TimerHandle | None = None
         self._publishing: asyncio.Task[None] | None = None
         self._again = False
@@ -235,6 +241,7 @@ class LanguageSession:
             raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{spelled}' has more than {MAX_DOCUMENT} characters")
         uri = self.canonical(spelled)
         self._names[uri] = spelled
+        self._edited_since.add(uri)
         self._open[uri] = _Document(text, version)
         self.workspace.open(uri, text)
         self._schedule_from_worker()
@@ -307,46 +314,82 @@ class LanguageSession:
         while True:
             self._again = False
             try:
-                changed = await self.endpoint.run(self._changed_messages)
+                await self._tell(self._first_messages)
+                if self._left and await self._work_on():
+                    await self._tell(self._all_messages)
             except Exception:
                 # The session goes on: the next change of a text tries again.
                 log.exception("the messages of a program could not be worked out")
                 return
-            for params in changed:
-                await self.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params)
             await self.endpoint.run(self._tidy)
             if not self._again:
                 return
 
-    def _changed_messages(self) -> list[Any]:
-        """What to publish: documents whose messages are others than those told last, or just opened ones."""
+    async def _work_on(self) -> bool:
+        """Do what is left, a while at a time; False when an edit has come: its messages go first."""
+        while not await self.endpoint.run(self._go_on):
+            if self._again or self._timer is not None:
+                return False
+        return True
+
+    async def _tell(self, messages: Callable[[], list[Any]]) -> None:
+        """Publish what there is to tell."""
+        for params in await self.endpoint.run(messages):
+            await self.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params)
+
+    def _first_messages(self) -> list[Any]:
+        """What to publish first: everything, or, where an edit concerns many texts, that of the edited
+        ones."""
         if self._state != "initialized":
             return []
+        edited, self._edited_since = self.workspace.in_texts_of(self._edited_since), set()
         with room_for_trees():
-            return self._new_messages()
+            snapshots = self.workspace.first_snapshots(edited)
+            self._left = any(snapshot.is_waiting for snapshot in snapshots)
+            return self._new_messages(snapshots, edited if self._left else None)
+
+    def _go_on(self) -> bool:
+        """Work for a while on what has been left for later; whether nothing is left."""
+        with room_for_trees():
+            return self.workspace.go_on(SLICE_S)
+
+    def _all_messages(self) -> list[Any]:
+        """What to publish when nothing is left for later."""
+        if self._state != "initialized" or self._timer is not None:
+            return []
+        with room_for_trees():
+            return self._new_messages(self.workspace.snapshots(), None)
 
     def _tidy(self) -> None:
-        """Look for the garbage of a whole analysis while nobody waits for messages."""
+        """After a whole analysis, look for its garbage and prepare the next one: nobody waits for
+        messages."""
         if self._tidied != self.workspace.whole_analyses:
             self._tidied = self.workspace.whole_analyses
             gc.collect()
+            self.workspace.prepare()
 
-    def _new_messages(self) -> list[Any]:
+    def _new_messages(self, snapshots: list[Snapshot], only: set[str] | None) -> list[Any]:
+        """Documents, or of some documents those, whose messages are others than those told last, and those
+        that have just been opened."""
         found: dict[str, list[Report]] = {}
-        for snapshot in self.workspace.snapshots():
-            for document, entries in reports(snapshot).items():
+        for snapshot in snapshots:
+            for document, entries in reports(snapshot, only).items():
                 known = found.setdefault(document, [])
                 known += [entry for entry in entries if entry not in known]
         out = []
-        opened, self._opened_since = self._opened_since, set()
-        for document in {*found, *self._published}:
+        opened = {document for document in self._opened_since if only is None or document in only}
+        self._opened_since -= opened
+        for document in {*found, *self._published} if only is None else only:
             now = found.get(document, [])
             if now != self._published.get(document, []) or document in opened:
                 version = self._open[document].version if document in self._open else None
                 diagnostics = convert.diagnostics(now, document, self.lines, self._advise, self.language)
                 params = lsp.PublishDiagnosticsParams(self.spelled(document), diagnostics, version)
                 out.append(_CONVERTER.unstructure(params))
-        self._published = found
+        if only is None:
+            self._published = found
+        else:
+            self._published = {k: v for k, v in self._published.items() if k not in only} | found
         return out
 
 
