@@ -28,8 +28,7 @@ import zhScene from './zh/scene.json';
 import zhTests from './zh/tests.json';
 import zhWorkbench from './zh/workbench.json';
 
-export const LANGUAGES = ['en', 'zh'] as const;
-export type Language = (typeof LANGUAGES)[number];
+export type Language = 'en' | 'zh';
 
 const en = {
   ...enWorkbench,

@@ -135,7 +135,7 @@ async function provideModels(monaco: Monaco, uris: readonly string[]): Promise<v
   }
 }
 
-export function closeLanguageClient(): void {
+function closeLanguageClient(): void {
   providers.forEach((provider) => provider.dispose());
   providers = [];
   client?.close();

@@ -10,7 +10,7 @@ interface Stroke {
 
 const NAMES: Record<string, string> = { del: 'delete', esc: 'escape', space: ' ', plus: '+', return: 'enter' };
 
-export function parseKeys(text: string): Stroke {
+function parseKeys(text: string): Stroke {
   const parts = text.split('+').map((part) => part.trim().toLowerCase());
   const last = parts.pop() ?? '';
   return {

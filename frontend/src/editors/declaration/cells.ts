@@ -5,7 +5,7 @@ import { lineBreakOf, type DeclarationModel, type Range, type Row } from './mode
 import { parseDeclaration } from './parse';
 import { indentationAt, removeRange, replaceRange, startsLine, type TextChange } from './text';
 
-export class RowNotEditable extends Error {
+class RowNotEditable extends Error {
   constructor(public readonly row: number) {
     super(`row ${String(row + 1)} can only be edited in the text view`);
   }

@@ -4,7 +4,7 @@ import { joinComments } from './comments';
 import type { Block, DeclarationModel, Row } from './model';
 import { insertRow, setScope } from './structure';
 
-export const COLUMNS = ['number', 'scope', 'name', 'address', 'type', 'initial', 'comment', 'attributes'] as const;
+const COLUMNS = ['number', 'scope', 'name', 'address', 'type', 'initial', 'comment', 'attributes'] as const;
 export type ColumnId = (typeof COLUMNS)[number];
 
 export interface Sorting {

@@ -11,7 +11,7 @@ export function lineStart(text: string, at: number): number {
 }
 
 /** Offset of the line break that ends the line of `at`, or the length of the text. */
-export function lineEnd(text: string, at: number): number {
+function lineEnd(text: string, at: number): number {
   const newline = text.indexOf('\n', at);
   if (newline < 0) return text.length;
   return text[newline - 1] === '\r' && newline > at ? newline - 1 : newline;

@@ -1,12 +1,10 @@
+import { LOCAL_RUNTIME } from '@/workbench/online/acts';
 import type { OnlineSession } from '@/workbench/onlineSession';
 
 /** What the front end needs of a scene; the server draws it. */
 export interface SceneData {
   elements: readonly unknown[];
 }
-
-/** Id of the runtime that the server starts itself. */
-export const LOCAL_RUNTIME = 'local';
 
 /** The runtime whose values move the scene: the one logged in to, else the server's own. */
 export function runtimeOf(sessions: readonly OnlineSession[]): string {

@@ -17,7 +17,7 @@ export function nodeForest(nodes: readonly ImportNode[]): NodeForest {
   return { nodes, children };
 }
 
-export function below(forest: NodeForest, key: string): ImportNode[] {
+function below(forest: NodeForest, key: string): ImportNode[] {
   const found: ImportNode[] = [];
   const waiting = [...(forest.children.get(key) ?? [])];
   for (let node = waiting.shift(); node; node = waiting.shift()) {

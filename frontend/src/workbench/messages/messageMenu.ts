@@ -31,7 +31,7 @@ export async function messageEntries(message: Diagnostic, t: ReturnType<typeof u
 }
 
 /** `Application.PLC_PRG:3:5: error E0201: Identifier 'x' not defined. Declare it.` */
-export function messageText({ severity, code, message, advice, object_path, line, column }: Diagnostic): string {
+function messageText({ severity, code, message, advice, object_path, line, column }: Diagnostic): string {
   const place = line === null ? object_path : `${object_path}:${String(line)}:${String(column ?? 1)}`;
   return `${place}: ${severity} ${code}: ${[message, advice].filter(Boolean).join('. ')}`;
 }

@@ -30,7 +30,7 @@ export function exceptionPlace(exception: RuntimeException): string {
   return [placeText(exception), t('exception.inTask', { task: exception.task })].filter(Boolean).join(', ');
 }
 
-export function placeText({ pou, line }: Pick<CallFrame, 'pou' | 'line'>): string {
+function placeText({ pou, line }: Pick<CallFrame, 'pou' | 'line'>): string {
   return [pou, line === null ? '' : t('exception.line', { line })].filter(Boolean).join(', ');
 }
 
