@@ -205,10 +205,6 @@ class FlightRecorder:
         """(cycle, unix time in ns) of everything that is kept, oldest first."""
         return [(e.cycle, e.timestamp_ns) for e in self._steady(self._entries)]
 
-    def image_at(self, cycle: int) -> bytes:
-        """The image at the end of `cycle`; FlightError when it is not kept."""
-        return self.rebuild(self.capture(cycle))
-
     def capture(self, cycle: int) -> Capture:
         """Copy what is needed to rebuild the image at `cycle`; FlightError when it is not kept."""
         entries, base = self._steady(lambda: (self._entries(), read_memory(self._shadow.address, self._size)))

@@ -14,8 +14,6 @@ from tappet.server.schemas.base import Reply, Request
 from tappet.server.schemas.runtimes import RuntimeState
 from tappet.server.schemas.values import MAX_EXPRESSIONS, Expression
 
-HEADER_BYTES = 24
-"""Bytes of a frame before its values."""
 SubscriptionId = Annotated[int, Field(ge=0, le=0xFFFFFFFF, strict=True)]
 
 
