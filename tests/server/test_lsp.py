@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from lsp_client import Client, FakeProject, uri
 from lsp_project import BODY, HEAD, PROJECT, here, start
 
+from tappet.lang.analysis import redeclare
 from tappet.lang.services.semantic_tokens import TOKEN_TYPES
 from tappet.server.lsp import rpc
 
@@ -362,3 +364,24 @@ async def test_semantic_tokens_are_packed_in_utf_16() -> None:
         kinds = [TOKEN_TYPES[token[3]] for token in tokens]
         assert kinds == ["variable", "operator", "number", "comment", "variable"]
         assert [token[:3] for token in tokens] == [(0, 0, 6), (0, 7, 2), (0, 3, 1), (0, 3, 7), (1, 2, 5)]
+
+
+async def test_an_edited_text_is_told_of_before_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An edit that concerns many texts: theirs are checked behind the messages of the edited one."""
+    monkeypatch.setattr(redeclare, "AT_ONCE", 0)
+    block = "FUNCTION_BLOCK FB_Count\nVAR_OUTPUT\n    {} : INT;\nEND_VAR"
+    users = {
+        f"Use{n}": (f"PROGRAM Use{n}\nVAR f : FB_Count; n : INT; END_VAR", "n := f.a;") for n in range(3)
+    }
+    async with start(FB_Count=(block.format("a"), "a := 1;"), **users) as client:
+        await client.start()
+        head = uri("FB_Count", "declaration")
+        await client.open(head, block.format("a"))
+        assert await client.published(head) == []
+        for name, codes in (("b", ["E0204"]), ("a", [])):
+            change = {"range": here(2, 4, 5), "text": name}
+            told = {"textDocument": {"uri": head, "version": 2}, "contentChanges": [change]}
+            await client.tell("textDocument/didChange", told)
+            for document in (uri("FB_Count", "implementation"), uri("Use0", "implementation")):
+                found = await client.published(document)
+                assert [d["code"] for d in found] == (codes if "Use" in document else codes and ["E0201"])
