@@ -370,18 +370,18 @@ async def test_an_edited_text_is_told_of_before_the_others(monkeypatch: pytest.M
     """An edit that concerns many texts: theirs are checked behind the messages of the edited one."""
     monkeypatch.setattr(redeclare, "AT_ONCE", 0)
     block = "FUNCTION_BLOCK FB_Count\nVAR_OUTPUT\n    {} : INT;\nEND_VAR"
-    users = {
-        f"Use{n}": (f"PROGRAM Use{n}\nVAR f : FB_Count; n : INT; END_VAR", "n := f.a;") for n in range(3)
-    }
-    async with start(FB_Count=(block.format("a"), "a := 1;"), **users) as client:
+    use = ("PROGRAM {}\nVAR f : FB_Count; n : INT; END_VAR", "n := f.a;")
+    users = {name: (use[0].format(name), use[1]) for name in ("Use1", "Use2")}
+    first, later = uri("FB_Count", "implementation"), uri("Use1", "implementation")
+    async with start(FB_Count=(block.format("b"), "a := 1;"), **users) as client:
         await client.start()
         head = uri("FB_Count", "declaration")
-        await client.open(head, block.format("a"))
-        assert await client.published(head) == []
-        for name, codes in (("b", ["E0204"]), ("a", [])):
+        await client.open(head, block.format("b"))
+        assert [d["code"] for d in await client.published(later)] == ["E0204"]
+        for name, codes in (("a", []), ("b", ["E0201", "E0204"])):
             change = {"range": here(2, 4, 5), "text": name}
             told = {"textDocument": {"uri": head, "version": 2}, "contentChanges": [change]}
+            client.notified.clear()
             await client.tell("textDocument/didChange", told)
-            for document in (uri("FB_Count", "implementation"), uri("Use0", "implementation")):
-                found = await client.published(document)
-                assert [d["code"] for d in found] == (codes if "Use" in document else codes and ["E0201"])
+            assert [d["code"] for d in await client.published(first)] == codes[:1]
+            assert [d["code"] for d in await client.published(later)] == codes[1:]
