@@ -119,6 +119,14 @@ const Globals = icon(
   </>,
 );
 
+const ParameterList = icon(
+  'variables',
+  <>
+    <path d="M2.25 4h6M11.75 4h2M2.25 8h1.5M7.25 8h6.5M2.25 12h5M10.75 12h3" />
+    <path d="M10 2.25v3.5M5.5 6.25v3.5M9 10.25v3.5" />
+  </>,
+);
+
 const Persistent = icon(
   'variables',
   <>
@@ -225,6 +233,7 @@ const BY_SUBKIND: Record<string, IconComponent> = {
   enum: Enumeration,
   union: Union,
   alias: Alias,
+  parameter_list: ParameterList,
 };
 
 /** Icon of an object by kind, subkind and, for property accessors, name. */

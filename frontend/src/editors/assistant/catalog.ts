@@ -115,6 +115,14 @@ export function libraryEntries(library: LibraryDetail): Entry[] {
       group: library.name,
       category,
     });
+    if (item.kind === 'parameter_list')
+      return item.members.map((pin) => ({
+        ...entry('variables'),
+        name: pin.name,
+        insert: `${item.name}.${pin.name}`,
+        detail: pin.type,
+        comment: pin.comment,
+      }));
     if (item.kind === 'function_block') return [entry('pous'), entry('types')];
     return [entry(TYPE_KINDS.has(item.kind) ? 'types' : 'pous')];
   });

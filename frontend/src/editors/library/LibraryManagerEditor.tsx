@@ -13,14 +13,19 @@ import { useToggleSet } from '@/workbench/toggleSet';
 import { Button, IconButton } from '@/workbench/ui/Button';
 import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
 import { Table } from '@/workbench/ui/Table';
+import { Tabs } from '@/workbench/ui/Tabs';
 import { useDraft } from '../form/useDraft';
 import { AddLibraryDialog } from './AddLibraryDialog';
 import { referenceColumns } from './columns';
+import { LibraryParameters } from './LibraryParameters';
 import { LibraryPropertiesDialog } from './LibraryPropertiesDialog';
 import styles from './LibraryManager.module.css';
 import { keyOf, rowsOf } from './model';
 
-/** Above the libraries in use, below the contents of the chosen one with documentation (LIB-01 to LIB-09). */
+/**
+ * Above the libraries in use, below the contents of the chosen one with documentation (LIB-01 to LIB-09), or the
+ * parameters of all.
+ */
 export default function LibraryManagerEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
   const draft = useDraft<LibraryManagerData>(panelId, projectId, objectId, () => true);
@@ -77,6 +82,31 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
     change: changeAt,
   });
 
+  const contents = (
+    <div className={styles.halves}>
+      <div className={styles.contents}>
+        {library ? (
+          <LibraryTree
+            key={idOf(library)}
+            label={t('library.contents', { name: library.name })}
+            libraries={[library]}
+            flat
+            onChoose={(from, item) => setShown({ library: idOf(from), item })}
+          />
+        ) : (
+          <Empty
+            title={chosen ? t('library.missing') : t('library.chooseOne')}
+            text={chosen ? t('library.missingText', { name: chosen.name }) : undefined}
+          />
+        )}
+      </div>
+      <ItemDoc
+        library={library && `${library.name}, ${library.version}`}
+        item={shown && library && shown.library === idOf(library) ? shown.item : null}
+      />
+    </div>
+  );
+
   return (
     <div className={styles.view}>
       <div className={styles.upper}>
@@ -123,25 +153,22 @@ export default function LibraryManagerEditor({ panelId, projectId, objectId }: E
         </div>
       </div>
       <div className={styles.lower}>
-        <div className={styles.contents}>
-          {library ? (
-            <LibraryTree
-              key={idOf(library)}
-              label={t('library.contents', { name: library.name })}
-              libraries={[library]}
-              flat
-              onChoose={(from, item) => setShown({ library: idOf(from), item })}
-            />
-          ) : (
-            <Empty
-              title={chosen ? t('library.missing') : t('library.chooseOne')}
-              text={chosen ? t('library.missingText', { name: chosen.name }) : undefined}
-            />
-          )}
-        </div>
-        <ItemDoc
-          library={library && `${library.name}, ${library.version}`}
-          item={shown && library && shown.library === idOf(library) ? shown.item : null}
+        <Tabs
+          pages={[
+            { id: 'contents', title: t('library.contentsTab'), content: contents },
+            {
+              id: 'parameters',
+              title: t('libraryParameters.title'),
+              content: (
+                <LibraryParameters
+                  references={references}
+                  installed={libraries}
+                  readOnly={draft.readOnly}
+                  change={(at, edited) => change(references.map((one, place) => (place === at ? edited : one)))}
+                />
+              ),
+            },
+          ]}
         />
       </div>
     </div>

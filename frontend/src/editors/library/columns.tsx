@@ -132,7 +132,7 @@ function NamespaceCell({ reference, at, references, installed, readOnly, change 
   };
   return (
     <input
-      className={`code ${styles.namespace}`}
+      className={`code ${styles.inCell}`}
       value={text}
       readOnly={readOnly}
       spellCheck={false}

@@ -61,6 +61,7 @@ export type Group = (typeof GROUPS)[number];
 
 /** Which folder an item stands in. */
 export function groupOf(kind: string): Group {
+  if (kind === 'parameter_list') return 'global';
   if (kind === 'function_block' || kind === 'function' || kind === 'interface' || kind === 'global') return kind;
   return kind === 'program' ? 'function_block' : 'data';
 }
@@ -71,7 +72,7 @@ export function objectKindOf(item: LibraryItem): { kind: ObjectKind; subkind: st
     case 'interface':
       return { kind: 'interface', subkind: null };
     case 'global':
-      return { kind: 'gvl', subkind: null };
+      return { kind: 'gvl', subkind: item.kind };
     case 'data':
       return { kind: 'dut', subkind: item.kind };
     default:
