@@ -67,9 +67,11 @@ def store_scalar(b: Body, target: ast.Expr, value: ir.Expr) -> None:
         store_bit(b, target.base, target.bit, value)
         return
     symbol = getattr(target, "symbol", None)
+    bit = symbol.bit if isinstance(symbol, VarSymbol) else None
+    if bit is not None:
+        value = _evaluated(b, value)
     place = b.target(target)
     b.touch(place)
-    bit = symbol.bit if isinstance(symbol, VarSymbol) else None
     if bit is not None:
         frozen = places.freeze(b, place, b.out)
         b.emit(ir.Store(frozen, merge_bit(ir.Load(ir.U8, frozen), bit, value)))
@@ -83,9 +85,19 @@ def store_bit(b: Body, base: ast.Expr, bit: int, value: ir.Expr) -> None:
     symbol = getattr(base, "symbol", None)
     if isinstance(symbol, PropertySymbol) and not yields_reference(base):
         raise b.error("a bit of a property cannot be assigned", base)
+    value = _evaluated(b, value)
     frozen = places.freeze(b, b.target(base), b.out)
     b.touch(frozen)
     b.emit(ir.Store(frozen, merge_bit(ir.Load(scalar, frozen), bit, value)))
+
+
+def _evaluated(b: Body, value: ir.Expr) -> ir.Expr:
+    """A value that is known before the bits around its target are read: computing it may change them."""
+    if isinstance(value, ir.Const):
+        return value
+    local = ir.Place(b.temp(value.type))
+    b.emit(ir.Store(local, value))
+    return ir.Load(value.type, local)
 
 
 def merge_bit(old: ir.Expr, bit: int, value: ir.Expr) -> ir.Expr:
@@ -237,7 +249,8 @@ def store_member(b: Body, slot: ir.Place, member: VarSymbol, value: ast.Expr) ->
     elif scalar_of(type_) is None:
         copy_value(b, slot, type_, value)
     elif member.bit is not None:
-        b.emit(ir.Store(slot, merge_bit(ir.Load(ir.U8, slot), member.bit, b.value(value))))
+        flag = _evaluated(b, b.value(value))
+        b.emit(ir.Store(slot, merge_bit(ir.Load(ir.U8, slot), member.bit, flag)))
     else:
         b.emit(ir.Store(slot, range_checked(b, b.value_as(value, type_), type_)))
 
