@@ -110,6 +110,9 @@ def test_indices_of_loops(body: str, found: list[str]) -> None:
         ("REPEAT F := x; UNTIL F > 3 END_REPEAT", []),
         ("i := 1;", []),  # W1209 tells
         ("Give(F);", []),
+        ("__TRY F := 10 / x; __FINALLY i := 1; __ENDTRY", []),
+        ("__TRY F := 10 / x; __CATCH i := 1; __ENDTRY", [1]),
+        ("__TRY IF x > 1 THEN RETURN; END_IF\ni := 1; __FINALLY F := i; __ENDTRY", []),
     ],
 )
 def test_results_on_every_way(body: str, lines: list[int]) -> None:

@@ -45,6 +45,12 @@ def told(body: str) -> list[tuple[str, int]]:
         ("n.3 := TRUE;\nF := n;", []),
         ("F := n := x;\nF := F + n;", []),
         ("b S= x > 1;\nIF b THEN F := 1; END_IF", []),
+        ("__TRY n := x; __FINALLY m := 1; __ENDTRY\nF := n;", []),  # a fault does not lead here
+        ("__TRY n := x; __CATCH m := 1; __ENDTRY\nF := n;", [("S1222", 2)]),
+        ("__TRY m := x; __CATCH RETURN; __ENDTRY\nF := m;", []),
+        ("__TRY n := x;\n__FINALLY F := n; __ENDTRY", [("S1222", 2)]),
+        ("__TRY m := 1; __FINALLY n := x; __ENDTRY\nF := n;", []),
+        ("FOR i := 1 TO 3 DO\n__TRY EXIT; __FINALLY n := x; __ENDTRY\nEND_FOR\nF := n;", []),
     ],
 )
 def test_reads(body: str, expected: list[tuple[str, int]]) -> None:

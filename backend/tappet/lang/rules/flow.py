@@ -104,12 +104,7 @@ class Reaching:
                 self.turns[-1].append(state)
             return None
         elif isinstance(s, ast.Try):
-            ends = [self._body(s.body, state.copy())]
-            caught = state.copy()
-            caught.some |= self._assigned_in(s.body)
-            ends.append(self._body(s.handler, caught))
-            after = _joined(ends)
-            return self._body(s.final, after if after is not None else caught)
+            return self._try(s, state)
         elif isinstance(s, ast.WhenDeclared):
             return self._body(s.chosen, state)
         else:
@@ -124,6 +119,22 @@ class Reaching:
             ends.append(self._body(body, state.copy()))
         ends.append(self._body(s.otherwise, state) if s.otherwise is not None else state)
         return _joined(ends)
+
+    def _try(self, s: ast.Try, state: _Assigned) -> _Assigned | None:
+        """Through the body, or through a part of it and the handler; __FINALLY stands on every way out."""
+        left = [self.ends, *self.exits[-1:], *self.turns[-1:]]
+        known = [len(ways) for ways in left]
+        faulty = state.copy()
+        faulty.some |= self._assigned_in(s.body)
+        after = self._body(s.body, state.copy())
+        if s.caught:
+            after = _joined([after, self._body(s.handler, faulty.copy())])
+            faulty.some |= self._assigned_in(s.handler)
+        for ways, count in zip(left, known, strict=True):
+            reached = [self._body(s.final, way) for way in ways[count:]]
+            ways[count:] = [way for way in reached if way is not None]
+        self._body(s.final, faulty)  # and on, out of here
+        return self._body(s.final, after)
 
     def _loop(self, s: ast.For | ast.While | ast.RepeatUntil, state: _Assigned) -> _Assigned | None:
         if isinstance(s, ast.For):
