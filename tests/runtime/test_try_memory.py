@@ -104,3 +104,60 @@ def test_a_new_try_concerns_code_that_was_built_without_one(monkeypatch: pytest.
     before, after = built(WITHOUT, session), built(CATCHING, session)
     assert before.functions == after.functions
     assert values_after(after) == DONE
+
+
+DEEP = """
+FUNCTION_BLOCK FB_Deep
+VAR calls : INT; END_VAR
+METHOD Count
+calls := calls + 1;
+END_METHOD
+METHOD Down : LINT      // touches no memory: nothing but the stack ends it
+VAR_INPUT n : LINT; END_VAR
+IF n < 0 THEN Down := 1; ELSE Down := THIS^.Down(n + 1) * 3 + n; END_IF
+END_METHOD
+END_FUNCTION_BLOCK
+FUNCTION Work : INT     // adds what its loop has done when the fault came, found by each part of __TRY
+VAR_INPUT kind : INT; zero : INT; pDeep : POINTER TO FB_Deep; pNumber : POINTER TO INT; END_VAR
+VAR i, done, straight : INT; list : ARRAY[0..5] OF INT; END_VAR
+__TRY
+    straight := 1;
+    FOR i := 0 TO 9 DO
+        done := done + 1;
+        G.done := G.done + 1;
+        CASE kind OF
+            1: IF i = 4 THEN pNumber := 0; END_IF
+               pNumber^ := i;
+            2: IF i = 4 THEN pDeep^.Down(0); END_IF
+            3: list[i + 1] := i;
+            4: straight := 10 / (4 - i);
+            5: IF i = 4 THEN pDeep := 0; END_IF
+               pDeep^.Count();
+        END_CASE
+        straight := 2;
+    END_FOR
+__CATCH
+    Work := 100 * done;
+__FINALLY
+    Work := Work + 10 * i;
+__ENDTRY
+Work := Work + straight;
+END_FUNCTION
+PROGRAM PLC_PRG
+VAR kind, number : INT; deep : FB_Deep; found : ARRAY[1..5] OF INT; END_VAR
+kind := kind + 1;
+found[kind] := Work(kind, 0, ADR(deep), ADR(number));
+END_PROGRAM
+"""
+
+
+def test_variables_of_loops_are_what_they_were_when_the_fault_came() -> None:
+    """In __CATCH, in __FINALLY and behind: pointers, the end of the stack, bounds, division, no instance."""
+    sources = [Source("m", DEEP), Source("G", "VAR_GLOBAL done : INT; END_VAR", name="G")]
+    result = build_application(sources, MAIN, BuildOptions())
+    assert result.package is not None, result.diagnostics
+    with LocalRuntime(result.package) as runtime:
+        runtime.run(cycles=5)
+        assert [runtime.read(f"PLC_PRG.found[{kind}]") for kind in range(1, 6)] == [542, 542, 652, 542, 542]
+        assert runtime.read("G.done") == 5 + 5 + 6 + 5 + 5
+        assert runtime.read("PLC_PRG.number") == 3

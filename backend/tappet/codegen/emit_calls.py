@@ -45,8 +45,22 @@ class CallEmitter(PlaceEmitter):
     def _call(self, expr: ir.Call) -> str:
         args = self._arguments(expr.args)
         barriers = self._before_call(expr.function)
+        if self.state.module.catches_faults and self._goes_through_pointer(expr):
+            # a fault in the middle of the body would find what it assigns before left out
+            self.write_back()
+            self.value(f"load volatile i8, {args[0]}{self.location}")
         value = self._invoke(expr.type, self.function_name(expr.function), args)
         return self._after_call(barriers, value)
+
+    def _goes_through_pointer(self, expr: ir.Call) -> bool:
+        """Whether the instance of a call is given by a pointer, which may lead nowhere."""
+        callee = self.state.module.functions.get(expr.function)
+        if callee is None or not callee.self_type:
+            return False
+        own = expr.args[0]
+        if isinstance(own, ir.Address):
+            return isinstance(own.place.base, ir.Indirect) and not own.place.base.own
+        return isinstance(own, ir.Load)
 
     def _call_pointer(self, expr: ir.CallPointer) -> str:
         pointer = self.expr(expr.pointer)
@@ -69,6 +83,7 @@ class CallEmitter(PlaceEmitter):
         return value
 
     def _invoke(self, result: ir.Scalar, callee: str, args: list[str]) -> str:
+        self.calls = True
         text = f"call {llvm_type(result)} {callee}({', '.join(args)}){self.location}"
         if result is not ir.VOID:
             return self.value(text)
@@ -82,6 +97,7 @@ class CallEmitter(PlaceEmitter):
         instance = args[0].removeprefix("ptr ")
         method = expr.method
         barriers = self._before_call(method.key)
+        self.write_back()
         names = direct_targets(method)
         if len(names) == 1:
             # no instance of any other block exists; the load is there to fault where there is none at all

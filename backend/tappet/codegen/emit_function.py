@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tappet.codegen.emit_expression import ExpressionEmitter, is_simple
-from tappet.codegen.emit_place import COLD, ModuleState
+from tappet.codegen.emit_place import COLD, WRITTEN, ModuleState
 from tappet.codegen.emit_text import constant, function_symbol, llvm_type, memory_type
 from tappet.core import ir
 
@@ -42,6 +42,8 @@ class FunctionEmitter(ExpressionEmitter):
         )
         if function.returns_twice:
             self.prologue += [_KEPT.format(name) for name in self.locals.values() if name.startswith("%l")]
+        if self.calls and function.self_type and self.state.module.catches_faults:
+            self.prologue.append(WRITTEN)
         return [head, "entry:", *self.prologue, "br label %start", "start:", *self.out, "}"]
 
     def statements(self, body: list[ir.Stmt]) -> None:

@@ -14,9 +14,11 @@ COLD = ", !prof !0"
 """Branch weights of a check that never fires; node 0 of every module."""
 
 
-_WRITTEN = 'call void asm sideeffect "", "~{memory}"()'
+WRITTEN = 'call void asm sideeffect "", "~{memory}"()'
 """Before an access that may end in a signal which `__TRY` catches: what was assigned so far is in memory.
-LLVM knows no loads and stores that do not come back, and would leave out what is overwritten behind them."""
+LLVM knows no loads and stores that do not come back, and would leave out what is overwritten behind them.
+The same at the beginning of what may call itself (methods and blocks that call others): a call that touches
+no memory may come to the end of the stack, too."""
 
 
 @dataclass(slots=True)
@@ -96,6 +98,8 @@ class PlaceEmitter(ABC):
         self.labels = 0
         self.block = "entry"
         self.terminated = False
+        self.calls = False
+        """Whether the function calls others."""
         self.promoted: list[ir.Promoted] = []
         self.subprogram = state.debug.subprogram(function)
         self.locations: dict[int, str] = {}
@@ -215,9 +219,14 @@ class PlaceEmitter(ABC):
                 pointer = self.value(f"getelementptr {inbounds}i8, ptr {pointer}, i64 {offset}")
         for subscript in place.subscripts:
             pointer = self.subscript(pointer, subscript, not isinstance(base, ir.Indirect))
-        if isinstance(base, ir.Indirect) and not base.own and self.state.module.catches_faults:
-            self.out.append(_WRITTEN)
+        if isinstance(base, ir.Indirect) and not base.own:
+            self.write_back()
         return pointer
+
+    def write_back(self) -> None:
+        """Before an access through a pointer: see `WRITTEN`."""
+        if self.state.module.catches_faults:
+            self.out.append(WRITTEN)
 
     def self_address(self, offset: int) -> str:
         """Address of a member of the own instance; computed once, in the entry block."""
