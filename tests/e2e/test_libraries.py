@@ -17,6 +17,7 @@ from .workbench import (
     choose_menu,
     delete_line,
     implementation,
+    message_rows,
     open_object,
     open_panel,
     open_project,
@@ -27,17 +28,21 @@ pytestmark = pytest.mark.e2e
 
 
 def library_file(version: str, **facts: object) -> FilePayload:
-    """A library 'Plant' with one function, documented."""
+    """A library 'Plant' with one function, documented, and one parameter."""
     text = (
         "(* Number of pallets for so many bottles. *)\nFUNCTION Pallets : INT\n"
         "VAR_INPUT\n    nBottles : INT; (* bottles to pack *)\nEND_VAR\n"
-        "Pallets := nBottles / 40;\nEND_FUNCTION\n"
+        "Pallets := nBottles / GVL_Pallets.cBottles;\nEND_FUNCTION\n"
+    )
+    parameters = (
+        "{attribute 'qualified_only'}\n{attribute 'parameter_list'}\nVAR_GLOBAL CONSTANT\n"
+        "    cBottles : INT := 40; // Bottles on a pallet\nEND_VAR\n"
     )
     described = {**archive.manifest("Plant", version, company="Works", description="Packing"), **facts}
     return {
         "name": f"plant-{version}.tappetlib",
         "mimeType": "application/zip",
-        "buffer": archive.pack(described, {"Pallets": text}),
+        "buffer": archive.pack(described, {"Pallets": text, "GVL_Pallets": parameters}),
     }
 
 
@@ -232,3 +237,39 @@ def test_a_project_is_saved_as_library_unless_it_has_errors(page: Page, tmp_path
     assert (facts["name"], facts["version"], facts["company"]) == ("Bottling line", "1.0.0.0", "Works")
     assert "FB_Alarm" in texts
     assert "PLC_PRG" not in texts
+
+
+def errors_of_build(page: Page) -> list[str]:
+    with answer_to(page, "/build") as built:
+        page.keyboard.press("F11")
+    return [d["message"] for d in built.value.json()["diagnostics"] if d["severity"] == "error"]
+
+
+def test_a_parameter_of_a_library_gets_a_value_and_loses_it(page: Page) -> None:
+    open_project(page)
+    install(page, library_file("1.0.0.0"))
+    manager(page)
+    add_library(page, "Plant").get_by_role("button", name="Add", exact=True).click()
+    page.get_by_role("tab", name="Library parameters").click()
+    table = page.get_by_role("grid", name="Library parameters")
+    row = table.get_by_role("row").filter(has_text="cBottles")
+    expect(row).to_contain_text("Bottles on a pallet")
+    row.get_by_text("cBottles").click()
+    table.focus()
+    page.keyboard.press("Enter")
+    value = row.get_by_role("textbox", name="Value of GVL_Pallets.cBottles")
+    expect(value).to_be_focused()
+    expect(value).to_have_attribute("placeholder", "40")
+    value.fill("'many'")
+    value.press("Enter")
+    expect(table).to_be_focused()
+    (message,) = errors_of_build(page)
+    assert "the value ''many'' does not suit the parameter 'cBottles' of type 'INT'" in message
+    expect(message_rows(page).filter(has_text="does not suit the parameter")).to_be_visible()
+    value.fill("2 * 12")
+    value.press("Enter")
+    assert errors_of_build(page) == []
+    table.focus()
+    page.keyboard.press("Delete")
+    expect(value).to_have_value("")
+    assert errors_of_build(page) == []

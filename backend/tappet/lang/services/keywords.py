@@ -54,6 +54,7 @@ ATTRIBUTES: Final = (
     ("no_return_type", "function: may be without a return type, as in other systems"),
     ("obsolete", "every use gives a warning with the text of the value"),
     ("pack_mode", "structure: largest gap between members, '0', '1', '2', '4' or '8'"),
+    ("parameter_list", "list: constants of a library to which its users may give values"),
     ("qualified_only", "list or enumeration: members only with its name in front"),
     ("reflection", "POU: has variables with 'instance-path'"),
     ("strict", "enumeration: no integers, no arithmetic"),

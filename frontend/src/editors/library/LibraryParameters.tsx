@@ -46,7 +46,7 @@ export function LibraryParameters({ references, installed, readOnly, change }: L
     {
       id: 'name',
       title: t('libraryParameters.parameter'),
-      width: 220,
+      width: 260,
       cell: (row) => <NameCell row={row} />,
       hint: (row) => (row.known === false ? t('libraryParameters.unknown') : row.name),
     },
@@ -74,7 +74,7 @@ export function LibraryParameters({ references, installed, readOnly, change }: L
     {
       id: 'comment',
       title: t('libraryParameters.comment'),
-      width: 160,
+      width: 140,
       grow: true,
       cell: (row) => <span className={styles.along}>{row.comment}</span>,
       hint: (row) => row.comment,
