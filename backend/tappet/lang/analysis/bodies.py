@@ -38,6 +38,9 @@ class State:
     waiting: dict[int, PouSymbol] = field(default_factory=dict)
     """Bodies that have to be analysed still, by id() of their symbol; their records are those of before."""
 
+    coding_waiting: dict[int, PouSymbol] = field(default_factory=dict)
+    """Bodies that have to be looked at by the coding rules only."""
+
     def analyse_waiting(self, seconds: float = inf, first: frozenset[str] | None = None) -> None:
         """Analyses bodies that wait, of the texts `first` only when it is given, until the time is up."""
         end = monotonic() + seconds
@@ -47,6 +50,17 @@ class State:
                 self.records[key] = analyse_body(self.session, pou, self.declarations.bodies[key])
                 if monotonic() > end:
                     return
+        for key, pou in list(self.coding_waiting.items()):
+            if first is None or (pou.source is not None and pou.source.uri in first):
+                del self.coding_waiting[key]
+                coding_rules(self.session, self.declarations.bodies[key], self.records[key])
+                if monotonic() > end:
+                    return
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether something has to be done still."""
+        return bool(self.waiting or self.coding_waiting)
 
 
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
@@ -67,17 +81,29 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     library = body.source.scope is Scope.LIBRARY
     for check in LIBRARY_POU_RULES if library else POU_RULES:
         check(body)
-    chosen = session.options.static.codes
-    if chosen and not library:
-        for coding_check in coding_checks("check_pou", chosen):
-            coding_check(body, chosen)
+    if not library:
+        coding_rules(session, body, record)
     for e in body.unreadable:
         body.report("E0424", e.span, name=e.name, what="Get", verb="read")
     body.unreadable.clear()
     if node.language == "SFC":  # what a chart becomes has the same expression in several places
         record.messages[:] = dict.fromkeys(record.messages)
+        record.coding[:] = dict.fromkeys(record.coding)
     record.aggregates = session.aggregates
     return record
+
+
+def coding_rules(session: Session, body: Body, record: Record) -> None:
+    """The optional rules that look at one body; its statements are resolved."""
+    chosen = session.options.static.codes
+    if not chosen:
+        return
+    record.coding = []
+    others, session.diagnostics, session.accounted = session.diagnostics, record.coding, None
+    session.count_in(record)
+    for check in coding_checks("check_pou", chosen):
+        check(body, chosen)
+    session.diagnostics = others
 
 
 def _coding_rules(state: State) -> None:
@@ -124,6 +150,7 @@ def finish(state: State) -> Analysis:
     found = session.diagnostics
     for record in records:
         found += record.messages
+        found += record.coding
     order: dict[str, int] = {}
     for number, unit in enumerate(state.units):
         order.setdefault(unit.source.uri, number)
@@ -132,6 +159,6 @@ def finish(state: State) -> Analysis:
     analysis = session.analysis
     analysis.diagnostics = with_severity(kept(found, state.units), session.options.static.errors)
     analysis.called = session.called
-    analysis.is_waiting = bool(state.waiting)
+    analysis.is_waiting = state.is_waiting
     analysis.state = state
     return analysis

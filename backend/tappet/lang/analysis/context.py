@@ -37,6 +37,8 @@ class Record:
     `operands`, `outputs`: see `Session`."""
 
     messages: list[Diagnostic] = field(default_factory=list)
+    coding: list[Diagnostic] = field(default_factory=list)
+    """What the coding rules report."""
     used: set[int] = field(default_factory=set)
     written: set[int] = field(default_factory=set)
     called: set[int] = field(default_factory=set)

@@ -18,7 +18,7 @@ from tappet.lang import ast
 from tappet.lang.analysis.bodies import State, finish
 from tappet.lang.analysis.collect import collect
 from tappet.lang.analysis.collected import Collected
-from tappet.lang.analysis.context import SUGGESTION_LIMIT, Key
+from tappet.lang.analysis.context import SUGGESTION_LIMIT, Key, Record
 from tappet.lang.analysis.declare import all_pous, declare
 from tappet.lang.analysis.dependents import Dependents, configures
 from tappet.lang.analysis.effects import Effects, contents, sizes
@@ -47,7 +47,7 @@ def redeclare(
     """The analysis of `units` made from `previous`; None when the edit does not qualify. Bodies of other
     texts than `first` may wait, see `analyse`."""
     state = previous.state
-    if not isinstance(state, State) or options != previous.options or options.static.codes:
+    if not isinstance(state, State) or options != previous.options:
         return None
     if state.session.values_of_project:  # what libraries declare depends on the project
         return None
@@ -203,16 +203,33 @@ class _Again:
 
     def _analyse_bodies(self, effects: Effects, first: frozenset[str] | None) -> None:
         state = self.state
+        names = self._names_declared() if self.session.options.static.codes else frozenset()
         for pou in all_pous(state.found):
             record = state.records.get(id(pou))
             assert pou.source is not None
             words = self.words.get(pou.source.uri)
             if record is None or (words is not None and effects.concern(pou, record, words)):
                 state.waiting[id(pou)] = pou
-        if first is None or len(state.waiting) <= AT_ONCE:
+            elif words is not None and self._may_read_otherwise(record, words, names):
+                state.coding_waiting[id(pou)] = pou
+        if first is None or len(state.waiting) + len(state.coding_waiting) <= AT_ONCE:
             state.analyse_waiting()
         else:
             state.analyse_waiting(first=first | self.edited.keys())
+
+    def _names_declared(self) -> frozenset[str]:
+        """Names of which coding rules may see something else now."""
+        texts = self.texts | self.layout.made.keys()
+        return frozenset().union(*(self.words[uri].global_names for uri in texts))
+
+    def _may_read_otherwise(self, record: Record, words: Words, names: frozenset[str]) -> bool:
+        """Whether coding rules may report something else about a body that means the same."""
+        if not names:
+            return False
+        uri = words.unit.source.uri
+        if uri in self.texts or uri in self.layout.made or not names.isdisjoint(words.all):
+            return True
+        return any(r.uri in self.edited for message in record.coding for r in message.related)
 
     def _collect(self) -> Collected | None:
         """The symbols of the texts, in the places of those before; None when an object is another one now."""
@@ -274,6 +291,7 @@ class _Again:
             if id(pou) not in living:
                 state.records.pop(id(pou), None)
                 state.waiting.pop(id(pou), None)
+                state.coding_waiting.pop(id(pou), None)
                 state.session.calls.pop(id(pou), None)
                 state.found.own.pop(id(pou), None)
 

@@ -73,7 +73,7 @@ def go_on(analysis: Analysis, seconds: float) -> bool:
     state = analysis.state
     if isinstance(state, State):
         state.analyse_waiting(seconds)
-        return not state.waiting
+        return not state.is_waiting
     return True
 
 
