@@ -68,8 +68,13 @@ def plcopen(data: bytes) -> None:
 
 
 def twincat(data: bytes) -> None:
-    for ending in ("TcPOU", "TcDUT", "TcGVL", "TcTTO", "plcproj"):
+    for ending in ("TcPOU", "TcDUT", "TcGVL", "TcTTO", "plcproj", "tsproj"):
         _import(f"a.{ending}", data)
+
+
+def native(data: bytes) -> None:
+    """CODESYS V3."""
+    _import("a.export", data)
 
 
 def export_file(data: bytes) -> None:
@@ -113,7 +118,10 @@ TARGETS = {
     "compiler": Target(compiler, _programs),
     "il": Target(il, _rows),
     "plcopen": Target(plcopen, lambda: _files(SAMPLES, ".xml")),
-    "twincat": Target(twincat, lambda: _files(SAMPLES, ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".plcproj")),
+    "twincat": Target(
+        twincat, lambda: _files(SAMPLES, ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".plcproj", ".tsproj")
+    ),
+    "native": Target(native, lambda: _files(SAMPLES, ".export")),
     "export": Target(export_file, lambda: _files(SAMPLES, ".exp") or _programs()),
     "text": Target(plain_text, _programs),
     "folder": Target(byte_targets.folder, byte_targets.folders),

@@ -22,8 +22,8 @@ def import_project(
         list[Path],
         typer.Argument(
             metavar="FILE...",
-            help="PLCopen XML, TwinCAT .sln, .tsproj, .plcproj or single .Tc* files, CoDeSys .EXP, .st, "
-            "folders of these, or the archive of a project",
+            help="PLCopen XML, CODESYS .export, TwinCAT .sln, .tsproj, .plcproj or single .Tc* files, "
+            "CoDeSys .EXP, .st, folders of these, or the archive of a project",
         ),
     ],
     to: Annotated[

@@ -59,7 +59,21 @@ def test_truncated_samples(path: Path, percent: int) -> None:
 
 @settings(max_examples=40, deadline=None)
 @given(
-    st.sampled_from(["x.xml", "x.st", "x.exp", "x.TcPOU", "x.plcproj", "x.TcTTO", "x.bin"]),
+    st.sampled_from(
+        [
+            "x.xml",
+            "x.st",
+            "x.exp",
+            "x.TcPOU",
+            "x.plcproj",
+            "x.TcTTO",
+            "x.tsproj",
+            "x.sln",
+            "x.xti",
+            "x.export",
+            "x.bin",
+        ]
+    ),
     st.binary(max_size=300),
 )
 def test_any_bytes(name: str, content: bytes) -> None:

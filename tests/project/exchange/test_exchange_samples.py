@@ -44,7 +44,16 @@ def said(report: ImportReport) -> set[tuple[str, str]]:
 
 
 @pytest.mark.parametrize(
-    "name", ["codesys_35.xml", "beremiz.xml", "no_namespace.xml", "library.exp", "plain.st", "twincat"]
+    "name",
+    [
+        "codesys_35.xml",
+        "beremiz.xml",
+        "no_namespace.xml",
+        "library.exp",
+        "plain.st",
+        "press.export",
+        "twincat",
+    ],
 )
 def test_what_came_in_goes_out_and_in_again_unchanged(name: str) -> None:
     project, _ = imported(name)

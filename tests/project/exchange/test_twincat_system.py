@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from twincat_project import tcpou
 
@@ -14,47 +16,7 @@ Microsoft Visual Studio Solution File, Format Version 12.00
 Project("{B1E792BE-AA5F-4E3C-8C82-674BF9C0715B}") = "Plant", "Plant\\Plant.tsproj", "{1}"
 EndProject
 """
-SYSTEM = b"""<TcSmProject>
-<DataTypes>
- <DataType><Name PersistentType="true">ST_Shared</Name><BitSize>192</BitSize>
-  <SubItem><Name>fLevel</Name><Type>REAL</Type><Comment><![CDATA[ in per cent ]]></Comment>
-   <Default><Value>1.5</Value></Default>
-   <Properties><Property><Name>plcAttribute_unit</Name><Value>the 'raw' one</Value></Property></Properties>
-  </SubItem>
-  <SubItem><Name>aParts</Name><Type>E_Shared</Type>
-   <ArrayInfo><LBound>1</LBound><Elements>4</Elements></ArrayInfo></SubItem>
-  <SubItem><Name>pNext</Name><Type PointerTo="1">ST_Shared</Type></SubItem>
-  <SubItem><Name>sName</Name><Type>STRING(20)</Type><Default><String>it's 5$</String></Default></SubItem>
-  <SubItem><Name>tWait</Name><Type>TIME</Type><Default><Value>100</Value></Default></SubItem>
- </DataType>
- <DataType><Name PersistentType="true">E_Shared</Name><BaseType>INT</BaseType>
-  <EnumInfo><Text>Idle</Text><Enum>0</Enum></EnumInfo><EnumInfo><Text>Busy</Text><Enum>#x10</Enum></EnumInfo>
-  <Properties><Property><Name>plcAttribute_qualified_only</Name></Property></Properties></DataType>
- <DataType><Name PersistentType="true">Bytes</Name><BaseType>BYTE</BaseType>
-  <ArrayInfo><LBound>0</LBound><Elements>6</Elements></ArrayInfo></DataType>
- <DataType><Name PersistentType="true">PlantEvents</Name><EventId><Name>Overrun</Name></EventId></DataType>
- <DataType><Name>FROM_A_LIBRARY</Name><BaseType>BYTE</BaseType></DataType>
-</DataTypes>
-<Project><System><Tasks>
- <Task Id="3" Priority="7" CycleTime="625"><Name>FastTask</Name></Task>
- <Task Id="4" Priority="20" CycleTime="100000"><Name>Renamed</Name></Task>
- <Task Id="5" Priority="9" CycleTime="100000" Disabled="true"><Name>TestTask</Name></Task>
-</Tasks></System>
-<Motion><NC><SafTask/><Axis><Name>Lift</Name></Axis></NC></Motion>
-<Plc>
- <Project Name="Line" PrjFilePath="Line\\Line.plcproj"><Instance><Contexts><Context><Name>SlowTask</Name>
-  <ManualConfig><OTCID>#x02010040</OTCID></ManualConfig></Context></Contexts></Instance></Project>
- <Project File="Press.xti"/>
-</Plc>
-<Io><Device Id="1"><Name>Device 1 (EtherCAT)</Name></Device></Io></Project>
-<Mappings><OwnerA Name="TIPC^Line^Line Instance">
- <OwnerB Name="TIID^Device 1 (EtherCAT)^Term 2 (EL2008)">
-  <Link VarA="SlowTask Outputs^GVL.aValve^[1]" VarB="Channel 1^Output"/></OwnerB>
- <OwnerB Name="TINC^NC-Task 1 SAF^Axes^Lift">
-  <Link VarA="SlowTask Outputs^MAIN.lift.PlcToNc" VarB="Inputs^In"/></OwnerB></OwnerA>
- <OwnerA Name="TINC^NC-Task 1 SAF^Axes^Lift"><OwnerB Name="TIID^Device 1 (EtherCAT)^Drive 3">
-  <Link VarA="Enc^Inputs^In" VarB="Position"/></OwnerB></OwnerA></Mappings>
-</TcSmProject>"""
+SYSTEM = (Path(__file__).parent / "samples" / "plant.tsproj").read_bytes()
 PRESS = b"""<TcSmItem>
 <Project Name="Press" Disabled="true" PrjFilePath="..\\..\\Press\\press.plcproj"/></TcSmItem>"""
 

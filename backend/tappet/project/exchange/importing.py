@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from tappet.project.exchange import twincat, twincat_system
 from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
+from tappet.project.exchange.codesys_native import read_native
 from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml, shared_pages
 from tappet.project.exchange.drafts import Batch, Draft, task_configuration
 from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
@@ -24,10 +25,11 @@ from tappet.project.exchange.twincat_types import FOLDER
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.model import Project
 
-ENDINGS = (".xml", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS, *twincat_system.ENDINGS)
+ENDINGS = (".xml", ".export", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS, *twincat_system.ENDINGS)
 """Endings of the files that are read, in lower case."""
 
 _TEXT_ENDINGS = (".st", ".exp", ".txt", ".iecst", ".lib")
+_NATIVE = re.compile(r"<ExportFile[\s>]")
 _MARKED = re.compile(r"\(\*\s*@(?:NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION|GLOBAL_VARIABLE_LIST)\s*:=")
 
 
@@ -186,6 +188,8 @@ def _read(
         for draft in twincat.read_object(path, content, report):
             parent = task_configuration(batch.loose) if draft.kind == "task" else batch.loose
             parent.children.append(draft)
+    elif ending == ".export" or _NATIVE.search(decode_xml(path, content[:400])):
+        read_native(path, content, batch, report)
     elif ending == ".xml" or decode_xml(path, content[:400]).lstrip("\ufeff \t\r\n").startswith("<?xml"):
         read_plcopen(path, content, batch, report)
     elif ending in _TEXT_ENDINGS:

@@ -74,11 +74,7 @@ def read_plcopen(source: str, content: bytes, batch: Batch, report: ImportReport
     """Take the objects of a file in. Raises ExchangeError for what is no PLCopen XML."""
     root = read_xml(source, content)
     if root.tag != "project":
-        hint = (
-            "export the project as PLCopen XML"
-            if root.tag in ("ExportFile", "Project")
-            else "expected <project>"
-        )
+        hint = "export the project as PLCopen XML" if root.tag == "Project" else "expected <project>"
         raise ExchangeError(source, f"is no PLCopen XML: its root is <{root.tag}>; {hint}", root.line)
     _Reader(source, batch, report).read(root)
 

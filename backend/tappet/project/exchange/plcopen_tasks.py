@@ -13,7 +13,7 @@ from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.standard_tasks import background_task, cycle, priority
 from tappet.project.exchange.xml_tree import Element
 
-_KINDS = {
+KINDS = {
     "cyclic": "cyclic",
     "freewheeling": "freewheeling",
     "event": "event",
@@ -21,6 +21,7 @@ _KINDS = {
     "external": "external",
     "externalevent": "external",
 }
+"""Kinds of tasks by the names that CODESYS gives them."""
 
 
 def read_task(source: str, item: Element, report: ImportReport) -> Draft:
@@ -34,10 +35,10 @@ def read_task(source: str, item: Element, report: ImportReport) -> Draft:
     kind = settings.get("KindOfTask").lower() if settings is not None else ""
     event = item.get("single") or (settings.get("Event") if settings is not None else "")
     interval = (settings.get("Interval") if settings is not None else "") or item.get("interval")
-    data["type"] = _KINDS.get(kind) or (
+    data["type"] = KINDS.get(kind) or (
         "event" if event and not interval else "cyclic" if interval else "freewheeling"
     )
-    if kind and kind not in _KINDS:
+    if kind and kind not in KINDS:
         text = f"the kind of task '{kind}' became '{data['type']}'"
         report.add("changed", source, text, name=name, line=item.line)
     if data["type"] == "cyclic":
