@@ -66,6 +66,7 @@ class State:
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     """Resolves and checks the statements of one POU, method, action or accessor."""
     record = Record()
+    session.named.pop(id(pou), None)
     session.aggregates = False
     session.diagnostics, session.accounted = record.messages, None
     session.count_in(record)

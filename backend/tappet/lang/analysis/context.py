@@ -85,8 +85,8 @@ class Session:
     outputs: set[DirectWrite] = field(default_factory=set)
     """Places of the areas Q and M that some code writes."""
     suggestions: int = 0
-    named: dict[int, tuple[ast.Pou | None, list[ast.Name | ast.Member]]] = field(default_factory=dict)
-    """What bodies name, by id() of the symbol, with the tree it was taken from: see `rules.coding`."""
+    named: dict[int, Any] = field(default_factory=dict)
+    """What coding rules have read in a body as it is resolved now, by id() of the symbol."""
     aggregates: bool = False
     """Whether an aggregate `(a := 1)` has been met."""
     declared: dict[str, Record] = field(default_factory=dict)

@@ -66,6 +66,8 @@ class Snapshot:
         self.program = program
         self.results = results
         self.analysis = analysis
+        self.told: dict[str, Any] = {}
+        """The messages of texts as they were shown last, by uri; goes from snapshot to snapshot."""
         self.derived: dict[str, Any] = {}
         """What services have worked out and keep for their next request."""
         self._by_source: dict[str, int] = {}
@@ -273,6 +275,8 @@ class Workspace:
         analysis = analyse([result.unit for result in results], settings, previous, first)
         self.whole_analyses += not analysis.continued
         snapshot = Snapshot(program, results, analysis)
+        if last is not None:
+            snapshot.told = last.told
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation
         self._seconds[program.name] = time.perf_counter() - started

@@ -69,7 +69,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.project_parts import names_in
+from tappet.lang.rules.coding.project_parts import named_in
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Elementary, Enum, FunctionBlock, String, Subrange
@@ -146,10 +146,11 @@ def check_program(session: Session, chosen: frozenset[str]) -> None:
     if "S1416" not in chosen:
         return
     users: dict[int, dict[str, None]] = {}
+    shared = {id(v) for gvl in session.analysis.gvls if gvl.decl is not None for v in gvl.members.values()}
     for pou in session.analysis.pous:
         for part in pou.with_children():
-            for e in names_in(session, part):
-                users.setdefault(id(e.symbol), {})[pou.name] = None
+            for key in shared.intersection(named_in(session, part).symbols):
+                users.setdefault(key, {})[pou.name] = None
     for gvl in session.analysis.gvls:
         if gvl.source is None or gvl.source.scope is Scope.LIBRARY or gvl.decl is None:
             continue

@@ -45,17 +45,13 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import Related
-from tappet.lang.rules.coding.project_parts import is_own, names_in, with_parts
-from tappet.lang.source import Scope
+from tappet.lang.rules.coding.project_parts import is_own, named_in, with_parts
 from tappet.lang.symbols import (
     GvlSymbol,
     InterfaceSymbol,
-    NamespaceSymbol,
     PouSymbol,
-    Storage,
     Symbol,
     TypeSymbol,
-    VarSymbol,
 )
 from tappet.lang.types import Enum
 
@@ -110,35 +106,18 @@ def _values(session: Session) -> None:
 
 
 def _paths(session: Session) -> None:
-    plain: dict[int, tuple[ast.Expr, str]] = {}
-    qualified: dict[int, tuple[ast.Expr, str]] = {}
-    order: dict[int, str] = {}
+    plain: dict[int, tuple[ast.Name, str]] = {}
+    qualified: dict[int, tuple[ast.Member, str]] = {}
     for body in with_parts(session):
-        if not is_own(body.source):
+        if body.source is None or not is_own(body.source):
             continue
-        uri = body.source.uri if body.source is not None else ""
-        for e in names_in(session, body):
-            symbol = e.symbol
-            if not isinstance(symbol, (VarSymbol, PouSymbol)):
-                continue
-            if isinstance(e, ast.Name) and _is_shared(symbol) and not e.leading_dot:
-                plain.setdefault(id(symbol), (e, uri))
-                order.setdefault(id(symbol), symbol.name)
-            elif isinstance(e, ast.Member) and _is_list(e.base):
-                qualified.setdefault(id(symbol), (e, uri))
-    for key, name in order.items():
-        if key in qualified:
-            (place, place_uri), (other, other_uri) = plain[key], qualified[key]
+        found = named_in(session, body)
+        for key, name in found.plain.items():
+            plain.setdefault(key, (name, body.source.uri))
+        for key, member in found.qualified.items():
+            qualified.setdefault(key, (member, body.source.uri))
+    for key, (place, place_uri) in plain.items():
+        if key in qualified and place.symbol is not None:
+            other, other_uri = qualified[key]
             related = [Related("by its list or library here", other_uri, other.span)]
-            session.report("S1423", place_uri, place.span, related, name=name)
-
-
-def _is_shared(symbol: VarSymbol | PouSymbol) -> bool:
-    """Whether a plain name can also be written with a list or a library before it."""
-    if isinstance(symbol, VarSymbol):
-        return symbol.home is Storage.GLOBAL and symbol.section == "VAR_GLOBAL"
-    return symbol.source is not None and symbol.source.scope is Scope.LIBRARY
-
-
-def _is_list(e: ast.Expr) -> bool:
-    return isinstance(e, (ast.Name, ast.Member)) and isinstance(e.symbol, (GvlSymbol, NamespaceSymbol))
+            session.report("S1423", place_uri, place.span, related, name=place.symbol.name)

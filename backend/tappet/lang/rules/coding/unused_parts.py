@@ -51,10 +51,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.project_parts import is_own, names_in, with_parts
-from tappet.lang.symbols import EnumValueSymbol, Symbol, TypeSymbol
+from tappet.lang.rules.coding.project_parts import Named, is_own, named_in, with_parts
 from tappet.lang.types import Array, Enum, Pointer, Reference, Struct
-from tappet.lang.walk import expressions, statements
+from tappet.lang.walk import expressions
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
@@ -116,12 +115,7 @@ class _Used:
             for variable in pou.locals.values():
                 self.type(variable.type)
             if pou.pou is not None:
-                self.names(names_in(session, pou))
-                for s in statements(pou.pou.body):
-                    if isinstance(s, ast.Case):
-                        labels = [label for branch in s.branches for label in branch.selectors]
-                        bounds = [e for label in labels for e in (label.low, label.high) if e is not None]
-                        self.names(expressions(*bounds))
+                self.named(named_in(session, pou))
                 for block in pou.pou.blocks:
                     self.names(expressions(*(decl.initial for decl in block.variables)))
         for gvl in session.analysis.gvls:
@@ -154,11 +148,13 @@ class _Used:
                         self.names(expressions(member.decl.initial))
 
     def names(self, found: Iterable[ast.Expr]) -> None:
+        """Notes what expressions name."""
+        named = Named()
+        named.read(found)
+        self.named(named)
+
+    def named(self, named: Named) -> None:
         """Notes values of enumerations, and types that code names."""
-        for e in found:
-            symbol: Symbol | None = e.symbol if isinstance(e, (ast.Name, ast.Member)) else None
-            if isinstance(symbol, EnumValueSymbol):
-                self.values.add((id(symbol.type), symbol.name.upper()))
-                self.types.add(id(symbol.type))
-            elif isinstance(symbol, TypeSymbol):
-                self.type(symbol.type)
+        self.values |= named.values
+        for type_ in named.types:
+            self.type(type_)
