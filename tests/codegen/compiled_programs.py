@@ -6,7 +6,7 @@ import ctypes
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
 from tappet.codegen.jit import LoadedApplication
-from tappet.codegen.package import CodePackage, left_behind
+from tappet.codegen.package import CodePackage, left_behind, rearranged
 from tappet.lang.source import Source
 
 SESSION = BuildSession()
@@ -40,13 +40,9 @@ def change_over(application: LoadedApplication, package: CodePackage) -> LoadedA
     for function in left_behind(application.package, package):
         application.call(function)
     before = bytes(application.image[:size])
-    image = bytearray(before.ljust(package.image_size, b"\0"))
-    for old, new, length in change.moves:
-        image[new : new + length] = before[old : old + length]
-    for offset, length in change.initialise:
-        image[offset : offset + length] = package.initial_image[offset : offset + length]
+    image = rearranged(package, before)
     changed = LoadedApplication(package, application.address)
-    ctypes.memmove(changed.address, bytes(image[: package.image_size]), package.image_size)
+    ctypes.memmove(changed.address, bytes(image), package.image_size)
     if "tappet.online_change" in package.exports:
         changed.call("tappet.online_change")
     return changed

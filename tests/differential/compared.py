@@ -63,13 +63,22 @@ def expected(program: Program) -> tuple[dict[str, Any], bool]:
             machine.cycle()
     except Fault:
         fault = True
-    values = {}
-    for path, _, keys in _paths(program):
-        value: Any = machine.variables if path.startswith("PLC_PRG.") else machine.globals
-        for key in keys:
-            value = value[key]
-        values[path] = value
-    return values, fault
+    return {path: _expected(machine, path, keys) for path, _, keys in _paths(program)}, fault
+
+
+def _expected(machine: reference.Machine, path: str, keys: list[Any]) -> Any:
+    value: Any = machine.variables if path.startswith("PLC_PRG.") else machine.globals
+    for key in keys:
+        value = value[key]
+    return value
+
+
+def both(machine: reference.Machine, application: LoadedApplication) -> dict[str, tuple[Any, Any]]:
+    """Expected and actual value of each variable."""
+    return {
+        path: (_expected(machine, path, keys), _value(application, path, t))
+        for path, t, keys in _paths(machine.program)
+    }
 
 
 def differences(program: Program, level: int) -> list[str]:

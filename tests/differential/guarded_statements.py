@@ -37,6 +37,8 @@ class GuardedStatements(Statements):
     blocks: list[Block]
     plain: Maker
     """Makes literals."""
+    dynamic = True
+    """Whether __NEW makes blocks, whose declarations no online change may edit (LOPR-101)."""
 
     def further(self, b: Body, depth: int) -> list[Any]:
         """A statement of this module, or nothing."""
@@ -78,7 +80,10 @@ class GuardedStatements(Statements):
         return [tree.Assign(target, tree.Binary(type_, computed, False, "/", one, divisor, computed))]
 
     def _new(self, b: Body, depth: int) -> Any:
-        made: list[Block | Struct] = [*self.blocks, *(t for t in self.types if isinstance(t, Struct))]
+        made: list[Block | Struct] = [
+            *(self.blocks if self.dynamic else []),
+            *(t for t in self.types if isinstance(t, Struct)),
+        ]
         if not made:
             return self._try(b, depth)
         target = self.r.choice(made)
@@ -89,6 +94,8 @@ class GuardedStatements(Statements):
         b.maker.heap.add(pointer.name)
         body = self.statements(b, self.r.randint(1, 3), depth - 1)
         b.maker.hidden.add(pointer.name)
+        if isinstance(target, Block):
+            target.dynamic = True
         arguments = self.arguments(target) if isinstance(target, Block) else None
         return tree.New(Name(pointer.type, None, False, pointer.name), arguments or (), body)
 

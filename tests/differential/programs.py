@@ -239,6 +239,12 @@ class ProgramMaker(GuardedStatements):
         made.statics = [self.variable("st") for _ in range(self.r.choice((0, 0, 1)))]
         if (base is None or base.maker is None) and self.chance(40):
             made.init = self.first_code(made)
+        self.bodies(made)
+        return made
+
+    def bodies(self, made: Block) -> None:
+        """Methods, properties, interfaces and body of a block that has its variables."""
+        base = made.base
         inherited = list(base.all_methods.values()) if base else []
         for method in inherited:
             if self.chance(60):
@@ -263,7 +269,6 @@ class ProgramMaker(GuardedStatements):
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 5), 2)]
         if base is not None and self.chance(60):
             made.body.insert(self.r.randint(0, len(made.body)), tree.CallBase(base))
-        return made
 
     def program(self) -> Program:
         self.declare_types()
@@ -276,6 +281,10 @@ class ProgramMaker(GuardedStatements):
         variables = [self.variable("p") for _ in range(self.r.randint(3, 8))]
         variables += [self.variable("n", t) for t in self.r.sample(NUMBERS, 3)]
         variables += [self.instance(b) for b in self.blocks]
+        return self.around(variables)
+
+    def around(self, variables: list[Variable]) -> Program:
+        """The program that has these variables, and all that was declared before."""
         maker = Maker(self.r, [*variables, *self.globals], texts=self.texts, bits=self.bits)
         body = Body(maker, variables, self.functions, effects=self.applied)
         first = self.pointers(body)

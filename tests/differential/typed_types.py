@@ -173,6 +173,8 @@ class Block:
     properties: list[Property] = field(default_factory=list)
     statics: list[Variable] = field(default_factory=list)
     """VAR_STAT, shared by all instances."""
+    dynamic: bool = False
+    """Whether __NEW makes some."""
     init: Function | None = None
     """FB_Init; its inputs are what a declaration hands over."""
 

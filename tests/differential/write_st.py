@@ -287,7 +287,7 @@ def _parents(b: Block) -> list[str]:
 
 def _block(b: Block) -> list[str]:
     lines = [
-        "{attribute 'enable_dynamic_creation'}",
+        *(["{attribute 'enable_dynamic_creation'}"] if b.dynamic else []),
         " ".join([f"FUNCTION_BLOCK {b.name}", *_parents(b)]),
         *_section("VAR_INPUT", b.inputs),
         *_section("VAR_OUTPUT", b.outputs),
@@ -315,42 +315,49 @@ def _block(b: Block) -> list[str]:
 
 def program(p: Program) -> str:
     """The whole text; the program is PLC_PRG."""
-    lines: list[str] = []
+    return "\n".join(objects(p).values()) + "\n"
+
+
+def objects(p: Program) -> dict[str, str]:
+    """The text of each object by its name."""
+    found: dict[str, list[str]] = {}
     for t in p.types:
-        if isinstance(t, Enum):
-            members = ", ".join(f"{name} := {number}" for name, number in t.members)
-            lines.append(f"TYPE {t.name} : ({members}) {t.base.name}; END_TYPE")
-        else:
-            assert isinstance(t, Struct)
-            members = " ".join(f"{name} : {m.name};" for name, m in t.members)
-            word = "UNION" if t.union else "STRUCT"
-            lines += [] if t.pack is None else [f"{{attribute 'pack_mode' := '{t.pack}'}}"]
-            lines.append(f"TYPE {t.name} : {word} {members} END_{word} END_TYPE")
+        found[t.name] = _type(t)
     if p.bits:
         named = " ".join(f"{name} : INT := {bit};" for name, bit in p.bits)
-        lines.append(f"VAR_GLOBAL CONSTANT {named} END_VAR")
-    lines += CHECKS.splitlines() if p.checks else []
-    lines += _section("VAR_GLOBAL", p.globals)
+        found["Bits"] = [f"VAR_GLOBAL CONSTANT {named} END_VAR"]
+    if p.checks:
+        found["Checks"] = [CHECKS.rstrip()]
+    if p.globals:
+        found["Globals"] = _section("VAR_GLOBAL", p.globals)
     for f in p.functions:
-        lines += _function(f, "FUNCTION")
+        found[f.name] = _function(f, "FUNCTION")
     for i in p.interfaces:
-        lines.append(f"INTERFACE {i.name}")
-        for method in i.methods:
-            lines += [*_head(method, "METHOD"), "END_METHOD"]
-        for of in i.properties:
-            lines += [
-                f"PROPERTY {of.name} : {of.type.name}",
-                "GET",
-                "END_GET",
-                "SET",
-                "END_SET",
-                "END_PROPERTY",
-            ]
-        lines.append("END_INTERFACE")
+        found[i.name] = _interface(i)
     for b in p.blocks:
-        lines += _block(b)
-    lines += ["PROGRAM PLC_PRG", *_section("VAR", p.variables), *statements(p.body), "END_PROGRAM"]
-    return "\n".join(lines) + "\n"
+        found[b.name] = _block(b)
+    found["PLC_PRG"] = ["PROGRAM PLC_PRG", *_section("VAR", p.variables), *statements(p.body), "END_PROGRAM"]
+    return {name: "\n".join(lines) for name, lines in found.items()}
+
+
+def _type(t: Enum | Struct) -> list[str]:
+    if isinstance(t, Enum):
+        members = ", ".join(f"{name} := {number}" for name, number in t.members)
+        return [f"TYPE {t.name} : ({members}) {t.base.name}; END_TYPE"]
+    members = " ".join(f"{name} : {m.name};" for name, m in t.members)
+    word = "UNION" if t.union else "STRUCT"
+    lines = [] if t.pack is None else [f"{{attribute 'pack_mode' := '{t.pack}'}}"]
+    return [*lines, f"TYPE {t.name} : {word} {members} END_{word} END_TYPE"]
+
+
+def _interface(i: tree.Interface) -> list[str]:
+    lines = [f"INTERFACE {i.name}"]
+    for method in i.methods:
+        lines += [*_head(method, "METHOD"), "END_METHOD"]
+    for of in i.properties:
+        accessors = ["GET", "END_GET", "SET", "END_SET"]
+        lines += [f"PROPERTY {of.name} : {of.type.name}", *accessors, "END_PROPERTY"]
+    return [*lines, "END_INTERFACE"]
 
 
 def paths(variables: list[Variable], prefix: str) -> list[tuple[str, Type, list[Any]]]:

@@ -16,7 +16,7 @@ from typing import Any
 
 from tappet.codegen.build import BuildOptions, BuildResult, LibraryReference, build_application
 from tappet.codegen.jit import ApplicationFault, LoadedApplication
-from tappet.codegen.package import CodePackage
+from tappet.codegen.package import CodePackage, rearranged
 from tappet.codegen.symbol_map import SymbolError, VarRef
 from tappet.lang.source import Scope, Source
 
@@ -173,11 +173,7 @@ def _then(case: dict[str, Any], application: LoadedApplication) -> LoadedApplica
         assert result.package is not None
         assert result.package.online_change is not None
         new = LoadedApplication(result.package)
-        image = bytearray(before.ljust(result.package.image_size, b"\0"))
-        for old_at, new_at, size in result.package.online_change.moves:
-            image[new_at : new_at + size] = before[old_at : old_at + size]
-        for at, size in result.package.online_change.initialise:
-            image[at : at + size] = result.package.initial_image[at : at + size]
+        image = rearranged(result.package, before)
         ctypes.memmove(new.address, bytes(image), len(image))
         return new
     start_again(application, command.removeprefix("reset_"))

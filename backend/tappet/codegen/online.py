@@ -42,9 +42,8 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> 
     for symbol in old.data_objects:
         if symbol not in placed.objects:
             plan.reasons.append(f"{symbol.rpartition('tappet.data.')[2]} was removed")
-    return OnlineChange(
-        old.code_id, old.data_id, tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)
-    )
+    moves, fresh, reasons = tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)
+    return OnlineChange(old.code_id, old.data_id, moves, fresh, reasons, bits=tuple(plan.bits))
 
 
 def code_change(old: CodePackage, symbols: SymbolMap) -> OnlineChange:
@@ -86,6 +85,7 @@ class _Plan:
         self.old = old
         self.new = new
         self.moves: list[tuple[int, int, int]] = []
+        self.bits: list[tuple[int, int, int, int]] = []
         self.fresh: list[tuple[int, int]] = []
         self.reasons: list[str] = []
         self.same: dict[tuple[int, int], bool] = {}
@@ -95,9 +95,11 @@ class _Plan:
         known = {m.name.upper(): m for m in old.members}
         for member in new.members:
             before = known.get(member.name.upper())
-            if before is None or member.absolute or before.absolute or before.bit != member.bit:
+            if before is None or member.absolute or before.absolute or _starts_anew(member):
                 continue
-            if member.name.upper() == "__VFTABLE" or member.bit is not None or _starts_anew(member):
+            if member.bit is not None and before.bit is not None:
+                self.bits.append((old_at + before.offset, before.bit, new_at + member.offset, member.bit))
+            if member.name.upper() == "__VFTABLE" or member.bit is not None or before.bit is not None:
                 continue
             self.value(before.type, old_at + before.offset, member.type, new_at + member.offset)
 
@@ -116,11 +118,17 @@ class _Plan:
             self.move(old_at, new_at, min(old.size, new.size - unit))
 
     def elements(self, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int) -> None:
-        """Move the elements whose indices both arrays have, one dimension only."""
-        if len(old.bounds) != 1 or len(new.bounds) != 1 or old.elem is None or new.elem is None:
+        """Move the elements whose indices both arrays have; of several dimensions only if they are the same."""
+        if old.elem is None or new.elem is None:
+            return
+        old_size, new_size = self.old.types[old.elem].size, self.new.types[new.elem].size
+        if old.bounds == new.bounds:
+            for at in range(new.size // new_size if new_size else 0):
+                self.value(old.elem, old_at + at * old_size, new.elem, new_at + at * new_size)
+            return
+        if len(old.bounds) != 1 or len(new.bounds) != 1:
             return
         (old_low, old_high), (new_low, new_high) = old.bounds[0], new.bounds[0]
-        old_size, new_size = self.old.types[old.elem].size, self.new.types[new.elem].size
         for index in range(max(old_low, new_low), min(old_high, new_high) + 1):
             self.value(
                 old.elem,

@@ -90,9 +90,8 @@ class RemanentRange:
 class OnlineChange:
     """How to get from the running application to this one without stopping it.
 
-    Order: link, call what `left_behind` names in the old code, copy `moves` from the old image into a fresh
-    copy, fill `initialise` from `initial_image`, call `ONLINE_CHANGE_SYMBOL`. With both lists empty only code
-    changed and nothing but the code is swapped.
+    Order: link, call what `left_behind` names in the old code, put the image of `rearranged` into place, call
+    `ONLINE_CHANGE_SYMBOL`. With `moves` and `initialise` empty only code changed and nothing else is swapped.
     """
 
     base_code_id: str
@@ -105,6 +104,8 @@ class OnlineChange:
     """What changed, one line each, for the user."""
     refused: str = ""
     """Why the running application cannot become this one; '' when it can."""
+    bits: tuple[tuple[int, int, int, int], ...] = ()
+    """(old offset, old bit, new offset, new bit) of BIT members whose structure changed."""
 
 
 @dataclass(slots=True)
@@ -252,6 +253,9 @@ def _check_ranges(package: CodePackage) -> None:
         for _, new, length in change.moves:
             if new < 0 or length < 0 or new + length > size:
                 raise PackageError(f"move to {new}+{length} lies outside the image of {size} bytes")
+        for _, old_bit, offset, new_bit in change.bits:
+            if not (0 <= offset < size and 0 <= old_bit < 8 and 0 <= new_bit < 8):
+                raise PackageError(f"bit {offset}.{new_bit} lies outside the image of {size} bytes")
         for offset, length in change.initialise:
             if offset < 0 or length < 0 or offset + length > size:
                 raise PackageError(f"initialise {offset}+{length} lies outside the image of {size} bytes")
@@ -322,21 +326,41 @@ def _online_to_list(change: OnlineChange | None) -> list[Any] | None:
         [list(r) for r in change.initialise],
         list(change.reasons),
         change.refused,
+        [list(b) for b in change.bits],
     ]
 
 
 def _online_from_list(row: list[Any] | None) -> OnlineChange | None:
     if row is None:
         return None
-    base_code, base_data, moves, initialise, reasons, *refused = row
+    base_code, base_data, moves, initialise, reasons, *more = row
+    refused, bits = more if len(more) == 2 else ("".join(str(r) for r in more), ())
     return OnlineChange(
         str(base_code),
         str(base_data),
         tuple((int(a), int(b), int(c)) for a, b, c in moves),
         tuple((int(a), int(b)) for a, b in initialise),
         tuple(str(r) for r in reasons),
-        "".join(str(r) for r in refused),
+        str(refused),
+        tuple((int(a), int(b), int(c), int(d)) for a, b, c, d in bits),
     )
+
+
+def rearranged(package: CodePackage, before: bytes) -> bytearray:
+    """The image after an online change: old values at their new places, new variables with initial values."""
+    change = package.online_change
+    assert change is not None
+    after = bytearray(package.image_size)
+    shared = min(len(before), len(after))
+    after[:shared] = before[:shared]
+    for source, target, size in change.moves:
+        after[target : target + size] = before[source : source + size]
+    for offset, size in change.initialise:
+        after[offset : offset + size] = package.initial_image[offset : offset + size]
+    for source, old_bit, target, new_bit in change.bits:
+        cleared = after[target] & ~(1 << new_bit)
+        after[target] = cleared | (before[source] >> old_bit & 1) << new_bit
+    return after
 
 
 def left_behind(old: CodePackage, new: CodePackage) -> list[str]:

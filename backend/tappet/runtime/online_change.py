@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, left_behind
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, left_behind, rearranged
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.faults import RawFault
 from tappet.runtime.places import Place, find_again
@@ -100,17 +100,8 @@ def apply_change(
 
 def _rearrange(application: LoadedApplication, package: CodePackage) -> None:
     """Old values to their new places, new variables to their initial values."""
-    change = package.online_change
-    assert change is not None
     image = application.image
-    old = image.read(0, image.size)
-    new = bytearray(package.image_size)
-    shared = min(len(old), len(new))
-    new[:shared] = old[:shared]
-    for source, target, size in change.moves:
-        new[target : target + size] = old[source : source + size]
-    for offset, size in change.initialise:
-        new[offset : offset + size] = package.initial_image[offset : offset + size]
+    new = rearranged(package, image.read(0, image.size))
     image.resize(package.image_size)
     image.write(0, bytes(new))
 

@@ -1,0 +1,214 @@
+"""Random edits of the declarations of a random program, and what an online change keeps of its values.
+
+Bodies that see an edited declaration are made anew; a name in both programs means the same variable.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from typing import Any
+
+from bytes_in_memory import View
+from programs import ProgramMaker, initialisable
+from reference import Machine
+from reference_values import copied, line, overwrite, stored
+from typed_tree import (
+    INTEGERS,
+    Array,
+    BitMember,
+    Block,
+    Enum,
+    Interface,
+    Pointer,
+    Program,
+    Scalar,
+    Struct,
+    Text,
+    Type,
+    Variable,
+)
+
+LEVELS = ("bodies", "program", "blocks", "everything")
+"""What an edit touches: the body of the program; its variables; blocks as well; types and globals too."""
+
+
+_DECLARED = re.compile(r"(p|n|fb|gv|i|o|s|st)\d+$")
+"""Names of variables; the others belong to a body: counters, guards, pointers."""
+
+
+class EditMaker(ProgramMaker):
+    """A program, and edits of it."""
+
+    dynamic = False
+
+    def edited(self, old: Program) -> Program:
+        """The program after one edit."""
+        level = self.r.choice(LEVELS)
+        self.renewed: dict[Any, Any] = {}
+        if level == "everything":
+            self.types = []
+            for made in old.types:
+                self.renewed[made] = self._edited_type(made)
+                self.types.append(self.renewed[made])
+            self.globals = self._edited(old.globals, "gv")
+            self.functions = []
+            for _ in range(self.r.randint(0, 2)):
+                self.functions.append(self.function())
+        if level in ("blocks", "everything"):
+            self._edit_blocks(old.blocks, level == "everything")
+        return self.around(self._edited(old.variables, "p", level != "bodies"))
+
+    def _edit_blocks(self, old: list[Block], all_of_them: bool) -> None:
+        """Blocks from the first edited one on are new ones: the later ones may use it."""
+        first = 0 if all_of_them or not old else self.r.randrange(len(old))
+        self.blocks = old[:first]
+        self.interfaces = [i for b in self.blocks for i in b.interfaces]
+        for block in old[first:]:
+            made = Block(block.name, self.renewed.get(block.base, block.base))
+            edit = self.chance(60)
+            for part in ("inputs", "outputs", "locals", "statics"):
+                of = {"inputs": "i", "outputs": "o", "locals": "s", "statics": "st"}[part]
+                setattr(made, part, self._edited(getattr(block, part), of, edit))
+            if block.init is not None and (made.base is None or made.base.maker is None):
+                made.init = self.first_code(made)
+            self.renewed[block] = made
+            self.bodies(made)
+            self.blocks.append(made)
+
+    def _edited(self, old: list[Variable], prefix: str, edit: bool = True) -> list[Variable]:
+        """Some removed, some with another type, some new, some moved."""
+        found = []
+        for v in old:
+            if not _DECLARED.match(v.name):
+                continue
+            if edit and self.chance(10):
+                continue
+            if edit and self.chance(10) and isinstance(v.type, Scalar):
+                other = self.r.choice([t for t in INTEGERS if t != v.type])
+                found.append(Variable(v.name, other, self.plain.literal_value(other)))
+                continue
+            found.append(self._again(v))
+        for _ in range(self.r.choice((0, 1, 2)) if edit else 0):
+            found.insert(self.r.randint(0, len(found)), self.variable(prefix))
+        if edit and self.chance(15):
+            self.r.shuffle(found)
+        return found or [self.variable(prefix)]
+
+    def _again(self, v: Variable) -> Variable:
+        """A variable with the edited form of its type."""
+        type_ = self.renew(v.type)
+        if isinstance(type_, Block):
+            return replace(self.instance(type_), name=v.name)
+        if type_ == v.type:
+            return v
+        return Variable(v.name, type_, self.initial(self.plain, type_) if initialisable(type_) else None)
+
+    def renew(self, type_: Type) -> Type:
+        """The edited form of a type."""
+        if isinstance(type_, Array):
+            return Array(self.renew(type_.element), type_.bounds)
+        return self.renewed.get(type_, type_)  # type: ignore[no-any-return]
+
+    def _edited_type(self, old: Enum | Struct) -> Enum | Struct:
+        """The same name with other members."""
+        if isinstance(old, Enum):
+            if self.chance(50):
+                return old
+            return replace(old, members=(*old.members, (self.fresh("v"), old.members[-1][1] + 1)))
+        members = [(name, self.renew(t)) for name, t in old.members]
+        if not self.chance(60):
+            return replace(old, members=tuple(members))
+        if len(members) > 1 and self.chance(40):
+            members.pop(self.r.randrange(len(members)))
+        numbers = (*INTEGERS, BitMember()) if not old.union else INTEGERS
+        members.insert(self.r.randint(0, len(members)), (self.fresh("m"), self.r.choice(numbers)))
+        if self.chance(20):
+            self.r.shuffle(members)
+        return replace(old, members=tuple(members))
+
+
+def changed_over(old: Machine, program: Program) -> Machine:
+    """The machine of a program after an online change: what kept name and type has its value (LDEC-47)."""
+    new = Machine(program)
+    keep = _Keeping(old, new)
+    keep.all(old.program.variables, old.variables, program.variables, new.variables)
+    keep.all(old.program.globals, old.globals, program.globals, new.globals)
+    blocks = {b.name: b for b in old.program.blocks}
+    for block in program.blocks:
+        before = blocks.get(block.name)
+        if before is not None and id(before) in old.kept:
+            kept = new._static(block, block.statics)
+            keep.all(before.statics, old.kept[id(before)][1], block.statics, kept)
+    if program.functions is old.program.functions:
+        for function in program.functions:
+            if id(function) in old.kept:
+                new.kept[id(function)] = old.kept[id(function)]
+    return new
+
+
+@dataclass
+class _Keeping:
+    """Values go from one machine to the next."""
+
+    old: Machine
+    new: Machine
+
+    def _of_methods(self, block: Block, value: Any, place: Any) -> None:
+        """VAR_INST of methods that are still there."""
+        if id(value) in self.old.kept:
+            names = {v.name for b in line(block) for m in b.methods for v in m.kept}
+            kept = self.old.kept[id(value)][1]
+            self.new.kept[id(place)] = place, {n: x for n, x in kept.items() if n in names}
+
+    def all(
+        self, old: list[Variable], before: dict[str, Any], new: list[Variable], now: dict[str, Any]
+    ) -> None:
+        types = {v.name: v.type for v in old}
+        for v in new:
+            if v.name in types and v.name in before:
+                self.one(types[v.name], before[v.name], v.type, now, v.name)
+
+    def one(self, old: Type, value: Any, new: Type, holder: Any, key: Any) -> None:
+        """One variable, element or member."""
+        if isinstance(new, Block) and isinstance(old, Block):
+            if new.name == old.name:
+                self._of_methods(new, value, holder[key])
+                self.all(old.members, value, new.members, holder[key])
+        elif isinstance(new, Struct) and isinstance(old, Struct):
+            if new.name == old.name:
+                self.members(old, value, new, holder[key])
+        elif isinstance(new, Array) and isinstance(old, Array):
+            self.elements(old, value, new, holder[key])
+        elif isinstance(new, Text) and isinstance(old, Text):
+            if new.wide == old.wide:
+                holder[key] = stored(value, new)
+        elif isinstance(new, Pointer | Interface):
+            return
+        elif new == old or (isinstance(new, Enum) and isinstance(old, Enum) and new.name == old.name):
+            holder[key] = value
+
+    def members(self, old: Struct, value: Any, new: Struct, place: Any) -> None:
+        if old == new:
+            overwrite(place, copied(value))
+            return
+        types = dict(old.members)
+        for name, type_ in new.members:
+            if (
+                name in types
+                and isinstance(place, View)
+                and types[name] == type_
+                and isinstance(place[name], View)
+            ):
+                overwrite(place[name], value[name])
+            elif name in types:
+                self.one(types[name], value[name], type_, place, name)
+
+    def elements(self, old: Array, value: Any, new: Array, place: Any) -> None:
+        if old.bounds != new.bounds:
+            return
+        for i in range(len(place) if isinstance(place, list) else len(place.keys())):
+            rest = new.bounds[1:]
+            before = Array(old.element, rest) if rest else old.element
+            after = Array(new.element, rest) if rest else new.element
+            self.one(before, value[i], after, place, i)
