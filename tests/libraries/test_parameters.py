@@ -1,5 +1,6 @@
 """Parameter lists: a reference gives constants of a library other values, which hold everywhere in it."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -138,6 +139,10 @@ def test_another_value_is_built_anew_and_changes_the_layout() -> None:
     again = build(reference(cSlots="6"), session=session, previous=second.package)
     assert again.package is not None
     assert again.package.code_id == second.package.code_id
+    renamed = replace(reference(cSlots="6"), place="Other/Library Manager")
+    moved = build(renamed, session=session, previous=again.package)
+    assert moved.package is not None
+    assert moved.package.code_id == second.package.code_id
     label = build(reference(cSlots="6", cFull="7"), session=session, previous=second.package)
     assert label.package is not None
     assert label.package.code_id != second.package.code_id

@@ -30,7 +30,8 @@ def text_digest(source: Source) -> bytes:
     if "*)" in text:  # nested comments: count all of it
         text = source.text
     place = (source.uri, source.scope, source.owner, source.name, source.library, source.namespace)
-    head = repr((*place, source.uses, source.private, source.body_line, source.language, source.given))
+    given = [(item.name, item.value) for item in source.given]  # where the values stand is no difference
+    head = repr((*place, source.uses, source.private, source.body_line, source.language, given))
     return hashlib.blake2b(f"{head}\n{text}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
 
 

@@ -2389,7 +2389,7 @@ export interface components {
         };
         /**
          * GvlObject
-         * @description A global variable list (GVL-01).
+         * @description A global variable list (GVL-01), or the parameter list of a library.
          */
         GvlObject: {
             /**

@@ -55,6 +55,15 @@ describe('input assistant', () => {
     expect(names(null, 'fb')).toEqual(['FB_A']);
   });
 
+  it('offers the parameters of a library as its constants', () => {
+    const pin = { name: 'cSlots', type: 'INT', default: '4', comment: 'places' };
+    const list = { ...library.items[0]!, name: 'GVL_Belt', kind: 'parameter_list', members: [pin] };
+    const entries = libraryEntries({ ...library, items: [list] });
+    expect(entries.map(({ insert, detail, category }) => [insert, detail, category])).toEqual([
+      ['GVL_Belt.cSlots', 'INT', 'variables'],
+    ]);
+  });
+
   it('knows the language and the libraries of the project', () => {
     const entries = languageEntries({ types: 't', keywords: 'k', operators: 'o', functions: 'f' });
     expect(search(entries, 'keywords', 'END_C').map((e) => e.name)).toEqual(['END_CASE']);

@@ -50,6 +50,7 @@ describe('library contents', () => {
   it('have the icons of objects', () => {
     expect(objectKindOf(item('E', 'enum'))).toEqual({ kind: 'dut', subkind: 'enum' });
     expect(objectKindOf(item('g', 'global')).kind).toBe('gvl');
+    expect(objectKindOf(item('p', 'parameter_list'))).toEqual({ kind: 'gvl', subkind: 'parameter_list' });
   });
 });
 
