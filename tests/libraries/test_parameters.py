@@ -4,10 +4,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, LibraryReference, build_application
 from tappet.codegen.jit import loaded
-from tappet.lang.source import Source
+from tappet.lang.ast import GlobalList
+from tappet.lang.parser import parse
+from tappet.lang.source import GivenValue, Source
 from tappet.libraries import archive, catalog, load, repository, resolve
 from tappet.libraries.archive import LibraryFileError
 from tappet.project.library_reference import ParameterValue
@@ -64,12 +68,15 @@ def reference(name: str = "Conveyors", version: str = "*", **values: str) -> Lib
 
 
 def build(
-    *references: LibraryReference, text: str = PROGRAM, more: tuple[Source, ...] = (), **options: object
+    *references: LibraryReference,
+    text: str = PROGRAM,
+    more: tuple[Source, ...] = (),
+    check_only: bool = False,
+    **options: object,
 ) -> BuildResult:
     libraries = (*references, LibraryReference("Standard"))
-    return build_application(
-        [Source("Main", text), *more], options=BuildOptions(libraries=libraries, level=1), **options
-    )
+    chosen = BuildOptions(libraries=libraries, level=1, check_only=check_only)
+    return build_application([Source("Main", text), *more], options=chosen, **options)
 
 
 def values(result: BuildResult, *names: str) -> list[str]:
@@ -90,9 +97,9 @@ def test_without_values_the_library_has_its_own() -> None:
 
 
 def test_a_value_holds_in_bounds_lengths_labels_and_what_is_computed_from_it() -> None:
-    given = reference(cSlots="3", cText="20", cPause="T#1s", aStart="[5, 6]", eMode="BELT_MODE.Fast")
+    used = reference(cSlots="3", cText="20", cPause="T#1s", aStart="[5, 6]", eMode="BELT_MODE.Fast")
     names = ("belt.nPlaces", "belt.nLength", "belt.nAnswer", "n", "belt.tPause", "belt.nStart", "belt.nMode")
-    assert values(build(given), *names) == ["3", "20", "2", "3", "T#1s", "6", "7"]
+    assert values(build(used), *names) == ["3", "20", "2", "3", "T#1s", "6", "7"]
 
 
 def test_names_are_known_in_any_case_and_without_their_list() -> None:
@@ -254,8 +261,51 @@ def test_what_a_library_offers_shows_its_parameters() -> None:
 
 def test_the_texts_of_a_library_without_values_are_those_of_all() -> None:
     """They are analysed once for all that give none, and never changed by one that does."""
-    given, problems = resolve([reference(cSlots="3")])
+    with_value, problems = resolve([reference(cSlots="3")])
     assert problems == []
     plain, _ = resolve([reference()])
     assert [source.given for source in plain[0].sources] == [(), (), ()]
-    assert [len(source.given) for source in given[0].sources] == [0, 0, 1]
+    assert [len(source.given) for source in with_value[0].sources] == [0, 0, 1]
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        "(" * 2000,
+        "(" * 1000 + "1" + ")" * 1000,
+        "1" + "+1" * 1999,
+        "-" * 1500 + "1",
+        "[" * 300,
+        "(a := 1)",
+        "ADR(GVL_Belt.cSlots)",
+        "Belt",
+        "Main",
+        "Conveyors",
+        "THIS^",
+        "1 / 0",
+        "SIZEOF(BELT_MODE)",
+        "{error 'no'} 3",
+        "3 (* not closed",
+        "$",
+        "\n\n",
+        "Main.belt.nPlaces",
+        "aStart[1]",
+    ],
+)
+def test_whatever_is_typed_gives_a_program_or_a_message_at_the_reference(value: str) -> None:
+    for parameter in ("cSlots", "aStart", "eMode", "cPause"):
+        result = build(reference(**{parameter: value}), check_only=True)
+        told = [d for d in result.diagnostics if d.severity == "error"]
+        assert all((d.code, d.uri) == ("E0904", MANAGER) for d in told), [str(d) for d in told]
+
+
+@given(st.text(max_size=60))
+def test_no_text_of_a_value_hinders_the_parser(value: str) -> None:
+    source = Source(
+        "GVL_Belt", PARAMETERS, library="Conveyors", given=(GivenValue("cSlots", value, MANAGER),)
+    )
+    result = parse(source)
+    (declared,) = result.unit.declarations
+    assert isinstance(declared, GlobalList)
+    assert len(declared.blocks[0].variables) == 6
+    assert all((d.code, d.uri) == ("E0904", MANAGER) for d in result.diagnostics)
