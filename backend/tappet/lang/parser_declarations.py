@@ -12,12 +12,12 @@ from tappet.lang.il.recognise import is_instruction_list
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import BODY_END, CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS, Opener
 from tappet.lang.parser_type_blocks import TypeBlockParser
+from tappet.lang.parser_variables import ACCESS
 from tappet.lang.sfc.chart import Chart
 from tappet.lang.sfc.reader import begins_step, begins_transition, read_step, read_transition
 from tappet.lang.sfc.translate import translate
 from tappet.lang.source import NOWHERE, Span, split_lines
 
-_ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
 _GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
 _BEHIND_VARIABLE: Final = frozenset([":=", "(", ".", "[", "^"])
@@ -197,7 +197,7 @@ class Parser(TypeBlockParser):
             if self.texts[self.i + 1].upper() in ("EXTENDS", "IMPLEMENTS"):
                 break
             word = self.word()
-            if word in _ACCESS:
+            if word in ACCESS:
                 access = word
             elif word in _MODIFIERS:
                 modifiers.add(word)
@@ -210,7 +210,10 @@ class Parser(TypeBlockParser):
         while self.word() in ("EXTENDS", "IMPLEMENTS"):
             word = self.word()
             self.i += 1
+            at = self.i
             names = [self.qualified_name("base" if word == "EXTENDS" else "interface")]
+            if word == "EXTENDS" and self.kinds[self.i] == "<":
+                pou.extends_type = self.generic_type(at, names[0][0])
             while self.kinds[self.i] == ",":
                 if word == "EXTENDS":
                     self.error(
@@ -252,7 +255,12 @@ class Parser(TypeBlockParser):
             if kind in SECTIONS:
                 if begun:
                     self.error("E0112", section=kind)
-                pou.blocks.append(self.variable_block())
+                block = self.variable_block()
+                if block.generic and pou.kind != "FUNCTION_BLOCK":
+                    what = f"a {pou.kind.lower()}"
+                    hint = "Write a VAR CONSTANT; blocks have generic constants."
+                    self.error("E0405", block.span, section=kind, what=what, hint=hint)
+                pou.blocks.append(block)
             elif kind in CHILD_HEADS and pou.kind in _HOLDERS:
                 _adopt(pou, self.property(pou) if kind == "PROPERTY" else self.pou(kind, pou))
             elif kind in OBJECT_HEADS:
@@ -364,7 +372,7 @@ class Parser(TypeBlockParser):
         start = self.i
         opener = (word, self.lines[start])
         self.i = start + 1
-        while self.word() in _ACCESS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
+        while self.word() in ACCESS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
             self.i += 1  # the property says who may use it
         method = ast.Pou(span=NOWHERE, name=name, name_span=name_span, source=self.source, kind="METHOD")
         while self.kinds[self.i] in SECTIONS:
@@ -384,12 +392,13 @@ class Parser(TypeBlockParser):
         start = self.i
         opener = ("INTERFACE", self.lines[start])
         self.i = start + 1
-        self._access()
+        access, _ = self._access()
         name, name_span = self.name("interface")
         node = ast.Interface(
             span=self.span_at(start),
             name=name,
             name_span=name_span,
+            access=access,
             source=self.source,
             attributes=self.attributes_before(start),
             comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),

@@ -56,7 +56,9 @@ class TypeBlockParser(VariableParser):
         messages = len(self.diagnostics)
         attributes = self.attributes_before(head) + (self.attributes_before(start) if start != head else [])
         comment = self.comment_above(head) or (self.comment_above(start) if start != head else "")
+        access = "PUBLIC"
         while self.word() in _ACCESS_WORDS and self.kinds[self.i + 1] is ID:
+            access = self.word()
             self.i += 1
         name, name_span = self.name("type", "Write 'TYPE name : definition; END_TYPE'.")
         if not name:
@@ -78,6 +80,7 @@ class TypeBlockParser(VariableParser):
         elif not isinstance(type_ref, ast.StructType) and self.kinds[self.i] != "END_TYPE":
             self.missing(";", "End the definition with ';'.")
         return ast.TypeDecl(
+            access=access,
             span=self.span_from(head),
             name=name,
             name_span=name_span,

@@ -11,6 +11,10 @@ from tappet.lang.parser_types import TypeParser
 from tappet.lang.source import Span
 
 _FLAGS: Final = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"])
+ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
+"""Words that say who may use a variable, method, property or object; they are no keywords elsewhere."""
+BEHIND_NAME: Final = frozenset([":", ",", "AT"])
+"""What follows the name of a variable."""
 _BLOCK_STOPS: Final = (
     frozenset(ENDS.values()) | OBJECT_HEADS | SECTIONS | STATEMENT_KEYWORDS | {END, "END_VAR"}
 )
@@ -30,9 +34,11 @@ class VariableParser(TypeParser):
         attributes = self.attributes_before(start)
         self.i = start + 1
         flags: set[str] = set()
-        while self.kinds[self.i] in _FLAGS:
-            flags.add(self.kinds[self.i])
+        while self.kinds[self.i] in _FLAGS or self._at_access():
+            flags.add(self.word() if self.kinds[self.i] is ID else self.kinds[self.i])
             self.i += 1
+        if section == "VAR_GENERIC" and "CONSTANT" not in flags:
+            self.expected("CONSTANT", "Write VAR_GENERIC CONSTANT: the values are known when the program is built.")
         attributes += self.attributes_after(self.i - 1)
         opener = (section, self.lines[start])
         listed = (
@@ -47,13 +53,23 @@ class VariableParser(TypeParser):
                 self.i += 1
         else:
             self.missing_end("E0103", "END_VAR", section, opener[1])
+        generic = section == "VAR_GENERIC"
+        if generic:
+            section, flags = "VAR", flags | {"CONSTANT"}
+            for decl in variables:  # the value of an instance takes its place; this one is for the checks
+                decl.initial = decl.initial or ast.Literal(text="1", kind="int", value=1, span=decl.span)
         return ast.VarBlock(
             span=self.span_from(start),
             section=section,
             flags=flags,
             variables=variables,
             attributes=attributes,
+            generic=generic,
         )
+
+    def _at_access(self) -> bool:
+        """Whether an access specifier stands here, and not a variable of that name."""
+        return self.word() in ACCESS and self.kinds[self.i + 1] not in BEHIND_NAME
 
     def variables(self, end: str, paths: bool = False) -> list[ast.VarDecl]:
         """Declarations up to the keyword `end`, or to one that shows that it is missing."""

@@ -32,6 +32,8 @@ class Symbol:
     source: Source | None = None
     span: Span | None = None
     comment: str = ""
+    access: str = ""
+    """PUBLIC, PRIVATE, PROTECTED or INTERNAL; empty where a variable has none of them."""
 
 
 @dataclass(eq=False, slots=True)

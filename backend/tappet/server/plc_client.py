@@ -46,6 +46,9 @@ class PlcClient(Protocol):
     async def stop(self) -> None:
         """Stops them."""
 
+    async def single_cycle(self) -> None:
+        """Runs one cycle of the programs of a stopped application."""
+
     async def reset(self, kind: ResetKind) -> None:
         """Back to initial values."""
 

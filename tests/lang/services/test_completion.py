@@ -231,9 +231,15 @@ def test_flags_and_end_inside_a_block() -> None:
     project = Project(P="PROGRAM P\nVAR |\nEND_VAR\nEND_PROGRAM")
     assert [item.label for item in complete(project.workspace, "P", project.position)] == [
         "CONSTANT",
+        "INTERNAL",
         "PERSISTENT",
+        "PRIVATE",
+        "PROTECTED",
+        "PUBLIC",
         "RETAIN",
     ]
+    project = Project(P="PROGRAM P\nVAR_INPUT |\nEND_VAR\nEND_PROGRAM")
+    assert "PUBLIC" not in [item.label for item in complete(project.workspace, "P", project.position)]
 
 
 def test_heads_outside_of_objects() -> None:

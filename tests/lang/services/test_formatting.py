@@ -100,6 +100,10 @@ def test_a_whole_program() -> None:
         ("IF a THEN\n\n\nb();\nEND_IF", "IF a THEN\n\n\n    b();\nEND_IF"),
         ("TYPE s : struct\nx:int;\nend_struct end_type", "TYPE s : STRUCT\n    x: INT;\nEND_STRUCT END_TYPE"),
         ("a := 'x  y' ;  ", "a := 'x  y';"),
+        (
+            "function_block f\nvar PROTECTED constant\nx:int;\nend_var\nend_function_block",
+            "FUNCTION_BLOCK f\nVAR PROTECTED CONSTANT\n    x: INT;\nEND_VAR\nEND_FUNCTION_BLOCK",
+        ),
     ],
 )
 def test_small_pieces(text: str, expected: str) -> None:

@@ -101,7 +101,14 @@ def _declare(session: Session, level: Level, symbol: Symbol, declaration: ast.De
 
 def _pou(session: Session, found: Collected, pou: ast.Pou, source: Source, level: Level) -> None:
     symbol = PouSymbol(
-        pou.name, source, pou.name_span, pou.comment, pou=pou, kind=pou.kind, qualified_name=pou.name
+        pou.name,
+        source,
+        pou.name_span,
+        pou.comment,
+        pou.access,
+        pou=pou,
+        kind=pou.kind,
+        qualified_name=pou.name,
     )
     symbol = session.stand_for(symbol, source.uri)
     pou.symbol = symbol
@@ -122,7 +129,8 @@ def _pou(session: Session, found: Collected, pou: ast.Pou, source: Source, level
 def _interface(
     session: Session, found: Collected, declaration: ast.Interface, source: Source, level: Level
 ) -> None:
-    symbol = InterfaceSymbol(declaration.name, source, declaration.name_span, declaration.comment)
+    named = declaration.name, source, declaration.name_span, declaration.comment, declaration.access
+    symbol = InterfaceSymbol(*named)
     symbol = session.stand_for(symbol, source.uri)
     symbol.type = session.stand_for(t.Interface(declaration.name, pou=declaration), source.uri)
     declaration.symbol = symbol
@@ -137,7 +145,8 @@ def _interface(
 def _type(
     session: Session, found: Collected, declaration: ast.TypeDecl, source: Source, level: Level
 ) -> None:
-    symbol = TypeSymbol(declaration.name, source, declaration.name_span, declaration.comment)
+    named = declaration.name, source, declaration.name_span, declaration.comment, declaration.access
+    symbol = TypeSymbol(*named)
     symbol = session.stand_for(symbol, source.uri)
     _declare(session, level, symbol, declaration)
     found.types.append((symbol, declaration, source))

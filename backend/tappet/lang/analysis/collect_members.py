@@ -37,6 +37,7 @@ def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast
         source,
         pou.name_span,
         pou.comment,
+        pou.access,
         pou=pou,
         kind=pou.kind,
         qualified_name=f"{owner.qualified_name}.{pou.name}",
@@ -59,7 +60,7 @@ def collect_property(
     """A property of a program or block, with its accessors."""
     if not is_free(session, found, owner, "property", property_.name, source, property_.name_span):
         return
-    symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
+    symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment, property_.access)
     symbol = session.stand_for(symbol, source.uri, owner.qualified_name)
     check_name(session, property_.name, source, property_.name_span)
     owner.properties[property_.name.upper()] = symbol
@@ -89,6 +90,7 @@ def _add_accessors(
             pou.name,
             source,
             property_.name_span,
+            access=pou.access,
             pou=pou,
             kind="METHOD",
             qualified_name=f"{block.qualified_name if block else owner.name}.{pou.name}",
@@ -164,6 +166,7 @@ def collect_head(
         source,
         pou.name_span,
         pou.comment,
+        pou.access,
         pou=pou,
         kind="METHOD",
         qualified_name=f"{owner.name}.{pou.name}",
@@ -182,7 +185,7 @@ def collect_property_head(
     session: Session, found: Collected, owner: InterfaceSymbol, property_: ast.Property, source: Source
 ) -> None:
     """A property of an interface, with its accessors."""
-    symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment)
+    symbol = PropertySymbol(property_.name, source, property_.name_span, property_.comment, property_.access)
     symbol = session.stand_for(symbol, source.uri, owner.name)
     old = member_named(owner, property_.name.upper())
     if old is not None:

@@ -10,6 +10,7 @@ from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.same_names import report_twice
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.type_conversions import is_conversion
+from tappet.lang.parser_variables import ACCESS
 from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, VarSymbol
 
@@ -75,7 +76,14 @@ def collect_variables(
                     what=what,
                     hint="Use VAR or an own object.",
                 )
-        flags = frozenset(block.flags)
+        access = next(iter(block.flags & ACCESS), "")
+        if access and (section != "VAR" or kind not in ("PROGRAM", "FUNCTION_BLOCK")):
+            what = f"a {kind.lower().replace('_', ' ')}"
+            hint = "Access specifiers belong to VAR of a program or function block."
+            session.report(
+                "E0405", source.uri, block.span, section=f"{section} {access}", what=what, hint=hint
+            )
+        flags = frozenset(block.flags - ACCESS)
         storage = base_storage
         if section == "VAR_TEMP":
             storage = Storage.LOCAL
@@ -91,6 +99,7 @@ def collect_variables(
                 source,
                 decl.name_span,
                 decl.comment,
+                access,
                 storage=storage,
                 home=storage,
                 section=section,

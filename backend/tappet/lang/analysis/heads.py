@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from tappet.lang import ast
+from tappet.lang.access import may_use
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.same_names import check_inherited, check_result
 from tappet.lang.analysis.scope import describe
 from tappet.lang.attributes import attribute
-from tappet.lang.source import Scope, Source
+from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import (
     InterfaceSymbol,
     NamespaceSymbol,
@@ -45,7 +46,7 @@ def link(session: Session, found: Collected, declarations: Declarations) -> None
                 view.method(method, None, source)
 
 
-def _find(session: Session, source: Source, name: str) -> Symbol | None:
+def _find(session: Session, source: Source, name: str, span: Span) -> Symbol | None:
     symbol: Symbol | None = None
     for number, part in enumerate(name.split(".")):
         if number == 0:
@@ -54,6 +55,12 @@ def _find(session: Session, source: Source, name: str) -> Symbol | None:
             symbol = symbol.members.get(part.upper())
         else:
             return None
+    if symbol is not None and not may_use(symbol, None, source):
+        home = symbol.source.library if symbol.source is not None else None
+        what = describe(symbol).capitalize()
+        session.report(
+            "E0213", source.uri, span, what=what, name=symbol.name, type=home, access=symbol.access
+        )
     return symbol
 
 
@@ -62,7 +69,7 @@ def _link_interface(
 ) -> None:
     interface.bases = []
     for name in declaration.extends:
-        base = _find(session, source, name)
+        base = _find(session, source, name, declaration.name_span)
         if isinstance(base, InterfaceSymbol):
             interface.bases.append(base)
         else:
@@ -87,7 +94,7 @@ def _link_pou(session: Session, pou: PouSymbol) -> None:
     if node is None or source is None:
         return
     if node.extends:
-        base = _find(session, source, node.extends)
+        base = _find(session, source, node.extends, node.name_span)
         if isinstance(base, PouSymbol) and base.kind == pou.kind == "FUNCTION_BLOCK":
             pou.base = base
             if base.pou is not None and "FINAL" in base.pou.modifiers:
@@ -98,7 +105,7 @@ def _link_pou(session: Session, pou: PouSymbol) -> None:
             what = pou.kind.lower().replace("_", " ")
             session.report("E0417", source.uri, node.name_span, name=pou.name, base=base.name, what=what)
     for name in node.implements:
-        interface = _find(session, source, name)
+        interface = _find(session, source, name, node.name_span)
         if isinstance(interface, InterfaceSymbol):
             pou.interfaces.append(interface)
         else:

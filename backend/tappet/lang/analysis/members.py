@@ -23,7 +23,6 @@ from tappet.lang.symbols import (
     InterfaceSymbol,
     NamespaceSymbol,
     PouSymbol,
-    PropertySymbol,
     Symbol,
     TypeSymbol,
     VarSymbol,
@@ -114,7 +113,6 @@ def _member_of_pou(b: Body, e: ast.Member, pou: PouSymbol, inside: bool) -> None
             walk = walk.base
         _unknown_member(b, e, pou.name, names)
         return
-    _check_access(b, e, member, pou)
     resolve_object(b, e, member)
 
 
@@ -129,27 +127,6 @@ def find_member(pou: PouSymbol, key: str) -> Symbol | None:
         walk = walk.base
         seen += 1
     return None
-
-
-def _check_access(b: Body, e: ast.Member, member: Symbol, pou: PouSymbol) -> None:
-    what, name = "Method", member.name
-    if isinstance(member, PropertySymbol):
-        what = "Property"
-        accessor = member.getter or member.setter
-        if accessor is None:
-            return
-        member = accessor
-    if not isinstance(member, PouSymbol) or member.pou is None:
-        return
-    access = member.pou.access
-    own = b.block
-    if access == "PRIVATE" and own is not member.owner:
-        b.report("E0213", e.name_span, what=what, name=name, type=pou.name, access="PRIVATE")
-    elif access == "PROTECTED":
-        while own is not None and own is not member.owner:
-            own = own.base
-        if own is None:
-            b.report("E0213", e.name_span, what=what, name=name, type=pou.name, access="PROTECTED")
 
 
 def _member_of_interface(b: Body, e: ast.Member, type_: t.Interface) -> None:
@@ -215,7 +192,7 @@ def _member_of_type(b: Body, e: ast.Member, symbol: TypeSymbol, key: str) -> Non
     enum = symbol.type
     for name, number in enum.values.items():
         if name.upper() == key:
-            e.symbol = EnumValueSymbol(name, symbol.source, symbol.span, "", enum, number)
+            e.symbol = EnumValueSymbol(name, symbol.source, symbol.span, type=enum, number=number)
             e.type, e.constant, e.is_constant = enum, number, True
             return
     _unknown_member(b, e, enum, list(enum.values))

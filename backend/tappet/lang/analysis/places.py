@@ -169,7 +169,7 @@ def _access_allowed(b: Body, e: ast.Member, symbol: VarSymbol) -> bool:
             return True
     else:
         return True
-    if symbol.section == "VAR_INPUT" or owner is b.block:
+    if symbol.section == "VAR_INPUT" or owner is b.block or symbol.access in ("PUBLIC", "INTERNAL"):
         return True
     if symbol.section in ("VAR", "VAR_OUTPUT", "VAR_INST"):
         name = owner.name if isinstance(owner, PouSymbol) else str(base.type)

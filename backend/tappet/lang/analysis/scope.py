@@ -220,9 +220,9 @@ class Levels:
             for level in public:
                 for key, symbol in level.names().items():
                     old = table.get(key)
-                    if old is None or isinstance(old, (NamespaceSymbol, QualifiedSymbol)):
+                    if old is None or (symbol.access != "INTERNAL" and _gives_way(old)):
                         table[key] = symbol
-                    elif isinstance(symbol, QualifiedSymbol):
+                    elif isinstance(symbol, QualifiedSymbol) or symbol.access == "INTERNAL":
                         continue
                     else:
                         choice = f"{level.label}.{symbol.name}"
@@ -251,6 +251,11 @@ def is_type(symbol: Symbol) -> bool:
 def _without_qualified(names: dict[str, Symbol], outer: dict[str, Symbol]) -> dict[str, Symbol]:
     """A name that needs qualification does not hide one of an outer level that needs none."""
     return {k: s for k, s in names.items() if not (isinstance(s, QualifiedSymbol) and k in outer)}
+
+
+def _gives_way(symbol: Symbol) -> bool:
+    """Whether a name of a library is hidden by a plain one of another."""
+    return isinstance(symbol, (NamespaceSymbol, QualifiedSymbol)) or symbol.access == "INTERNAL"
 
 
 def _qualified(symbol: Symbol) -> str:

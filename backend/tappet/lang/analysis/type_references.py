@@ -9,7 +9,8 @@ from tappet.lang import types as t
 from tappet.lang.analysis import conversion, layout
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
-from tappet.lang.analysis.expressions import value
+from tappet.lang.analysis.expressions import check_use, value
+from tappet.lang.analysis.generic_values import check_values
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.scope import AmbiguousSymbol, describe
 from tappet.lang.any_type import ANY_TYPES
@@ -100,6 +101,8 @@ class TypeReferences:
         symbol = self._named_symbol(body, name)
         if symbol is None and key in ANY_TYPES:
             return _any_group(body, ref, key)
+        if symbol is not None and symbol.access:
+            check_use(body, ref, symbol)
         if isinstance(symbol, TypeSymbol):
             type_ = self.symbol_type(symbol)
             declared = self.declared.get(id(symbol))
@@ -107,6 +110,8 @@ class TypeReferences:
                 body.warn_obsolete(ref.span, declared.attributes)
             return type_
         if isinstance(symbol, PouSymbol):
+            block = self._named_symbol(body, ref.generic) if ref.generic else symbol
+            check_values(body, ref, symbol, block)
             return self._instance(body, ref, symbol, below_pointer)
         if isinstance(symbol, InterfaceSymbol):
             return symbol.type

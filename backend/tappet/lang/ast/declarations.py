@@ -32,6 +32,10 @@ class NamedType(TypeRef):
     """Written `FB(1, x := 2)`."""
     elements: list[InitArguments] = field(default_factory=list)
     """Written `ARRAY[1..2] OF FB[(1), (x := 2)]`: those of each element, in storage order."""
+    generic: str = ""
+    """`FB` of `FB<20>`; `name` is that of the block with these values, once `analysis.generic` has made it."""
+    values: list[Expr] = field(default_factory=list)
+    """Values of the generic constants."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -134,12 +138,15 @@ class VarDecl(Node):
 
 @dataclass(slots=True, kw_only=True)
 class VarBlock(Node):
-    """VAR ... END_VAR. `section` is the keyword; `flags` of CONSTANT, RETAIN, NON_RETAIN, PERSISTENT."""
+    """VAR ... END_VAR. `section` is the keyword; `flags` of CONSTANT, RETAIN, NON_RETAIN, PERSISTENT and
+    the access specifiers."""
 
     section: str
     flags: set[str]
     variables: list[VarDecl]
     attributes: list[Pragma] = field(default_factory=list)
+    generic: bool = False
+    """VAR_GENERIC CONSTANT: each instance says the values; a VAR CONSTANT otherwise."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -152,6 +159,8 @@ class Declaration(Node):
     attributes: list[Pragma] = field(default_factory=list)
     comment: str = ""
     """Documentation comment above the declaration."""
+    access: str = "PUBLIC"
+    """PUBLIC, PRIVATE, PROTECTED or INTERNAL."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -168,7 +177,6 @@ class Property(Declaration):
     """PROPERTY name : type."""
 
     type_ref: TypeRef | None
-    access: str = "PUBLIC"
     modifiers: set[str] = field(default_factory=set)
     getter: Accessor | None = None
     setter: Accessor | None = None
@@ -185,9 +193,10 @@ class Pou(Declaration):
     language: str = "ST"
     extends: str | None = None
     extends_span: Span = NOWHERE
+    extends_type: NamedType | None = None
+    """The base where it has generic constants: `EXTENDS FB<20>`."""
     implements: list[str] = field(default_factory=list)
     implements_spans: list[Span] = field(default_factory=list)
-    access: str = "PUBLIC"
     modifiers: set[str] = field(default_factory=set)
     """Of ABSTRACT, FINAL, OVERRIDE."""
     methods: list[Pou] = field(default_factory=list)
@@ -235,3 +244,5 @@ class Unit(Node):
 
     source: Source
     declarations: list[Declaration]
+    copied: bool = False
+    """Made for the values of generic constants."""

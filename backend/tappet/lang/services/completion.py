@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.access import may_use
 from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol
 from tappet.lang.attributes import attribute
 from tappet.lang.lexer import ID
@@ -18,7 +19,6 @@ from tappet.lang.services.completion_calls import (
     argument_type,
     case_selector,
     initial_members,
-    may_reach,
     parameters,
     type_before,
     whole_call,
@@ -36,6 +36,7 @@ from tappet.lang.services.cursor import (
 from tappet.lang.services.documents import Position
 from tappet.lang.services.instruction_list import JUMPS, in_rows, label_proposals, operator_proposals
 from tappet.lang.services.keywords import (
+    ACCESS,
     ATTRIBUTES,
     DECLARATION_KEYWORDS,
     EXPRESSION_KEYWORDS,
@@ -122,7 +123,10 @@ def _proposals(view: View, cursor: Cursor) -> Iterator[Completion]:
         yield from _keywords(("EXTENDS", "IMPLEMENTS"), 3)
         yield from _keywords(DECLARATION_KEYWORDS, 4)
     if region in ("variables", "type") and not _in_initial_value(view, cursor):
-        words = FLAGS if previous_word.startswith("VAR") or previous_word in FLAGS else ("END_VAR", "AT")
+        flagged = previous_word.startswith("VAR") or previous_word in FLAGS
+        words = FLAGS if flagged else ("END_VAR", "AT")
+        if previous_word == "VAR":
+            words += ACCESS
         yield from _keywords(words, 4)
         return
     yield from _code(view, scope, cursor, before, region)
@@ -205,7 +209,7 @@ def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
         foreign = not own and is_local(symbol) and isinstance(meaning.type, t.FunctionBlock)
         if foreign and without_locals:  # from outside, locals can be read at most
             continue
-        if not may_reach(symbol, scope.block):
+        if not may_use(symbol, scope.block, view.source):
             continue
         yield _item(symbol, _member_rank(symbol, meaning), order)
         order += 1
@@ -252,6 +256,8 @@ def _item(symbol: Symbol, rank: int, order: int = 0) -> Completion:
 
 
 def _offered(symbol: Symbol) -> bool:
+    if symbol.access == "INTERNAL" and symbol.source is not None and symbol.source.library is not None:
+        return False
     return not isinstance(symbol, (AmbiguousSymbol, QualifiedSymbol)) and not is_hidden(symbol)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.lexer import ID
 from tappet.lang.services import describe
@@ -179,20 +178,3 @@ def argument_type(scope: Scope, call: EnclosingCall) -> t.Type | None:
         return None
     pins = list(describe.pins(pou))
     return pins[call.count].type if call.count < len(pins) else None
-
-
-def may_reach(symbol: Symbol, block: PouSymbol | None) -> bool:
-    """Whether the access of a method lets code of `block` call it (PRIVATE, PROTECTED)."""
-    node = symbol.pou if isinstance(symbol, PouSymbol) else None
-    owner = symbol.owner if isinstance(symbol, PouSymbol) else None
-    if not isinstance(node, ast.Pou) or node.access not in ("PRIVATE", "PROTECTED"):
-        return True
-    if node.access == "PRIVATE":
-        return owner is block
-    seen: list[PouSymbol] = []
-    while block is not None and block not in seen:
-        if block is owner:
-            return True
-        seen.append(block)
-        block = block.base
-    return False

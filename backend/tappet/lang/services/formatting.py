@@ -11,6 +11,7 @@ from typing import Literal
 
 from tappet.lang.lexer import END, ID, INT, KEYWORDS, NUMBER, STRING, Lexed, Trivia, lex
 from tappet.lang.parser_core import SECTIONS
+from tappet.lang.parser_variables import ACCESS, BEHIND_NAME
 from tappet.lang.services.documents import Place
 from tappet.lang.services.instruction_list import format_rows, holds_rows
 from tappet.lang.services.results import Edit
@@ -274,7 +275,7 @@ class _Formatter:
             return False
         if kind in _BEGINS_STATEMENT or kind in SECTIONS or kind in ("STRUCT", "UNION"):
             return True
-        if kind in _FLAGS:
+        if kind in _FLAGS or self.is_access(piece.index):
             return bool(stack) and stack[-1] in SECTIONS
         if kind == "OF":
             return bool(stack) and stack[-1] == "CASE"
@@ -285,6 +286,16 @@ class _Formatter:
         if following in SECTIONS or following in _HEADS:
             return True
         return not stack and self.lexed.lines[piece.index + 1] != piece.line and self.in_head(piece.index)
+
+    def is_access(self, index: int) -> bool:
+        """Whether an access specifier stands here, behind VAR and its other flags."""
+        before, after = self.lexed.kinds[index - 1], self.lexed.kinds[index + 1]
+        return (
+            index > 0
+            and self.lexed.texts[index].upper() in ACCESS
+            and (before in SECTIONS or before in _FLAGS)
+            and after not in BEHIND_NAME
+        )
 
     def in_head(self, index: int) -> bool:
         """Whether the line of a token begins with the head of an object; the next line begins a new thing."""

@@ -27,8 +27,9 @@ export function ScopeCell({ model, value, onCommit, onCancel }: ScopeCellProps) 
     list.current?.querySelector<HTMLElement>('[aria-checked="true"]')?.focus();
   }, []);
 
+  const others = flags.filter((flag) => !VARIABLE_FLAGS.some((known) => known === flag));
   const compose = (next: string, with_: readonly string[]) =>
-    [next, ...VARIABLE_FLAGS.filter((flag) => with_.includes(flag))].join(' ');
+    [next, ...others, ...VARIABLE_FLAGS.filter((flag) => with_.includes(flag))].join(' ');
   const onKeyDown = (event: KeyboardEvent) => {
     event.stopPropagation();
     if (event.key === 'Escape') onCancel();

@@ -54,6 +54,15 @@ describe('reading a declaration', () => {
     expect(header?.comments.map((cell) => cell.text)).toEqual(['(* the main program *)']);
   });
 
+  it('reads access specifiers as flags, and variables of these names as variables', () => {
+    const text =
+      'FUNCTION_BLOCK F\nVAR PROTECTED CONSTANT\n  a : INT := 1;\nEND_VAR\nVAR\n  private : INT;\n  public, b : INT;\n  internal AT %MW0 : INT;\nEND_VAR\n';
+    const { blocks, problems } = parseDeclaration(text);
+    expect(problems).toEqual([]);
+    expect(blocks.map((block) => block.flags)).toEqual([['PROTECTED', 'CONSTANT'], []]);
+    expect(names(text)).toEqual(['a', 'private', 'public', 'b', 'internal']);
+  });
+
   it('gives one row per variable with every column', () => {
     expect(rows(PROGRAM)).toMatchObject([
       { scope: 'VAR_INPUT', name: 'xStart', type: 'BOOL', comment: '' },

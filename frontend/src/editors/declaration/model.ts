@@ -34,7 +34,7 @@ export interface Block {
   readonly frame: RowFrame;
   /** VAR, VAR_INPUT ... upper case; STRUCT or UNION for members; empty for an enumeration. */
   readonly scope: string;
-  /** CONSTANT, RETAIN, PERSISTENT in upper case, in the order written. */
+  /** CONSTANT, RETAIN, PERSISTENT and access specifiers in upper case, in the order written. */
   readonly flags: readonly string[];
   /** `VAR_INPUT CONSTANT`, `STRUCT`, or the opening parenthesis. */
   readonly head: Range;

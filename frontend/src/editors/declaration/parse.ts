@@ -18,6 +18,7 @@ const HEADER_KEYWORDS = new Set([
 ]); // prettier-ignore
 const MODIFIERS = new Set(['PUBLIC', 'PRIVATE', 'PROTECTED', 'INTERNAL', 'FINAL', 'ABSTRACT']);
 const FLAGS = new Set(['CONSTANT', 'RETAIN', 'PERSISTENT']);
+const ACCESS = new Set(['PUBLIC', 'PROTECTED', 'PRIVATE', 'INTERNAL']);
 const VAR_KEYWORD = /^VAR(?:_[A-Z_]+)?$/;
 /** Pragmas that act on the text itself, not on one variable; no row may carry them along. */
 const TEXT_PRAGMA = /^\{\s*(?:if|elsif|else|end_if|define|undefine|include|region|endregion)\b/i;
@@ -142,7 +143,7 @@ class DeclarationParser {
     for (let ahead = this.at; ahead < this.tokens.length; ahead += 1) {
       const token = this.tokens[ahead] as Token;
       if (isTrivia(token)) continue;
-      if (token.kind !== 'word' || !FLAGS.has(this.upper(token))) break;
+      if (token.kind !== 'word' || !(FLAGS.has(this.upper(token)) || this.isAccess(ahead))) break;
       flags.push(this.upper(token));
       headEnd = token.end;
       this.at = ahead + 1;
@@ -153,6 +154,13 @@ class DeclarationParser {
       (word) => word === 'END_VAR',
       (word) => VAR_KEYWORD.test(word),
     );
+  }
+
+  /** Whether an access specifier stands here, and not a variable of that name. */
+  private isAccess(at: number): boolean {
+    if (!ACCESS.has(this.upper(this.tokens[at] as Token))) return false;
+    const next = this.tokens.slice(at + 1).find((token) => !isTrivia(token));
+    return next?.kind === 'word' && this.upper(next) !== 'AT';
   }
 
   private typeDeclaration(trivia: readonly Token[]): void {
