@@ -272,4 +272,8 @@ def test_a_parameter_of_a_library_gets_a_value_and_loses_it(page: Page) -> None:
     table.focus()
     page.keyboard.press("Delete")
     expect(value).to_have_value("")
+    page.keyboard.press("Control+z")
+    expect(value).to_have_value("2 * 12")
+    page.keyboard.press("Control+y")
+    expect(value).to_have_value("")
     assert errors_of_build(page) == []

@@ -51,6 +51,8 @@ class Plant:
                 "implementation": BODY,
             }
             project, _ = edit.add_object(project, application.id, "pou", "PLC_PRG", data=body)
+        body = {"declaration": "FUNCTION Twice : INT", "implementation": "Twice := 2;"}
+        project, _ = edit.add_object(project, None, "pou", "Twice", data=body)
         self.id = self.store.create_project("Plant", "ann", content=project).id
 
     def find(self, path: str) -> ProjectObject:
@@ -109,6 +111,14 @@ def test_a_message_about_a_value_leads_to_the_library_manager(
     (told,) = [d for d in report["diagnostics"] if d["severity"] in ("error", "warning")]
     assert (told["code"], told["object_id"], told["part"], told["line"]) == (code, manager, None, None)
     assert told["object_path"] == "Small/PLC Logic/Application/Library Manager"
+
+
+def test_a_project_whose_values_do_not_suit_becomes_no_library(plant: Plant) -> None:
+    manager = plant.give("Small", "'many'")
+    answer = plant.client.post(f"/api/v1/projects/{plant.id}/library", json={"version": "1.0.0.0"})
+    assert answer.status_code == 422
+    told = [d for d in answer.json().get("diagnostics", []) if d["severity"] == "error"]
+    assert [(d["code"], d["object_id"]) for d in told] == [("E0904", manager)]
 
 
 def test_a_missing_library_leads_to_the_library_manager(plant: Plant) -> None:

@@ -76,6 +76,7 @@ class Application:
         """What a project is as a library: all its code but programs, in no application."""
         found = tuple(library_sources(project))
         ids = {segment.object_id for source in found for segment in source.segments}
+        ids |= {item.id for item in project.walk() if item.kind == "library_manager"}
         return cls(
             project_id,
             "",
