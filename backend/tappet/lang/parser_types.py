@@ -9,6 +9,9 @@ from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import ENDS, MAX_NESTING
 from tappet.lang.parser_statements import StatementParser
 
+_STRONGER_THAN_COMPARISON = 5
+"""Precedence of `<` and `>`, which end a value of a generic constant; inside parentheses they compare."""
+
 
 class TypeParser(StatementParser):
     """Reads types."""
@@ -68,6 +71,8 @@ class TypeParser(StatementParser):
             self.i += 1
             part, _ = self.member_name()
             name = f"{name}.{part}"
+        if kinds[self.i] == "<":
+            return self.generic_type(start, name)
         if kinds[self.i] == "[" and kinds[self.i + 1] == "(":
             elements = self._element_arguments()
             return ast.NamedType(span=self.span_from(start), name=name, elements=elements)
@@ -91,6 +96,23 @@ class TypeParser(StatementParser):
             args.append(self.argument())
         self.take(")")
         return ast.NamedType(span=self.span_from(start), name=name, args=args)
+
+    def generic_type(self, start: int, name: str) -> ast.NamedType:
+        """`<20, (2 * n)>` behind the name of a block, and what FB_Init gets."""
+        values: list[ast.Expr] = []
+        while True:
+            self.i += 1
+            values.append(self.binary(_STRONGER_THAN_COMPARISON))
+            if self.kinds[self.i] != ",":
+                break
+        self.take(">")
+        node = ast.NamedType(span=self.span_from(start), name=name, generic=name, values=values)
+        if self.kinds[self.i] == "[" and self.kinds[self.i + 1] == "(":
+            node.elements = self._element_arguments()
+        elif self.kinds[self.i] == "(":
+            node.args = self.arguments()
+        node.span = self.span_from(start)
+        return node
 
     def _element_arguments(self) -> list[ast.InitArguments]:
         """`[(a), (n := b)]`: arguments of FB_Init for each element of an array."""

@@ -38,7 +38,7 @@ class VariableParser(TypeParser):
             flags.add(self.word() if self.kinds[self.i] is ID else self.kinds[self.i])
             self.i += 1
         if section == "VAR_GENERIC" and "CONSTANT" not in flags:
-            self.expected("CONSTANT", "Write VAR_GENERIC CONSTANT: the values are known when the program is built.")
+            self.expected("CONSTANT", "Write VAR_GENERIC CONSTANT.")
         attributes += self.attributes_after(self.i - 1)
         opener = (section, self.lines[start])
         listed = (

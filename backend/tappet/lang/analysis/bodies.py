@@ -157,6 +157,8 @@ def finish(state: State) -> Analysis:
         order.setdefault(unit.source.uri, number)
     last = len(order)
     found.sort(key=lambda d: (order.get(d.uri, last), d.span.line, d.span.column, d.code, d.message))
+    if any(unit.copied for unit in state.units):  # of a generic block each copy says the same
+        found = list({(d.code, d.uri, d.span): d for d in reversed(found)}.values())[::-1]
     analysis = session.analysis
     analysis.diagnostics = with_severity(kept(found, state.units), session.options.static.errors)
     analysis.called = session.called

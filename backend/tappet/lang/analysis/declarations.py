@@ -14,6 +14,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import addresses, folding, layout
 from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.generic_values import check_base
 from tappet.lang.analysis.given_values import initialise_parameter
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.type_references import DEPTH_LIMIT, TypeReferences
@@ -287,6 +288,9 @@ class Declarations(TypeReferences):
         if faulty is not None and pou.span is not None:
             body.report("E0609", pou.span, value=faulty)
         base = pou.base.instance if pou.base is not None else None
+        if pou.base is not None and pou.pou is not None:
+            written = pou.pou.extends_type
+            check_base(body, pou, pou.base, self._named_symbol(body, written.generic) if written else None)
         if base is not None and self.complete(base):
             type_.base = base
             type_.members.update(base.members)

@@ -23,6 +23,7 @@ from tappet.lang.analysis.collect import collect
 from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.declare import all_pous, declare
+from tappet.lang.analysis.generic import expand
 from tappet.lang.analysis.incremental import reanalyse
 from tappet.lang.analysis.redeclare import read_words, redeclare
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
@@ -50,7 +51,8 @@ def analyse(
     options = options or AnalysisOptions()
     earlier = previous.state.units if previous is not None and isinstance(previous.state, State) else ()
     units = with_types(units, earlier)
-    if previous is not None:
+    plain, units = units, expand(units)
+    if previous is not None and units is plain:
         again = reanalyse(previous, units, options, first) or redeclare(previous, units, options, first)
         if again is not None:
             return again

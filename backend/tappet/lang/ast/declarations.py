@@ -33,7 +33,7 @@ class NamedType(TypeRef):
     elements: list[InitArguments] = field(default_factory=list)
     """Written `ARRAY[1..2] OF FB[(1), (x := 2)]`: those of each element, in storage order."""
     generic: str = ""
-    """`FB` of `FB<20>`; `name` is that of the block with these values, once `analysis.generic` has made it."""
+    """`FB` of `FB<20>`; `name` is that of the block with these values once `analysis.generic` has made it."""
     values: list[Expr] = field(default_factory=list)
     """Values of the generic constants."""
 
