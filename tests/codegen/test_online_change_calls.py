@@ -211,3 +211,63 @@ def test_what_new_has_made_lives_on(changes: dict[str, object]) -> None:
     assert new.online_change is not None
     assert new.online_change.refused == ""
     assert CodePackage.from_bytes(new.to_bytes()).online_change == new.online_change
+
+
+ARRAYS = """
+FUNCTION_BLOCK FB_Part
+VAR_INPUT n : DINT; END_VAR
+VAR {more} END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR
+IF bInCopyCode THEN Count.inits := Count.inits + 1; {init} END_IF
+n := -1;
+END_METHOD
+METHOD FB_Reinit : BOOL
+Count.reinits := Count.reinits + 1;
+Count.sum := Count.sum + n;
+END_METHOD
+END_FUNCTION_BLOCK
+TYPE Row : STRUCT a : INT; parts : ARRAY[1..5] OF FB_Part; END_STRUCT END_TYPE
+PROGRAM Count
+VAR_INPUT inits, reinits, sum : DINT; END_VAR
+END_PROGRAM
+PROGRAM PLC_PRG
+VAR {first} i, j : DINT; many : ARRAY[1..{count}] OF FB_Part; rows : ARRAY[0..9] OF Row; END_VAR
+FOR i := 1 TO {count} DO many[i].n := i; END_FOR
+FOR i := 0 TO 9 DO
+    FOR j := 1 TO 5 DO rows[i].parts[j].n := 1000 * i + j; END_FOR
+END_FOR
+END_PROGRAM
+"""
+EDITS = [{"first": "x : LREAL;"}, {"more": "fresh : INT; x : LREAL;", "init": "fresh := 7;"}]
+
+
+def arrays(count: int, **changes: str) -> str:
+    return ARRAYS.format(**({"more": "", "init": "", "first": "", "count": count} | changes))
+
+
+@pytest.mark.parametrize("changes", EDITS)
+def test_every_element_of_an_array(changes: dict[str, str]) -> None:
+    """LDEC-104, LDEC-106: also where arrays lie in elements of arrays."""
+    old = build(arrays(300))
+    new = build(arrays(300, **changes), old)
+    with loaded(old) as application:
+        application.cycle()
+        after = change_over(application, new)
+        found = [after.read(f"Count.{name}") for name in ("inits", "reinits", "sum")]
+        kept = [after.read(f"PLC_PRG.{path}") for path in ("many[1].n", "many[300].n", "rows[9].parts[5].n")]
+        parts = ("many[300]", "rows[0].parts[1]") if "more" in changes else ()
+        fresh = [after.read(f"PLC_PRG.{part}.fresh") for part in parts]
+        after.close()
+    assert found == [350, 350, sum(range(301)) + sum(1000 * i + j for i in range(10) for j in range(1, 6))]
+    assert kept == [1, 300, 9005]
+    assert fresh == [7] * len(parts)
+
+
+@pytest.mark.parametrize("changes", EDITS)
+def test_large_arrays_take_no_more_code(changes: dict[str, str]) -> None:
+    few, many = (
+        sum(map(len, build(arrays(count, **changes), build(arrays(count))).objects))
+        for count in (300, 30_000)
+    )
+    assert many < 1.1 * few

@@ -37,17 +37,36 @@ class Fresh:
 
     def kept(self, offset: int, size: int) -> list[tuple[int, int]]:
         """Parts of a range, by their offset inside it and length, that hold values of the running image."""
-        found = []
-        for start, end in zip(self.move_starts, self.move_ends, strict=True):
-            first, last = max(start, offset), min(end, offset + size)
-            if first < last:
-                found.append((first - offset, last - first))
-        return found
+        return _inside(self.move_starts, self.move_ends, offset, size)
+
+    def alike(self, offset: int, count: int, stride: int) -> Iterator[tuple[int, int]]:
+        """The elements of an array, by number and count, of which the same parts are kept and new."""
+        first, known = 0, self._parts(offset, stride)
+        for number in range(1, count):
+            parts = self._parts(offset + number * stride, stride)
+            if parts != known:
+                yield first, number - first
+                first, known = number, parts
+        yield first, count - first
+
+    def _parts(self, offset: int, size: int) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
+        return self.kept(offset, size), _inside(self.starts, self.ends, offset, size)
 
     def moved_into(self, offset: int, size: int) -> bool:
         """Whether any byte of a range was moved there."""
         at = bisect_right(self.move_starts, offset + size - 1) - 1
         return at >= 0 and self.move_ends[at] > offset
+
+
+def _inside(starts: list[int], ends: list[int], offset: int, size: int) -> list[tuple[int, int]]:
+    """Parts of a range that lie in sorted ranges, by their offset inside it and length."""
+    found = []
+    at = bisect_right(ends, offset)
+    while at < len(starts) and starts[at] < offset + size:
+        first, last = max(starts[at], offset), min(ends[at], offset + size)
+        found.append((first - offset, last - first))
+        at += 1
+    return found
 
 
 def add_online_change(
@@ -89,9 +108,9 @@ def _run_new(b: Body, base: ir.Place, steps: list[templates.Step], offset: int, 
                 initial.run_steps(b, base, [step])
             continue
         if step.inner:
-            for number in range(step.count):
-                shift = step.offset + number * step.stride
-                _run_new(b, places.at(base, shift), step.inner, offset + shift, fresh)
+            start = places.at(base, step.offset)
+            for place, first in _elements(b, start, at, step.count, step.stride, fresh):
+                _run_new(b, place, step.inner, first, fresh)
         elif step.value is None and not step.after and isinstance(step.type, t.FunctionBlock):
             place = places.at(base, step.offset)
             outer, b.own_data = b.own_data, place
@@ -100,6 +119,20 @@ def _run_new(b: Body, base: ir.Place, steps: list[templates.Step], offset: int, 
             if init_methods(step.type):
                 _initialise_moved(b, place, step, template, fresh.kept(at, extent))
             b.own_data = outer
+
+
+def _elements(
+    b: Body, start: ir.Place, at: int, count: int, stride: int, fresh: Fresh
+) -> Iterator[tuple[ir.Place, int]]:
+    """What is emitted for each place is done for the elements of an array, which lies at `at` of the image;
+    those of which the same parts are kept share a loop. With each place the offset of the first of them."""
+    for first, number in fresh.alike(at, count, stride):
+        shift = first * stride
+        if number == 1:
+            yield places.at(start, shift), at + shift
+            continue
+        with initial.each_element(b, places.at(start, shift), number, stride) as element:
+            yield element, at + shift
 
 
 def _initialise_moved(
@@ -134,9 +167,8 @@ def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh:
     if not contains_instance_with(type_, "FB_REINIT"):
         return
     if isinstance(type_, t.Array):
-        for number in range(type_.count):
-            shift = number * type_.element.size
-            _reinitialise_moved(b, places.at(place, shift), type_.element, at + shift, fresh)
+        for element, first in _elements(b, place, at, type_.count, type_.element.size, fresh):
+            _reinitialise_moved(b, element, type_.element, first, fresh)
     if not isinstance(type_, t.FunctionBlock | t.Struct):
         return
     for member in type_.members.values():

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from tappet.core import assign, calls, ir, places
 from tappet.core.body import INITIALISERS, Body
 from tappet.core.life_cycle import (
@@ -71,14 +74,18 @@ def _run_elements(b: Body, base: ir.Place, step: Step) -> None:
         for number in range(step.count):
             run_steps(b, _step_place(base, step.offset + number * step.stride), step.inner)
         return
+    with each_element(b, _step_place(base, step.offset), step.count, step.stride) as element:
+        run_steps(b, element, step.inner)
+
+
+@contextmanager
+def each_element(b: Body, start: ir.Place, count: int, stride: int) -> Iterator[ir.Place]:
+    """What is emitted inside is done for each of `count` elements, which are `stride` bytes apart."""
     counter = b.temp(ir.I64, once=False)
-    index = ir.Load(ir.I64, ir.Place(counter))
-    sub = ir.Subscript(index, 0, step.count - 1, step.stride, checked=False)
-    start = _step_place(base, step.offset)
-    element = ir.Place(start.base, start.offset, (*start.subscripts, sub), start.root)
+    sub = ir.Subscript(ir.Load(ir.I64, ir.Place(counter)), 0, count - 1, stride, checked=False)
     with b.block_of() as body:
-        run_steps(b, b.subscripted(element), step.inner)
-    last = ir.Const(ir.I64, step.count - 1)
+        yield b.subscripted(ir.Place(start.base, start.offset, (*start.subscripts, sub), start.root))
+    last = ir.Const(ir.I64, count - 1)
     b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
 
 
@@ -158,15 +165,8 @@ def destruct_all(b: Body, place: ir.Place, type_: t.Type, in_copy: bool = False)
             if member.section != "VAR_IN_OUT" and not without_exit(member.decl):
                 destruct_all(b, places.at(place, member.offset), member.type, in_copy)
     elif isinstance(type_, t.Array):
-        counter = b.temp(ir.I64, once=False)
-        sub = ir.Subscript(
-            ir.Load(ir.I64, ir.Place(counter)), 0, type_.count - 1, type_.element.size, checked=False
-        )
-        element = ir.Place(place.base, place.offset, (*place.subscripts, sub), place.root)
-        with b.block_of() as body:
+        with each_element(b, place, type_.count, type_.element.size) as element:
             destruct_all(b, element, type_.element, in_copy)
-        last = ir.Const(ir.I64, type_.count - 1)
-        b.emit(ir.For(ir.Place(counter), ir.I64, ir.Const(ir.I64, 0), last, 1, body, fixed=True))
 
 
 def without_exit(decl: ast.VarDecl | None) -> bool:
