@@ -70,6 +70,25 @@ def test_messages_of_the_text_are_told_once() -> None:
     assert [(d.uri, d.span.line) for d in found] == [("FB", 3)]
 
 
-def test_the_text_stays_as_it_is_when_it_is_formatted() -> None:
-    text = format_text(RING)
-    assert format_text(text) == text
+def test_values_stand_close_to_the_type() -> None:
+    text = """FUNCTION_BLOCK FB EXTENDS Lib.Base < 5 >
+VAR
+    a : FB_Ring<20>;
+    b : ARRAY[0..n] OF FB_Ring<20,n+1>(x:=1);
+    c : POINTER TO FB_Ring<n+1> := 0;
+END_VAR
+a.x := b<c AND c > d;
+END_FUNCTION_BLOCK"""
+    formatted = format_text(text)
+    assert (
+        formatted
+        == """FUNCTION_BLOCK FB EXTENDS Lib.Base<5>
+VAR
+    a : FB_Ring<20>;
+    b : ARRAY[0..n] OF FB_Ring<20, n + 1>(x := 1);
+    c : POINTER TO FB_Ring<n + 1> := 0;
+END_VAR
+a.x := b < c AND c > d;
+END_FUNCTION_BLOCK"""
+    )
+    assert format_text(formatted) == formatted

@@ -129,6 +129,7 @@ class _Formatter:
         """Open constructs; 'label' stands for the branch of a CASE that has begun."""
         self.at_start = True
         """Whether the next token begins a statement or declaration."""
+        self.values = _values_of_types(lexed)
         self.statement_shift = 0
         self.depth = 0
         """Open parentheses and brackets."""
@@ -335,6 +336,8 @@ class _Formatter:
             return " "
         if a in _NO_BLANK_AFTER or b in _NO_BLANK_BEFORE:
             return ""
+        if right.index in self.values or (left.index in self.values and (a == "<" or b in ("(", "["))):
+            return ""
         if b == "(" or b == "[":
             if a in _OPERAND_END:
                 return keep if a is ID and b == "(" and left.text.upper() in _TYPE_NAMES else ""
@@ -378,6 +381,28 @@ class _Formatter:
 
 def _closes(entry: str, opener: str) -> bool:
     return entry == opener or (entry == _LAST_BRANCH and opener == "CASE")
+
+
+def _values_of_types(lexed: Lexed) -> frozenset[int]:
+    """Tokens `<` and `>` around the values of generic constants, as in `ring : FB_Ring<20>`."""
+    kinds, texts = lexed.kinds, lexed.texts
+    found: set[int] = set()
+    for start in (number for number, kind in enumerate(kinds) if kind == "<" and number > 1):
+        before = start - 1
+        while before > 1 and kinds[before - 1] == ".":
+            before -= 2
+        named = kinds[before] is ID and kinds[start - 1] is ID
+        if not named or (
+            kinds[before - 1] not in (":", "OF", "TO") and texts[before - 1].upper() != "EXTENDS"
+        ):
+            continue
+        depth, at = 0, start + 1
+        while kinds[at] not in (END, ";") and (depth or kinds[at] != ">"):
+            depth += (kinds[at] == "(") - (kinds[at] == ")")
+            at += 1
+        if kinds[at] == ">":
+            found |= {start, at}
+    return frozenset(found)
 
 
 def _trivia(item: Trivia) -> _Piece:
