@@ -9,7 +9,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis import conversion
 from tappet.lang.analysis.adaptation import complain, require
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
+from tappet.lang.analysis.expressions import EXPRESSIONS, place_or_name, text_of, value
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.type_conversions import find_operator
@@ -51,7 +51,7 @@ def _resolve(b: Body, e: ast.Call) -> None:
                 callee.symbol = own
                 _bind(b, e, own)
                 return
-    type_ = evaluate(b, callee)
+    type_ = place_or_name(b, callee)
     symbol = getattr(callee, "symbol", None)
     if isinstance(symbol, PouSymbol):
         if symbol.kind == "FUNCTION_BLOCK":

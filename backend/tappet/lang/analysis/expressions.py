@@ -46,6 +46,11 @@ def evaluate(b: Body, e: ast.Expr) -> Type | None:
     return e.type
 
 
+def place_or_name(b: Body, e: ast.Expr) -> Type | None:
+    """As `evaluate` where something is needed that a call without result is not."""
+    return value(b, e) if e.__class__ is ast.Call else evaluate(b, e)
+
+
 def value(b: Body, e: ast.Expr) -> Type | None:
     """Resolves `e` where a value is needed; None after an error, which has been reported."""
     handler = EXPRESSIONS.get(e.__class__)

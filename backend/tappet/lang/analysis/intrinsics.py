@@ -8,7 +8,7 @@ from tappet.lang.analysis import conversion
 from tappet.lang.analysis.adaptation import require, retype
 from tappet.lang.analysis.builtins import OPERATORS, Resolve, count_fits, finish, operands
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import evaluate, text_of, value
+from tappet.lang.analysis.expressions import evaluate, place_or_name, text_of, value
 from tappet.lang.analysis.fb_init import bind_fb_init
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.analysis.result import yields_reference
@@ -60,7 +60,7 @@ def _sizeof(b: Body, e: ast.Call, name: str) -> None:
     variable = isinstance(operand, ast.Name) and isinstance(b.lookup(operand.name), VarSymbol)
     type_ = None if variable else named_type(b, operand)
     if type_ is None:
-        type_ = evaluate(b, operand)
+        type_ = place_or_name(b, operand)
         symbol = getattr(operand, "symbol", None)
         if type_ is None and symbol is not None:
             type_ = named_type(b, operand)
@@ -86,7 +86,7 @@ def _adr(b: Body, e: ast.Call, name: str) -> None:
     operand = _only_argument(b, e, name)
     if operand is None:
         return
-    type_ = evaluate(b, operand)
+    type_ = place_or_name(b, operand)
     symbol = getattr(operand, "symbol", None)
     if type_ is None:
         if isinstance(symbol, PouSymbol):

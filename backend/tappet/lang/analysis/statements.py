@@ -12,7 +12,7 @@ from tappet.lang.analysis import conversion
 from tappet.lang.analysis.adaptation import require, retype
 from tappet.lang.analysis.calls import bind_reference
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, text_of, value
+from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, place_or_name, text_of, value
 from tappet.lang.analysis.places import note_output, writable
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.rules import ASSIGN_RULES, LIST_RULES, STATEMENT_RULES
@@ -63,7 +63,7 @@ def _assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
     if s.op != ":=":
         _special_assign(b, s)
         return
-    type_ = evaluate(b, target)
+    type_ = place_or_name(b, target)
     b.assigned = content
     if content.__class__ in _AGGREGATES:
         b.report("E0333", content.span, what=_aggregate_name(content))
