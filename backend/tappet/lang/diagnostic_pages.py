@@ -105,6 +105,8 @@ _NOT_CHECKED = {
     "SA0077": "Types that do not fit the CASE: errors of the compiler (E0301, E0805, E0806).",
     "SA0179": "Coupling between objects: a number of the whole design that no place of the text answers for;"
     " the cross references show who uses an object.",
+    "SA0181": "Forbidden symbols: a list of names that each project would keep for itself."
+    " {attribute 'obsolete'} above an object tells so at each use of it (W1203).",
 }
 """Rules of CODESYS Static Analysis that are none here, and why."""
 

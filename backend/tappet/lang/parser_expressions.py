@@ -37,6 +37,10 @@ _HINTS: Final = {
 }
 
 
+_ASSIGNING: Final = frozenset(["+", "-", "*", "/", "&"])
+"""Operators that other languages join with '='."""
+
+
 class ExpressionParser(Core, ABC):
     """Reads expressions; `i` stands behind them afterwards."""
 
@@ -109,8 +113,9 @@ class ExpressionParser(Core, ABC):
 
     def binary(self, minimum: int) -> ast.Expr:
         """Operators that bind stronger than `minimum`, left to right."""
-        left = self.unary()
         kinds = self.kinds
+        start = self.i
+        left = self.unary()
         while True:
             operator = kinds[self.i]
             precedence = _PRECEDENCE.get(operator, 0)
@@ -119,8 +124,9 @@ class ExpressionParser(Core, ABC):
             self.i += 1
             right = self.binary(precedence)
             a, b = left.span, right.span
+            around = kinds[start] == "(" or kinds[self.i - 1] == ")"  # of an operand: they belong to the whole
             left = ast.Binary(
-                span=make_span((a[0], a[1], b[2], b[3])),
+                span=self.span_from(start) if around else make_span((a[0], a[1], b[2], b[3])),
                 op="AND" if operator == "&" else operator,
                 left=left,
                 right=right,
@@ -142,7 +148,7 @@ class ExpressionParser(Core, ABC):
         while self.kinds[self.i] == "**":
             self.i += 1
             right = self.unary() if self.kinds[self.i] in ("-", "+", "NOT") else self.operand()
-            left = ast.Binary(span=left.span.to(right.span), op="**", left=left, right=right)
+            left = ast.Binary(span=self.span_from(start), op="**", left=left, right=right)
         return left
 
     def operand(self) -> ast.Expr:
@@ -251,10 +257,17 @@ class ExpressionParser(Core, ABC):
 
     def missing_expression(self) -> ast.Expr:
         """Report that an operand is missing here; takes nothing."""
-        self.error(
-            "E0104", found=self.found(), hint=_HINTS.get(self.kinds[self.i], "Write a value or a variable.")
-        )
+        self.error("E0104", found=self.found(), hint=self._operand_hint())
         return ast.ErrorExpr(span=self.span_at(self.i))
+
+    def _operand_hint(self) -> str:
+        """What was meant where an operand is missing: maybe an operator of another language."""
+        kind, before = self.kinds[self.i], self.kinds[self.i - 1]
+        if kind == "=" and before in _ASSIGNING:
+            return f"There is no '{before}='; write x := x {before} y."
+        if before in ("+", "-") and before == self.kinds[self.i - 2]:
+            return f"There is no '{before}{before}'; write x := x {before} 1."
+        return _HINTS.get(kind, "Write a value or a variable.")
 
     def too_deep(self) -> ast.Expr:
         """Report excessive nesting and leave the rest of the statement out."""

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Final
 
-from tappet.lang.services import fix_members, fix_names, fix_syntax
+from tappet.lang import ast
+from tappet.lang.services import fix_declarations, fix_members, fix_names, fix_statements, fix_syntax
 from tappet.lang.services.documents import Position
 from tappet.lang.services.fix_site import Offering, Site, nothing_offered
 from tappet.lang.services.reports import report_of
-from tappet.lang.services.results import CodeAction
+from tappet.lang.services.results import CodeAction, Edit
 from tappet.lang.services.workspace import Snapshot, View
 from tappet.lang.source import Span
 
@@ -31,6 +32,26 @@ _MENDS: Final[dict[str, Callable[[Site], Iterator[CodeAction]]]] = {
     "E0502": fix_names.unknown_parameter,
     "E0510": fix_syntax.arrow,
     "E0511": fix_syntax.arrow,
+    "S1004": fix_declarations.prefixed,
+    "S1007": fix_statements.declared_spelling,
+    "S1008": fix_declarations.capitals,
+    "S1108": fix_declarations.own_line,
+    "S1113": fix_declarations.strict_values,
+    "S1205": fix_statements.else_branch,
+    "S1206": fix_statements.else_branch,
+    "S1209": fix_statements.needless_statement,
+    "S1210": fix_statements.needless_statement,
+    "S1212": fix_statements.compared_with_bool,
+    "S1216": fix_statements.parentheses,
+    "S1217": fix_statements.explicit_conversion,
+    "S1220": fix_statements.condition_itself,
+    "S1223": fix_statements.qualified_value,
+    "S1227": fix_statements.neutral_operand,
+    "S1242": fix_statements.typed_literal,
+    "S1409": fix_syntax.unused,
+    "S1415": fix_declarations.constant,
+    "S1423": fix_statements.one_path,
+    "S1610": fix_declarations.external,
     "W1001": fix_syntax.conversion,
     "W1002": fix_syntax.conversion,
     "W1003": fix_syntax.conversion,
@@ -39,6 +60,17 @@ _MENDS: Final[dict[str, Callable[[Site], Iterator[CodeAction]]]] = {
     "W1108": fix_syntax.equality,
     "W1115": fix_syntax.label,
 }
+
+MENDED: Final = frozenset(_MENDS)
+"""Codes of messages that may be mended."""
+_TOGETHER: Final = frozenset(code for code in _MENDS if code[0] == "S") | {
+    "W1001",
+    "W1002",
+    "W1003",
+    "W1103",
+    "W1115",
+}
+"""Codes of which all messages of a text can be mended at once: a mend of one asks for no choice."""
 
 
 def code_actions(
@@ -50,13 +82,59 @@ def code_actions(
     """
     found: list[CodeAction] = []
     seen: set[tuple[str, Span, str]] = set()
+    for site in _sites(snapshot, document, offering, _MENDS.keys()):
+        place = site.report.span
+        if not _touch(place, span):
+            continue
+        for action in _MENDS[site.diagnostic.code](site):
+            key = (site.diagnostic.code, place, action.title)
+            if key not in seen:
+                seen.add(key)
+                found.append(action)
+    told = {action.report.code: action for action in found if action.edits and action.preferred}
+    return found + [
+        together
+        for action in told.values()
+        for together in _all_of_kind(snapshot, document, action, offering)
+    ]
+
+
+def _all_of_kind(
+    snapshot: Snapshot, document: str, action: CodeAction, offering: Offering
+) -> Iterator[CodeAction]:
+    """One action for all messages of a code in a document; of mends that touch the same text the first."""
+    code = action.report.code
+    if code not in _TOGETHER:
+        return
+    edits: list[Edit] = []
+    count = 0
+    for site in _sites(snapshot, document, offering, frozenset([code])):
+        mend = next((item for item in _MENDS[code](site) if item.preferred and item.edits), None)
+        if mend is not None and not any(_meet(one, other) for one in mend.edits for other in edits):
+            edits += mend.edits
+            count += 1
+    if count > 1:
+        title = f"All {count} of {code} in this text: {action.title}"
+        values = (("code", code), ("count", str(count)))
+        yield CodeAction(title, "all", values, action.report, tuple(edits))
+
+
+def _meet(one: Edit, other: Edit) -> bool:
+    """Whether two edits change the same text, or insert at one place."""
+    if one.place.document != other.place.document:
+        return False
+    mine, its = one.place.span, other.place.span
+    return mine == its or (mine[:2] < its[2:] and its[:2] < mine[2:])
+
+
+def _sites(snapshot: Snapshot, document: str, offering: Offering, codes: Collection[str]) -> Iterator[Site]:
+    """The messages of a document that have one of the codes."""
     for diagnostic in snapshot.diagnostics:
-        mend = _MENDS.get(diagnostic.code)
-        text = snapshot.text_of(diagnostic.uri)
-        if mend is None or text is None or text.read_only:
+        text = snapshot.text_of(diagnostic.uri) if diagnostic.code in codes else None
+        if text is None or text.read_only or not any(s.document == document for s in text.segments):
             continue
         place = text.place(diagnostic.span)
-        if place.document != document or not _touch(place.span, span):
+        if place.document != document:
             continue
         begin = Position(place.span.line, place.span.column)
         view = snapshot.view(document, begin)
@@ -68,12 +146,14 @@ def code_actions(
             view.result,
             Position(diagnostic.span.line, diagnostic.span.column),
         )
-        for action in mend(Site(own, diagnostic, report_of(snapshot, diagnostic, place), offering)):
-            key = (diagnostic.code, place.span, action.title)
-            if key not in seen:
-                seen.add(key)
-                found.append(action)
-    return found
+        site = Site(own, diagnostic, report_of(snapshot, diagnostic, place), offering)
+        if diagnostic.code[0] != "S" or _is_structured_text(site):
+            yield site
+
+
+def _is_structured_text(site: Site) -> bool:
+    """Whether a message of a coding rule stands in ST: statements of other languages have no such text."""
+    return not any(isinstance(node, ast.Pou) and node.language != "ST" for node in site.path)
 
 
 def _touch(message: Span, wanted: Span) -> bool:

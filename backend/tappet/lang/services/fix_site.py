@@ -10,6 +10,7 @@ from tappet.lang import ast
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed
 from tappet.lang.services.cursor import token_before
+from tappet.lang.services.describe import slice_of
 from tappet.lang.services.documents import Position, Text
 from tappet.lang.services.occurrences import children
 from tappet.lang.services.resolution import Scope, scope_at
@@ -96,6 +97,11 @@ class Site:
     def in_declaration(self) -> bool:
         """Whether the message stands in a declaration, not among statements."""
         return any(isinstance(node, (ast.VarBlock, ast.TypeDecl)) for node in self.path)
+
+    def spoken(self, span: Span) -> bool:
+        """Whether a range holds a comment, which an edit would lose."""
+        text = slice_of(self.view.source, span)
+        return "//" in text or "(*" in text
 
     # -- edits
 

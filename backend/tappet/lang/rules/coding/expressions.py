@@ -8,6 +8,7 @@ Passes:
     VAR CONSTANT MAX_SPEED : INT := 1500; END_VAR
     VAR bFast : BOOL; nSpeed : INT; END_VAR
     bFast := nSpeed > MAX_SPEED;
+    bFast := (bFast AND (nSpeed > 0)) OR NOT bFast;
 Fails:
     @static
     VAR bFast : BOOL; nSpeed : INT; END_VAR
