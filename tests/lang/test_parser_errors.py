@@ -11,6 +11,22 @@ from tappet.lang.source import Source
 
 
 @pytest.mark.parametrize(
+    ("text", "advice"),
+    [
+        ("a += 5;", "There is no '+='; write x := x + y."),
+        ("a *= 5;", "There is no '*='; write x := x * y."),
+        ("a++;", "There is no '++'; write x := x + 1."),
+        ("a--;", "There is no '--'; write x := x - 1."),
+        ("a == 5;", "Comparison is '=', assignment is ':='."),
+        ("a := b +;", "Write a value or a variable."),
+    ],
+)
+def test_operators_of_other_languages(text: str, advice: str) -> None:
+    (message,) = parse(Source("P", f"PROGRAM P\n{text}\nEND_PROGRAM")).diagnostics
+    assert message.advice == advice
+
+
+@pytest.mark.parametrize(
     ("code", "expected", "kept"),
     [
         ("a := ;\nb := 1;", ["2:6 E0104"], "a := ?; b := 1;"),
@@ -24,6 +40,8 @@ from tappet.lang.source import Source
         ("fb(\nb := 2;\nc := 3;", ["3:7 E0101"], "fb(b := 2); c := 3;"),
         ("a.\nb := 2;\nc := 3;", [], "a.b := 2; c := 3;"),
         ("a. ;\nb := 2;", ["2:4 E0109"], "a.; b := 2;"),
+        ("a += 5;\nb := 2;", ["2:4 E0104"], "((a + ?) = 5); b := 2;"),
+        ("a++;\nb := 2;", ["2:4 E0104"], "(a + (+ ?)); b := 2;"),
         ("a == 5;\nb := 2;", ["2:4 E0104"], "((a = ?) = 5); b := 2;"),
         ("a := b | c;\nb := 2;", ["2:8 E0001"], "a := b; b := 2;"),
         ("a := 'abc;\nb := 2;", ["2:6 E0004"], "a := 'abc;'; b := 2;"),

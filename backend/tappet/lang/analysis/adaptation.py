@@ -21,6 +21,7 @@ _DURATION_TO_LONG = {
     "TIME_OF_DAY": (t.LTOD, 1_000_000),
 }
 """Long form of a duration or date literal and its nanoseconds per unit."""
+_EXAMPLES = {"TIME": "T#500ms", "LTIME": "LTIME#500us"}
 
 
 def require(b: Body, e: ast.Expr, target: Type) -> bool:
@@ -148,6 +149,10 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
             b.report(
                 "E0302", e.span, text=repr(e.constant), type=base, low="-3.402823E+38", high="3.402823E+38"
             )
+            return False
+        if base.name in _EXAMPLES:
+            hint = f"Write a time such as {_EXAMPLES[base.name]}."
+            b.report(conversion.ERROR, e.span, source=source, target=target, hint=hint)
             return False
         complain(b, e.span, source, target, conversion.ERROR)
         return False

@@ -124,7 +124,7 @@ def _proposals(view: View, cursor: Cursor) -> Iterator[Completion]:
         yield from _keywords(DECLARATION_KEYWORDS, 4)
     if region in ("variables", "type") and not _in_initial_value(view, cursor):
         flagged = previous_word.startswith("VAR") or previous_word in FLAGS
-        words = FLAGS if flagged else ("END_VAR", "AT")
+        words: tuple[str, ...] = FLAGS if flagged else ("END_VAR", "AT")
         if previous_word == "VAR":
             words += ACCESS
         yield from _keywords(words, 4)
