@@ -50,9 +50,10 @@ _SECTIONS = "INPUT OUTPUT IN_OUT GLOBAL TEMP STAT EXTERNAL CONFIG ACCESS INST"
 SECTION_KEYWORDS = frozenset(["VAR", *(f"VAR_{section}" for section in _SECTIONS.split())])
 """Keywords that open a block of variables (LDEC-02)."""
 
-_MODIFIERS = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "FINAL", "ABSTRACT", "OVERRIDE"])
+MODIFIERS = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "FINAL", "ABSTRACT", "OVERRIDE"])
+"""Words between the keyword and the name of a header."""
 _HEADER_CONTINUES_WITH = frozenset(["EXTENDS", "IMPLEMENTS", ":", ","])
-_HEADER_CONTINUES_AFTER = _HEADER_CONTINUES_WITH | _MODIFIERS | frozenset(["OF", "TO"])
+_HEADER_CONTINUES_AFTER = _HEADER_CONTINUES_WITH | MODIFIERS | frozenset(["OF", "TO"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +82,15 @@ def words(text: str, start: int = 0) -> Iterator[Word]:
         if kind not in _TRIVIA:
             token = text[begin:end]
             yield Word(token.upper() if kind == "word" else token, begin, end)
+
+
+def trivia(text: str, start: int, end: int) -> Iterator[Word]:
+    """The comments and pragmas between two offsets, the first of which is no middle of one."""
+    for kind, begin, stop in _scan(text, start):
+        if begin >= end:
+            return
+        if kind in _TRIVIA and kind != "blank":
+            yield Word(text[begin:stop], begin, stop)
 
 
 PARAMETER_LIST = "{attribute 'parameter_list'}"
@@ -147,7 +157,7 @@ def read_header(text: str) -> Header | None:
     if first.text in SECTION_KEYWORDS or first.text in ("GET", "SET"):
         return Header(first.text, None, first.end)
     for word in scan:
-        if word.text in _MODIFIERS:
+        if word.text in MODIFIERS:
             continue
         if re.match(r"[^\W\d]", word.text) and word.text not in SECTION_KEYWORDS | set(END_KEYWORDS.values()):
             return Header(first.text, text[word.start : word.end], word.start)

@@ -1,4 +1,4 @@
-"""Declaration texts to variable sections, as far as PLCopen XML has a place for them.
+"""Declaration texts to headers and variable sections, as far as PLCopen XML has a place for them.
 
 What cannot be read is left out: the plain text stands beside the sections and is what counts.
 """
@@ -9,11 +9,83 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tappet.project.declaration_text import SECTION_KEYWORDS, Word, words
+from tappet.project.declaration_text import MODIFIERS, SECTION_KEYWORDS, Word, read_header, trivia, words
 from tappet.project.exchange.text_parts import NAME
 
 _FLAGS = {"CONSTANT": "constant", "RETAIN": "retain", "NON_RETAIN": "nonretain", "PERSISTENT": "persistent"}
 _OPEN, _CLOSE = frozenset("(["), frozenset(")]")
+_ATTRIBUTE = re.compile(
+    r"\{\s*attribute\s+'(?P<name>(?:\$.|[^'$])*)'(?:\s*:=\s*'(?P<value>(?:\$.|[^'$])*)')?\s*\}",
+    re.IGNORECASE | re.DOTALL,
+)
+_NAMES = re.compile(r"\s*(?:[\w.]+\s*,\s*)*[\w.]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Notes:
+    """What stands before a declaration."""
+
+    comment: str = ""
+    attributes: tuple[tuple[str, str], ...] = ()
+    """Name and value of each attribute pragma."""
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """The header of a POU, method, property or interface, or the first of a TYPE block."""
+
+    notes: Notes
+    modifiers: tuple[str, ...] = ()
+    """PUBLIC, ABSTRACT ... as they stand."""
+    extends: tuple[str, ...] = ()
+    implements: tuple[str, ...] = ()
+
+
+def read_head(text: str) -> Head:
+    """The header of a declaration with what stands before it."""
+    header = read_header(text)
+    scan = list(words(text))
+    if header is None or not scan or header.keyword in SECTION_KEYWORDS:
+        return Head(Notes())
+    notes = read_notes(text, 0, scan[0].start)
+    before = [word for word in scan[1:] if word.end <= header.name_start]
+    behind = [word for word in scan if word.start >= header.name_start]
+    end = next((word.start for word in behind if word.text in SECTION_KEYWORDS), len(text))
+    bases: dict[str, tuple[str, ...]] = {}
+    for word in behind:
+        if word.start >= end or word.text == ":":
+            break
+        if word.text in ("EXTENDS", "IMPLEMENTS"):
+            match = _NAMES.match(text, word.end, end)
+            bases[word.text] = tuple(name.strip() for name in match.group().split(",")) if match else ()
+    modifiers = tuple(word.text for word in before if word.text in MODIFIERS)
+    return Head(notes, modifiers, bases.get("EXTENDS", ()), bases.get("IMPLEMENTS", ()))
+
+
+def read_notes(text: str, start: int, end: int, *, behind: bool = False) -> Notes:
+    """The comments and attributes between two offsets.
+
+    `behind`: a comment on the line of the first offset belongs to what stands before it.
+    """
+    line_end = text.find("\n", start) if behind else start
+    comments: list[str] = []
+    attributes = []
+    for item in trivia(text, start, end):
+        match = _ATTRIBUTE.fullmatch(item.text)
+        if match is not None:
+            attributes.append((_plain(match["name"]), _plain(match["value"] or "")))
+        elif not item.text.startswith("{") and (item.start >= line_end >= 0):
+            comments += _comment_lines(item.text)
+    return Notes("\n".join(comments), tuple(attributes))
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"\$(['$])", r"\1", text)
+
+
+def _comment_lines(text: str) -> list[str]:
+    inner = text.lstrip("/") if text.startswith("//") else text[2:-2]
+    return [line.strip() for line in inner.strip().split("\n")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +97,7 @@ class Variable:
     address: str = ""
     initial: str = ""
     comment: str = ""
+    attributes: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +107,8 @@ class Section:
     keyword: str
     flags: tuple[str, ...]
     variables: tuple[Variable, ...]
+    notes: Notes = Notes()
+    """What stands before its keyword."""
 
 
 def read_sections(text: str) -> list[Section]:
@@ -46,6 +121,7 @@ def read_sections(text: str) -> list[Section]:
             i += 1
             continue
         keyword = scan[i].text
+        notes = read_notes(text, scan[i - 1].end if i else 0, scan[i].start, behind=i > 0)
         i += 1
         flags: list[str] = []
         while i < len(scan) and scan[i].text in _FLAGS:
@@ -54,8 +130,8 @@ def read_sections(text: str) -> list[Section]:
         start = i
         while i < len(scan) and scan[i].text != "END_VAR":
             i += 1
-        variables = tuple(_variables(text, scan[start:i]))
-        found.append(Section(keyword, tuple(dict.fromkeys(flags)), variables))
+        variables = tuple(_variables(text, scan[start:i], scan[start - 1].end))
+        found.append(Section(keyword, tuple(dict.fromkeys(flags)), variables, notes))
         i += 1
     return found
 
@@ -74,14 +150,15 @@ def return_type(text: str) -> str:
     return ""
 
 
-def members(text: str, scan: list[Word]) -> list[Variable]:
-    """The members between STRUCT and END_STRUCT."""
-    return list(_variables(text, scan))
+def members(text: str, scan: list[Word], start: int) -> list[Variable]:
+    """The members between STRUCT, which ends at `start`, and END_STRUCT."""
+    return list(_variables(text, scan, start))
 
 
-def _variables(text: str, scan: list[Word]) -> Iterator[Variable]:
+def _variables(text: str, scan: list[Word], start: int) -> Iterator[Variable]:
     for part in _statements(scan):
-        yield from _declared(text, part)
+        yield from _declared(text, part, read_notes(text, start, part[0].start, behind=True))
+        start = part[-1].end
 
 
 def _statements(scan: list[Word]) -> Iterator[list[Word]]:
@@ -98,7 +175,7 @@ def _statements(scan: list[Word]) -> Iterator[list[Word]]:
             part.append(word)
 
 
-def _declared(text: str, part: list[Word]) -> Iterator[Variable]:
+def _declared(text: str, part: list[Word], notes: Notes) -> Iterator[Variable]:
     colon = next((i for i, word in enumerate(part) if word.text == ":"), None)
     if not colon:
         return
@@ -110,7 +187,7 @@ def _declared(text: str, part: list[Word]) -> Iterator[Variable]:
             break
         if NAME.fullmatch(word.text) and (i == 0 or part[i - 1].text == ","):
             names.append(text[word.start : word.end])
-    assigned = next((i for i, word in enumerate(part) if i > colon and word.text == ":="), None)
+    assigned = assignment(part, colon)
     type_end = assigned if assigned is not None else len(part) - 1
     if type_end <= colon + 1:
         return
@@ -118,11 +195,23 @@ def _declared(text: str, part: list[Word]) -> Iterator[Variable]:
     initial = ""
     if assigned is not None and assigned + 1 < len(part) - 1:
         initial = text[part[assigned + 1].start : part[-2].end]
+    comment = "\n".join(note for note in (notes.comment, comment_behind(text, part[-1].end)) if note)
     for name in names:
-        yield Variable(name, kind, address, initial, _comment_behind(text, part[-1].end))
+        yield Variable(name, kind, address, initial, comment, notes.attributes)
 
 
-def _comment_behind(text: str, end: int) -> str:
+def assignment(part: list[Word], colon: int) -> int | None:
+    """Index of the `:=` of the initial value; those in parentheses are of arguments."""
+    depth = 0
+    for i, word in enumerate(part):
+        depth += (word.text in _OPEN) - (word.text in _CLOSE)
+        if i >= colon and word.text == ":=" and depth == 0:
+            return i
+    return None
+
+
+def comment_behind(text: str, end: int) -> str:
+    """The comment on the rest of a line, if nothing else is there."""
     line_end = text.find("\n", end)
     rest = text[end : line_end if line_end >= 0 else len(text)].strip()
     if rest.startswith("//"):

@@ -196,8 +196,8 @@ def _section_elements(interface: Element | None) -> Iterator[Element]:
             yield item
 
 
-def section_lines(element: Element) -> list[str]:
-    """One variable section."""
+def section_lines(element: Element, own_attributes: bool = True) -> list[str]:
+    """One variable section; its attributes are not of it when it is a whole list of global variables."""
     keyword = _SECTIONS.get(element.tag, "VAR")
     flags = [flag.upper() for flag in _QUALIFIERS if element.get(flag).lower() in _TRUE]
     flags = [{"NONRETAIN": "NON_RETAIN"}.get(flag, flag) for flag in flags if flag != "NONPERSISTENT"]
@@ -205,10 +205,16 @@ def section_lines(element: Element) -> list[str]:
     if not variables and not flags and keyword == "VAR":
         return []
     lines: list[str] = []
+    above = attributes(element) if own_attributes else []
     for constant, part in groupby(variables, _is_constant_input):
         words = [keyword, "CONSTANT", *flags] if constant else [keyword, *flags]
-        lines += [" ".join(words), *(line for item in part for line in variable_lines(item)), "END_VAR"]
-    return lines or [" ".join([keyword, *flags]), "END_VAR"]
+        lines += [
+            *above,
+            " ".join(words),
+            *(line for item in part for line in variable_lines(item)),
+            "END_VAR",
+        ]
+    return lines or [*above, " ".join([keyword, *flags]), "END_VAR"]
 
 
 def _is_constant_input(variable: Element) -> bool:

@@ -315,7 +315,7 @@ class _Reader:
         text = plain_text(item)
         if text is None:
             mixed = [part for name, held in added(item) if name == "mixedattrsvarlist" for part in held]
-            lines = [line for part in mixed or [item] for line in section_lines(part)]
+            lines = [line for part in mixed or [item] for line in section_lines(part, bool(mixed))]
             notes = [f"// {line}" for line in documentation(item).strip().split("\n") if line]
             pragmas = [line for line in head_lines("", item)[:-1] if line.startswith("{")]
             text = "\n".join([*notes, *pragmas, *lines])

@@ -21,10 +21,25 @@ from tappet.project.data import (
     TaskData,
 )
 from tappet.project.durations import duration_ns
-from tappet.project.exchange.declaration_sections import Section, read_sections, return_type
+from tappet.project.exchange.declaration_sections import (
+    Head,
+    Notes,
+    Section,
+    read_head,
+    read_sections,
+    return_type,
+)
 from tappet.project.exchange.plcopen_declarations import CODESYS
 from tappet.project.exchange.plcopen_read import PRODUCT, TAPPET
-from tappet.project.exchange.plcopen_type_xml import type_element, value_element
+from tappet.project.exchange.plcopen_type_xml import (
+    attributes_data,
+    definition,
+    documentation_element,
+    enum_comments,
+    type_element,
+    value_element,
+    variable_element,
+)
 from tappet.project.exchange.report import ExchangeError
 from tappet.project.exchange.xml_lines import OpenElement, XmlLines
 from tappet.project.exchange.xml_tree import (
@@ -47,6 +62,8 @@ _SECTION_TAGS = {
     "VAR_IN_OUT": "inOutVars",
     "VAR_EXTERNAL": "externalVars",
 }
+_ADDED_SECTION_TAGS = {"VAR_STAT": "staticVars", "VAR_INST": "instVars"}
+"""Sections that the standard does not have."""
 _DATE = "1980-01-01T00:00:00"
 """Stands where the format wants a time, so that the same project always gives the same bytes."""
 
@@ -228,61 +245,107 @@ class _Writer(XmlLines):
 
     def _interface(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
+        head = read_head(item.data.declaration)
         with self.tag("Interface", name=item.name, ObjectId=_guid(item.id)):
             self._plain_text_element(item.data.declaration)
             with self.tag("addData"):
+                self._head_data(head)
                 self._children(list(self._members(item)))
                 self._build_properties(item)
+            self._some(documentation_element(head.notes.comment))
 
     def _data_type(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
+        head = read_head(item.data.declaration)
+        kind, initial = definition(item.data.declaration)
         with self.tag("dataType", name=item.name):
-            self.line(type_element("baseType", item.data.declaration))
+            self.line(type_element("baseType", kind))
+            if initial:
+                with self.tag("initialValue"):
+                    self.line(value_element(initial))
             with self.tag("addData"):
+                self._some(enum_comments(kind))
+                self._head_data(head, "datatypeinheritance")
                 self._plain_text(item.data.declaration)
                 self._build_properties(item)
                 self._object_id(item)
+            self._some(documentation_element(head.notes.comment))
 
     def _globals(self, item: ProjectObject) -> None:
         assert isinstance(item.data, DeclarationData)
         sections = read_sections(item.data.declaration)
         flags = sections[0].flags if len(sections) == 1 else ()
+        notes = sections[0].notes if sections else Notes()
         with self.tag("globalVars", name=item.name, **dict.fromkeys(flags, "true")):
             for section in sections:
                 self._variables(section)
             with self.tag("addData"):
+                if len(sections) > 1:
+                    self._mixed(item.name, sections)
+                self._some(attributes_data(notes.attributes))
                 self._plain_text(item.data.declaration)
                 self._build_properties(item)
                 self._object_id(item)
                 with self._own_data(), self.tag("Object", kind=item.kind):
                     pass
+            self._some(documentation_element(notes.comment))
+
+    def _mixed(self, name: str, sections: list[Section]) -> None:
+        """The sections of a list one by one, as CODESYS has them when their qualifiers differ."""
+        with self._data("mixedattrsvarlist"), self.tag("MixedAttrsVarList"):
+            for number, section in enumerate(sections):
+                with self.tag("globalVars", name=name, **dict.fromkeys(section.flags, "true")):
+                    self._variables(section)
+                    if number:  # what stands before the first belongs to the list
+                        with self.optional("addData"):
+                            self._some(attributes_data(section.notes.attributes))
 
     # -- declarations and bodies
 
     def _interface_of(self, declaration: str, returns: bool) -> None:
         kind = return_type(declaration) if returns else ""
-        sections = [section for section in read_sections(declaration) if section.keyword in _SECTION_TAGS]
-        if not sections and not kind:
-            self.empty("interface")
-            return
+        sections = read_sections(declaration)
+        head = read_head(declaration)
         with self.tag("interface"):
             if kind:
                 self.line(type_element("returnType", kind))
             for section in sections:
-                with self.tag(_SECTION_TAGS[section.keyword], **dict.fromkeys(section.flags, "true")):
-                    self._variables(section)
+                if section.keyword in _SECTION_TAGS:
+                    self._section(_SECTION_TAGS[section.keyword], section)
+            with self.optional("addData"):
+                self._head_data(head)
+                for section in sections:
+                    if section.keyword in _ADDED_SECTION_TAGS:
+                        tag = _ADDED_SECTION_TAGS[section.keyword]
+                        with self._data(tag.lower()):
+                            self._section(tag, section)
+            self._some(documentation_element(head.notes.comment))
+
+    def _section(self, tag: str, section: Section) -> None:
+        with self.tag(tag, **dict.fromkeys(section.flags, "true")):
+            self._variables(section)
+            with self.optional("addData"):
+                self._some(attributes_data(section.notes.attributes))
+
+    def _head_data(self, head: Head, inheritance: str = "pouinheritance") -> None:
+        if head.extends or head.implements:
+            with self._data(inheritance), self.tag("Inheritance"):
+                for tag, names in (("Extends", head.extends), ("Implements", head.implements)):
+                    for name in names:
+                        self.line(f"<{tag}>{escape_text(name)}</{tag}>")
+        if head.modifiers:
+            words = {word.capitalize(): "true" for word in head.modifiers}
+            with self._data("accessmodifiers"):
+                self.empty("AccessModifiers", **words)
+        self._some(attributes_data(head.notes.attributes))
 
     def _variables(self, section: Section) -> None:
         for variable in section.variables:
-            place = {"address": variable.address} if variable.address else {}
-            with self.tag("variable", name=variable.name, **place):
-                self.line(type_element("type", variable.type))
-                if variable.initial:
-                    with self.tag("initialValue"):
-                        self.line(value_element(variable.initial))
-                if variable.comment and is_legal(variable.comment):
-                    with self.tag("documentation"):
-                        self.xhtml(variable.comment)
+            self.line(variable_element(variable))
+
+    def _some(self, text: str) -> None:
+        if text:
+            self.line(text)
 
     def _body(self, data: BodyData | ActionData) -> None:
         text, language = data.implementation, data.language

@@ -10,7 +10,7 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 
-from tappet.project.declaration_text import Word, declaration_end, words
+from tappet.project.declaration_text import MODIFIERS, Word, declaration_end, words
 from tappet.project.exchange.drafts import Draft, body
 from tappet.project.exchange.report import ImportReport, Outcome
 from tappet.project.exchange.text_parts import NAME, trimmed, type_parts
@@ -29,7 +29,6 @@ _CHILD_ENDS = {
 }
 _GLOBALS = frozenset(["VAR_GLOBAL", "VAR_CONFIG"])
 _HEADS = frozenset([*_POU_ENDS, *_CHILD_ENDS, *_GLOBALS, "TYPE", "INTERFACE", "CONFIGURATION"])
-_MODIFIERS = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "FINAL", "ABSTRACT", "OVERRIDE"])
 
 
 def _ends_name(word: str) -> bool:
@@ -152,7 +151,7 @@ class _Splitter:
             before = self.scan[i - 1]
             if "\n" in self.text[before.end : self.scan[i].start]:
                 return True
-            if before.text not in _MODIFIERS and not before.text.startswith("END_") and before.text != ";":
+            if before.text not in MODIFIERS and not before.text.startswith("END_") and before.text != ";":
                 return False
             if before.text.startswith("END_"):
                 return True
@@ -234,7 +233,7 @@ class _Splitter:
         if i == 0:
             return 0
         before = self.scan[i - 1]
-        while before.text in _MODIFIERS and i > 1:
+        while before.text in MODIFIERS and i > 1:
             i -= 1
             before = self.scan[i - 1]
         start = self.scan[i].start
@@ -398,7 +397,7 @@ class _Splitter:
 
     def _is_modifier(self, i: int) -> bool:
         """Whether a modifier stands there: such a word without a name behind it is the name itself."""
-        if i + 1 >= len(self.scan) or self.scan[i].text not in _MODIFIERS:
+        if i + 1 >= len(self.scan) or self.scan[i].text not in MODIFIERS:
             return False
         behind = self.scan[i + 1].text
         return NAME.fullmatch(behind) is not None and not _ends_name(behind)

@@ -18,6 +18,10 @@ class XmlLines:
         """An element that is open in a `with` block."""
         return OpenElement(self, tag, attributes)
 
+    def optional(self, tag: str, **attributes: str) -> OpenElement:
+        """An element that is open in a `with` block, and is not written if nothing is in it."""
+        return OpenElement(self, tag, attributes, optional=True)
+
     def empty(self, tag: str, **attributes: str) -> None:
         """An element without content."""
         self.line(f"<{tag}{_attributes_text(attributes)} />")
@@ -42,7 +46,10 @@ class XmlLines:
 class OpenElement:
     """An element that is open as long as the context lasts; one without content is written as empty."""
 
-    def __init__(self, lines: XmlLines, tag: str, attributes: dict[str, str]) -> None:
+    def __init__(
+        self, lines: XmlLines, tag: str, attributes: dict[str, str], *, optional: bool = False
+    ) -> None:
+        self._optional = optional
         self._out = lines
         self._tag = tag
         self._attributes = attributes
@@ -57,7 +64,8 @@ class OpenElement:
         self._out.depth -= 1
         if len(self._out.lines) == self._begun:
             self._out.lines.pop()
-            self._out.empty(self._tag, **self._attributes)
+            if not self._optional:
+                self._out.empty(self._tag, **self._attributes)
         else:
             self._out.line(f"</{self._tag}>")
 
