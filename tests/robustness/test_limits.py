@@ -50,6 +50,7 @@ NESTED = {
     + chain("c{} : DINT := c{};\n", "", 1500, "c{} : DINT := 1;\nEND_VAR\n")
     + program("x : DINT := c0;"),
     "branches": program("x : INT;", "IF x = 0 THEN x := 1;" + branches(1500) + "END_IF"),
+    "try": program("x : INT;", "__TRY\n" * 300 + "x := 1;" + "__FINALLY x := 2; __ENDTRY\n" * 300),
 }
 CYCLES = {
     "structures": "TYPE A : STRUCT b : B; END_STRUCT END_TYPE TYPE B : STRUCT a : A; END_STRUCT END_TYPE ",
@@ -64,7 +65,40 @@ CYCLES = {
     "base with heir": "FUNCTION_BLOCK A EXTENDS B\nEND_FUNCTION_BLOCK "
     "FUNCTION_BLOCK B\nVAR a : A; END_VAR END_FUNCTION_BLOCK ",
     "pointers": "TYPE A : POINTER TO B; END_TYPE TYPE B : POINTER TO A; END_TYPE ",
+    "references": "TYPE A : REFERENCE TO A; END_TYPE ",
+    "union": "TYPE A : UNION a : A; b : INT; END_UNION END_TYPE ",
+    "array of itself": "FUNCTION_BLOCK A\nVAR a : ARRAY [0..3] OF A; END_VAR END_FUNCTION_BLOCK ",
 }
+REFUSED = {
+    "interfaces": ("E0439", "INTERFACE A EXTENDS B\nEND_INTERFACE\nINTERFACE B EXTENDS A\nEND_INTERFACE\n"),
+    "constants": ("E0409", "VAR_GLOBAL CONSTANT a : INT := b; b : INT := a; END_VAR "),
+    "size of itself": (
+        "E0317",
+        "VAR_GLOBAL CONSTANT n : INT := SIZEOF(z); END_VAR VAR_GLOBAL z : ARRAY [0..n] OF INT; END_VAR ",
+    ),
+    "enumeration": ("E0331", f"TYPE E : ({','.join(f'e{i}' for i in range(33_000))}); END_TYPE "),
+    "comment": ("E0002", "(*" * DEEP),
+    "definition of itself": ("E0201", "{define a a}\nFUNCTION F : INT\nF := a;\nEND_FUNCTION "),
+    "definitions in a circle": (
+        "E0201",
+        "{define a b + b}\n{define b a + a}\nFUNCTION F : INT\nF := a;\nEND_FUNCTION ",
+    ),
+    "definitions that double": (
+        "E0201",
+        "".join(f"{{define a{i} a{i + 1} + a{i + 1}}}\n" for i in range(60))
+        + "FUNCTION F : INT\nF := a0;\nEND_FUNCTION ",
+    ),
+}
+"""Texts with a code that is among their messages."""
+METHODS = "".join(f"METHOD M{i} : INT\nM{i} := n + {i};\nEND_METHOD\n" for i in range(2000))
+FAMILY = (
+    f"FUNCTION_BLOCK B0\nVAR n0 : INT; END_VAR\nn0 := 1;\nMETHOD M : INT\nM := n0;\nEND_METHOD\n{END}"
+    + "".join(
+        f"FUNCTION_BLOCK B{i} EXTENDS B{i - 1}\nVAR n{i} : INT; END_VAR\nSUPER^(); n{i} := n0 + {i};\n"
+        f"METHOD M : INT\nM := SUPER^.M() + 1;\nEND_METHOD\n{END}"
+        for i in range(1, 200)
+    )
+)
 TOO_LARGE = {
     "E0413": "a : ARRAY [0..9999, 0..9999, 0..9999] OF LINT;",
     "E0611": "a : ARRAY [0..9999] OF ARRAY [0..9999] OF ARRAY [0..9999] OF STRING(255);",
@@ -88,6 +122,17 @@ LARGE = {
         "x : INT;", f"CASE x OF {''.join(f'{i}: x := {i};' for i in range(3000))} END_CASE"
     ),
     "branches": program("x : INT;", "IF x = 0 THEN x := 1;" + branches(900) + "END_IF"),
+    "cases": program(
+        "x : DINT;", f"CASE x OF {''.join(f'{i}: x := {i + 1};' for i in range(10_000))} END_CASE"
+    ),
+    "methods": f"FUNCTION_BLOCK F\nVAR n : INT; END_VAR\n{METHODS}{END}" + program("a : F;", "a.M1();"),
+    "family": FAMILY + program("a : B199; x : INT;", "a(); x := a.M();"),
+    "jumps": program(
+        "x : INT;", "".join(f"l{i}: IF x = {i} THEN JMP l{i * 7 % 1000}; END_IF\n" for i in range(1000))
+    ),
+    "arguments": f"FUNCTION F : INT\nVAR_INPUT {' '.join(f'a{i} : INT;' for i in range(2000))} END_VAR\n"
+    "END_FUNCTION\n" + program("x : INT;", f"x := F({','.join(f'a{i} := {i}' for i in range(2000))});"),
+    "conditions": program("x : INT;", "{IF 1}\n" * DEEP + "x := 1;\n" + "{END_IF}\n" * DEEP),
     "comments": "(*" * DEEP + "*)" * DEEP + program("x : INT;"),
     "rows of IL": "PROGRAM PLC_PRG\nVAR x : INT; END_VAR\nLD x\n" + "ADD x\n" * 5000 + "ST x\nEND_PROGRAM\n",
 }
@@ -106,6 +151,22 @@ def test_deep_nesting_is_an_error(name: str) -> None:
 @pytest.mark.parametrize("name", CYCLES)
 def test_a_type_that_contains_itself_is_an_error(name: str) -> None:
     assert "E0408" in codes(CYCLES[name] + program("x : A;"))
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_has_no_end_is_an_error(name: str) -> None:
+    code, text = REFUSED[name]
+    assert code in codes(text + program("x : INT;"))
+
+
+@pytest.mark.parametrize(
+    ("code", "line"),
+    [("E0201", "x := y{};\n"), ("E0104", "x := ;\n"), ("E0202", "END_VAR VAR v{0} : T{0};\n")],
+)
+def test_each_of_many_errors_is_reported_once(code: str, line: str) -> None:
+    lines = "".join(line.format(i) for i in range(20_000))
+    text = program("x : INT; " + lines) if "VAR" in line else program("x : INT;", lines)
+    assert codes(text) == [code] * 20_000
 
 
 @pytest.mark.parametrize("code", TOO_LARGE)

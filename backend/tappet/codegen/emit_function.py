@@ -378,8 +378,14 @@ def parameter_attributes(parameter: ir.Parameter) -> str:
     return text
 
 
+_MANY_LABELS = 400
+"""A body with more labels is not optimised: the time for jumps back and forth grows with their square."""
+
+
 def attributes(function: ir.Function) -> str:
-    """Attribute group of a function."""
+    """Attribute groups of a function."""
+    if function.labels > _MANY_LABELS:
+        return f"{_ATTRIBUTES['twice' if function.returns_twice else 'never']} #8"
     if function.returns_twice:
         return _ATTRIBUTES["twice"]
     if function.cold:

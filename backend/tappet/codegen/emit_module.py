@@ -34,6 +34,7 @@ attributes #4 = {{ cold optsize noinline {_COMMON} }}
 attributes #5 = {{ noinline {_COMMON} }}
 attributes #6 = {{ alwaysinline {_COMMON} }}
 attributes #7 = {{ returns_twice noinline {_COMMON} }}
+attributes #8 = {{ noinline optnone }}
 """
 
 _RUNTIME = {

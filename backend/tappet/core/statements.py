@@ -18,6 +18,7 @@ def lower_statements(b: Body, statements: Sequence[ast.Stmt]) -> None:
     for statement in statements:
         if statement.label is not None:
             b.emit(ir.Label(statement.label.upper()))
+            b.function.labels += 1
         handler = _STATEMENTS.get(statement.__class__)
         if handler is not None:
             b.line(statement)

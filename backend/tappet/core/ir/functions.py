@@ -46,6 +46,8 @@ class Function:
     """Rough size: statements and operands."""
     loops: bool = False
     """Whether the body contains a loop."""
+    labels: int = 0
+    """How many labels its text has."""
     callees: set[str] | None = None
     """Functions it calls, and keys of virtual methods, once somebody has looked."""
     areas: dict[str, int] = field(default_factory=dict)
