@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 from typing import Annotated
 
@@ -22,6 +24,7 @@ from tappet.server.dependencies import (
     RuntimesDep,
     Viewer,
 )
+from tappet.server.plc_client import PlcClient
 from tappet.server.problems import Problem
 from tappet.server.runtimes import RuntimeLink, exception_state
 from tappet.server.schemas.runtimes import (
@@ -87,48 +90,48 @@ async def remove_runtime(who: Engineer, link: LinkDep, runtimes: RuntimesDep, da
     await runtimes.remove(link.id)
 
 
-async def _act(link: RuntimeLink, database: DatabaseDep, who: Identity, act: Act) -> None:
+@asynccontextmanager
+async def _acting(
+    link: RuntimeLink, database: DatabaseDep, who: Identity, kind: str
+) -> AsyncIterator[PlcClient]:
+    """What is done inside to the loaded application is recorded; then its state is known."""
+    link.loaded_symbols()
+    async with link.client() as client:
+        yield client
     await link.refresh()
+    act = Act(kind, link.name, runtime_id=link.id)
     await database.write_async(lambda db: audit.record(db, who, act))
 
 
 @router.post("/{runtime_id}/start")
 async def start(who: Operator, link: LinkDep, database: DatabaseDep) -> RuntimeState:
     """Start the application."""
-    link.loaded_symbols()
-    async with link.client() as client:
+    async with _acting(link, database, who, "start") as client:
         await client.start()
-    await _act(link, database, who, Act("start", link.name, runtime_id=link.id))
     return link.state()
 
 
 @router.post("/{runtime_id}/stop")
 async def stop(who: Operator, link: LinkDep, database: DatabaseDep) -> RuntimeState:
     """Stop the application; its outputs go to their safe values."""
-    link.loaded_symbols()
-    async with link.client() as client:
+    async with _acting(link, database, who, "stop") as client:
         await client.stop()
-    await _act(link, database, who, Act("stop", link.name, runtime_id=link.id))
     return link.state()
 
 
 @router.post("/{runtime_id}/single-cycle")
 async def single_cycle(who: Operator, link: LinkDep, database: DatabaseDep) -> RuntimeState:
     """Run one cycle of each cyclic and freewheeling task of a stopped application."""
-    link.loaded_symbols()
-    async with link.client() as client:
+    async with _acting(link, database, who, "single-cycle") as client:
         await client.single_cycle()
-    await _act(link, database, who, Act("single-cycle", link.name, runtime_id=link.id))
     return link.state()
 
 
 @router.post("/{runtime_id}/reset")
 async def reset(body: ResetOrder, who: Engineer, link: LinkDep, database: DatabaseDep) -> RuntimeState:
     """Initialise the variables: warm (not RETAIN), cold (not PERSISTENT), origin (all, and unload)."""
-    link.loaded_symbols()
-    async with link.client() as client:
+    async with _acting(link, database, who, f"reset-{body.kind}") as client:
         await client.reset(body.kind)
-    await _act(link, database, who, Act(f"reset-{body.kind}", link.name, runtime_id=link.id))
     return link.state()
 
 
