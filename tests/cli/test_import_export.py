@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from pathlib import Path
 
 from typer.testing import CliRunner
@@ -91,3 +92,17 @@ def test_wrong_usage_says_what_would_be_right(tmp_path: Path) -> None:
     assert "is not empty" in tappet("import", SAMPLES / "plain.st", "--to", full)[1]
     tappet("import", SAMPLES / "plain.st", "--to", tmp_path / "p")
     assert ".xml (PLCopen XML) or .zip" in tappet("export", tmp_path / "p", "--to", tmp_path / "x.txt")[1]
+
+
+def test_an_archive_of_a_twincat_project_is_unpacked(tmp_path: Path) -> None:
+    archive = tmp_path / "Line.tpzip"
+    top = SAMPLES / "twincat"
+    with zipfile.ZipFile(archive, "w") as packed:
+        packed.writestr("Readme.md", "no code")
+        for path in sorted(top.rglob("*")):
+            if path.is_file():
+                packed.write(path, path.relative_to(top).as_posix())
+    code, said = tappet("import", archive, "--to", tmp_path / "line")
+    assert code == 0, said
+    assert "Readme" not in said
+    assert "Packing line: " in said.splitlines()[-1]

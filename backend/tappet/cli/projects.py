@@ -11,7 +11,7 @@ from tappet.cli.inputs import is_project, load_project
 from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
 from tappet.project import folder
 from tappet.project.errors import ProjectError
-from tappet.project.exchange import ImportReport, import_files, is_importable
+from tappet.project.exchange import ARCHIVES, ImportReport, import_files, importable, is_importable
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.archive import unpack
 from tappet.project.model import Project
@@ -64,8 +64,8 @@ def _files(paths: list[Path]) -> dict[str, bytes]:
     folders: list[Path] = []
     single: list[Path] = []
     for path in paths:
-        if path.suffix.lower() == ".zip":
-            found |= unpack(path.read_bytes())
+        if path.suffix.lower() in ARCHIVES:
+            found |= importable(unpack(path.read_bytes()))
         elif path.is_dir():
             found |= _below(path, path)
             folders.append(path.resolve())

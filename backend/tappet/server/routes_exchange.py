@@ -9,8 +9,7 @@ from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
 from tappet.project.errors import FolderFormatError
-from tappet.project.exchange import ImportReport, Place, import_files, is_importable
-from tappet.project.exchange.own_folder import project_tops
+from tappet.project.exchange import ARCHIVES, ImportReport, Place, import_files, importable
 from tappet.project.exchange.parts import part_of, st_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.archive import DEFAULT_LIMITS, unpack, zip_files
@@ -161,14 +160,8 @@ def _uploaded(files: list[UploadFile]) -> dict[str, bytes]:
     for file in files:
         parts = (file.filename or "file").replace("\\", "/").split("/")
         path = "/".join(part for part in parts if part not in ("", ".", "..") and ":" not in part) or "file"
-        if path.lower().endswith(".zip"):
-            unpacked = unpack(file.file)
-            tops = project_tops(unpacked)
-            found |= {
-                name: content
-                for name, content in unpacked.items()
-                if is_importable(name) or any(name.startswith(top) for top in tops)
-            }
+        if path.lower().endswith(ARCHIVES):
+            found |= importable(unpack(file.file))
         else:
             found[path] = file.file.read()
     if not found:

@@ -135,3 +135,18 @@ def test_data_types_of_a_system_are_declared_where_all_its_plc_projects_see_them
 def test_a_system_project_alone_says_what_is_missing(content: bytes, text: str) -> None:
     with pytest.raises(ExchangeError, match=text):
         import_files({"Plant.tsproj": content})
+
+
+def test_files_that_are_no_code_are_named_for_what_they_hold() -> None:
+    project = b"""<Project><ItemGroup><Compile Include="FB_Line.TcPOU"/><Compile Include="Screen.TcVIS"/>
+<Compile Include="Texts.TcGTLO"/><Compile Include="Other.TcXYZ"/></ItemGroup></Project>"""
+    files = {"P.plcproj": project, "FB_Line.TcPOU": tcpou("FB_Line"), "Screen.TcVIS": b"<TcPlcObject/>"}
+    said = [str(entry) for entry in import_files(files).report.noteworthy()]
+    assert said == [
+        "P.plcproj:1: refused Screen.TcVIS: visualisations are not read",
+        "P.plcproj:2: refused Texts.TcGTLO: text lists are not read",
+        "P.plcproj:2: refused Other.TcXYZ: files of this kind are not read",
+    ]
+    for name, text in (("a.TcVIS", "visualisations"), ("a.project", "Export PLCopenXML"), ("a.lib", "2.3")):
+        with pytest.raises(ExchangeError, match=text):
+            import_files({name: b"CoDeSys+\0"})

@@ -28,6 +28,18 @@ from tappet.project.model import Project
 ENDINGS = (".xml", ".export", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS, *twincat_system.ENDINGS)
 """Endings of the files that are read, in lower case."""
 
+ARCHIVES = (".zip", ".tpzip", ".tnzip", ".tszip")
+"""Endings of archives of such files, in lower case; TwinCAT has its own for them."""
+
+_HINTS = {
+    ".project": "export the project in CODESYS (Project > Export, or Export PLCopenXML)",
+    ".library": "open the library in CODESYS as a project and export it",
+    ".compiled-library": "the library holds no texts; export its sources in CODESYS",
+    ".pro": "export the project in CoDeSys 2.3 (Project > Export)",
+    ".lib": "open the library in CoDeSys 2.3 and export it (Project > Export)",
+}
+"""What to do with files that only the system itself can read."""
+
 _TEXT_ENDINGS = (".st", ".exp", ".txt", ".iecst", ".lib")
 _NATIVE = re.compile(r"<ExportFile[\s>]")
 _MARKED = re.compile(r"\(\*\s*@(?:NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION|GLOBAL_VARIABLE_LIST)\s*:=")
@@ -45,7 +57,13 @@ class Imported:
 
 def is_importable(path: str) -> bool:
     """Whether a file is of a kind that is read, by its name."""
-    return path.lower().endswith(ENDINGS)
+    return path.lower().endswith((*ENDINGS, *twincat.NOT_READ))
+
+
+def importable(files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Those files of an archive that are read, and all files of the projects of our own in it."""
+    tops = tuple(project_tops(files))
+    return {path: content for path, content in files.items() if is_importable(path) or path.startswith(tops)}
 
 
 def import_files(
@@ -192,7 +210,7 @@ def _read(
         read_native(path, content, batch, report)
     elif ending == ".xml" or decode_xml(path, content[:400]).lstrip("\ufeff \t\r\n").startswith("<?xml"):
         read_plcopen(path, content, batch, report)
-    elif ending in _TEXT_ENDINGS:
+    elif ending in _TEXT_ENDINGS and not (ending in _HINTS and b"\0" in content):
         text, encoding = decode_text(path, content, pages)
         if encoding in PAGE_NAMES:
             report.add("changed", path, f"the file is not UTF-8; it was read as {PAGE_NAMES[encoding]}")
@@ -214,5 +232,8 @@ def _read(
             if drafts:
                 batch.loose.below(folder, path).children += drafts
             read_configurations(split, batch.loose, report)
+    elif ending in twincat.NOT_READ:
+        raise ExchangeError(path, f"{twincat.NOT_READ[ending]} are not read")
     else:
-        raise ExchangeError(path, f"files of this kind are not read; possible are {', '.join(ENDINGS)}")
+        hint = _HINTS.get(ending, f"possible are {', '.join(ENDINGS)}")
+        raise ExchangeError(path, f"files of this kind are not read; {hint}")

@@ -16,6 +16,18 @@ from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
 ENDINGS = (".tcpou", ".tcdut", ".tcgvl", ".tcio", ".tctto")
 """Endings of the files that hold an object, in lower case."""
 
+NOT_READ = {
+    ".tcvis": "visualisations",
+    ".tcvmo": "visualisation managers",
+    ".tctlo": "text lists",
+    ".tctleo": "text lists",
+    ".tcgtlo": "text lists",
+    ".tcipo": "image pools",
+    ".tcrmo": "recipes",
+    ".tcrdo": "recipes",
+}
+"""What files of other kinds hold, by their endings."""
+
 _KINDS = {"POU": "pou", "DUT": "dut", "GVL": "gvl", "Itf": "interface"}
 _CHILD_KINDS = {"Method": "method", "Action": "action", "Transition": "transition", "Property": "property"}
 _GRAPHICAL = {"NWL": "FBD", "FBD": "FBD", "LD": "LD", "CFC": "CFC", "SFC": "SFC"}

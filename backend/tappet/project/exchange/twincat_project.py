@@ -17,7 +17,7 @@ from tappet.project.exchange.drafts import (
 )
 from tappet.project.exchange.libraries import reference, take_parameters
 from tappet.project.exchange.report import ExchangeError, ImportReport
-from tappet.project.exchange.twincat import ENDINGS, read_object
+from tappet.project.exchange.twincat import ENDINGS, NOT_READ, read_object
 from tappet.project.exchange.twincat_system import SystemTask, adjust_task
 from tappet.project.exchange.xml_tree import Element, read_xml
 
@@ -64,9 +64,9 @@ def read_project(
             )
             if not include.casefold().endswith(ENDINGS):
                 if item.tag == "Compile":
-                    report.add(
-                        "refused", source, "files of this kind are not read", name=include, line=item.line
-                    )
+                    what = NOT_READ.get(posixpath.splitext(include)[1].casefold(), "files of this kind")
+                    report.add("refused", source, f"{what} are not read", name=include, line=item.line)
+                    used |= {path} if path is not None else set()
                 continue
             if path is None:
                 text = "the project lists this file, but it was not given with it"
