@@ -8,6 +8,7 @@ import struct
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from fastapi import FastAPI
@@ -143,3 +144,41 @@ def test_a_killed_runtime_comes_back_with_its_application(app: FastAPI, engineer
     again = engineer.get(RUNTIME).json()
     assert (again["state"], again["code_id"]) == ("run", first["code_id"])
     assert engineer.post(f"{url}/login", json={"runtime_id": LOCAL_RUNTIME}).json()["relation"] == "same"
+
+
+def test_a_runtime_that_does_not_start_is_tried_again_and_says_why(settings: ServerSettings) -> None:
+    """A file stands where its folder should be: the list tells. It comes up once that is mended."""
+    folder = settings.data_dir / "runtime"
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    folder.write_text("no folder")
+    options = replace(
+        settings, local_runtime=True, local_runtime_options=("--no-realtime",), reconnect_seconds=0.1
+    )
+    app = create_app(options)
+    with serving(app):
+        client = browser(app)
+        body = {"token": app.state.services.first_account_token, "username": "ann", "password": PASSWORD}
+        assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
+
+        def listed() -> dict[str, Any]:
+            (one,) = client.get("/api/v1/runtimes").json()
+            return one
+
+        _until(lambda: "next attempt" in (listed()["problem"] or ""), 90)
+        shown = listed()
+        assert not shown["connected"]
+        assert "did not come up: " in shown["problem"]
+        assert "runtime" in shown["problem"]
+        _until(lambda: listed()["problem"] != shown["problem"], 90)  # tried again, after a longer pause
+        folder.unlink()
+        _until(lambda: listed()["connected"], 90)
+        assert listed()["problem"] is None
+
+
+def test_a_server_ends_while_its_runtime_does_not_start(settings: ServerSettings) -> None:
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    (settings.data_dir / "runtime").write_text("no folder")
+    app = create_app(replace(settings, local_runtime=True, reconnect_seconds=3600.0))
+    with serving(app):
+        link = app.state.services.runtimes.get(LOCAL_RUNTIME)
+        _until(lambda: "next attempt" in (link.problem or ""), 90)

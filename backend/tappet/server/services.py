@@ -75,7 +75,8 @@ class Services:
         if self.settings.local_runtime:
             link = self.runtimes.add("Local", "", "", LOCAL_RUNTIME)
             folder = self.settings.data_dir / "runtime"
-            self.local_runtime = LocalRuntime(link, folder, self.settings.local_runtime_options)
+            options, pause = self.settings.local_runtime_options, self.settings.reconnect_seconds
+            self.local_runtime = LocalRuntime(link, folder, options, pause)
         for row in await self.database.read_async(_stored_runtimes):
             self.runtimes.add(row.name, row.url, row.token, row.id)
 

@@ -45,7 +45,8 @@ class ServerSettings:
     build_workers: int = 1
     """Compiler processes; each keeps the caches of the projects it serves."""
     reconnect_seconds: float = 1.0
-    """First pause before a lost runtime is tried again; doubles up to 15 s."""
+    """First pause before a lost runtime is tried again; doubles up to 15 s. So does that before a local one
+    which did not start is started again, up to 30 s."""
 
     @property
     def url(self) -> str:
