@@ -308,6 +308,14 @@ def units_of(chosen: Mapping[str, int]) -> dict[str, ast.Unit]:
     return {name: parse(text_of(name, chosen)).unit for name in OBJECTS}
 
 
+def parse_edited(units: dict[str, ast.Unit], chosen: Mapping[str, int]) -> None:
+    """The texts that are other ones now."""
+    for name in OBJECTS:
+        source = text_of(name, chosen)
+        if source != units[name].source:
+            units[name] = parse(source).unit
+
+
 # -- what an analysis knows ---------------------------------------------------------------------------
 
 

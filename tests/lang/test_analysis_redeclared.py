@@ -6,7 +6,7 @@ import itertools
 from dataclasses import replace
 
 import pytest
-from edited_project import CHOICES, OBJECTS, knowledge, messages, text_of, units_of
+from edited_project import CHOICES, OBJECTS, knowledge, messages, parse_edited, text_of, units_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -36,10 +36,7 @@ def test_every_edit_leads_to_what_a_full_analysis_knows(
     analysis = analyse(list(units.values()))
     for edit in edits:
         chosen |= dict(edit)
-        for name in OBJECTS:
-            source = text_of(name, chosen)
-            if source != units[name].source:
-                units[name] = parse(source).unit
+        parse_edited(units, chosen)
         analysis = analyse(list(units.values()), previous=analysis)
         fresh = units_of(chosen)
         full = analyse(list(fresh.values()))
@@ -61,10 +58,7 @@ def test_what_waits_is_made_up_for(
         patch.setattr(redeclaring, "AT_ONCE", 0)
         for edit, first, some in edits:
             chosen |= dict(edit)
-            for name in OBJECTS:
-                source = text_of(name, chosen)
-                if source != units[name].source:
-                    units[name] = parse(source).unit
+            parse_edited(units, chosen)
             analysis = analyse(list(units.values()), None, analysis, frozenset([first]))
             if some:
                 go_on(analysis, 0.0)

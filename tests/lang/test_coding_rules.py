@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from edited_project import CHOICES, OBJECTS, messages, text_of, units_of
+from edited_project import CHOICES, messages, parse_edited, units_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sample_stage import ALL_CODING_RULES
@@ -107,10 +107,7 @@ def test_after_edits_of_declarations_as_well(edits: list[list[tuple[str, int]]])
     analysis = analyse(list(units.values()), options)
     for edit in edits:
         chosen |= dict(edit)
-        for name in OBJECTS:
-            source = text_of(name, chosen)
-            if source != units[name].source:
-                units[name] = parse(source).unit
+        parse_edited(units, chosen)
         analysis = analyse(list(units.values()), options, analysis)
         assert messages(analysis) == messages(analyse(list(units_of(chosen).values()), options))
 
