@@ -22,6 +22,7 @@ from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.codegen.system import SystemBuild, SystemBuildError, build_system, layout_of
 from tappet.codegen.tasks import default_tasks, task_specs
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
+from tappet.core.relower import Edit
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
 from tappet.lang.analysis.tasks import Task, check_tasks
@@ -31,7 +32,6 @@ from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.parser import ParseResult
 from tappet.lang.room_for_trees import room_for_trees
 from tappet.lang.source import NOWHERE, Scope, Source, Span
-from tappet.lang.symbols import PouSymbol
 from tappet.project.library_reference import LibraryReference
 
 
@@ -78,7 +78,7 @@ class BuildResult:
     functions: int = 0
     cached_objects: int = 0
     partial: bool = False
-    """Only what an edit of bodies changed was generated; the rest is that of the build before."""
+    """Only what an edit changed was generated; the rest is that of the build before."""
 
     @property
     def ok(self) -> bool:
@@ -110,7 +110,7 @@ class SourceLike(Protocol):
 
 
 class BuildSession:
-    """What builds of one application keep: after an edit only one text is parsed and one module compiled.
+    """What builds of one application keep: after an edit only what can depend on it is made again.
 
     Analysis fills the trees in place, so a session must not be used by two builds at once.
     """
@@ -120,19 +120,31 @@ class BuildSession:
         self.objects: dict[Path | None, ObjectCache] = {}
         self.analysis: Analysis | None = None
         self.generated: Generated | None = None
-        self.edited: dict[int, PouSymbol] = {}
-        """Bodies that are new since `generated`, by id()."""
+        self.edit = Edit()
+        """What is new since `generated`."""
         self.digests: dict[Source, bytes] = {}
 
     def analyse(self, parsed: Sequence[ParseResult], options: AnalysisOptions) -> Analysis:
         """The program, analysed as a whole or only in the bodies that were edited."""
+        self.settle()
         analysis = analyse([p.unit for p in parsed], options, self.analysis)
         self.analysis = analysis
-        if analysis.changed is None:
-            self.generated, self.edited = None, {}
+        made, bodies = analysis.redeclared, analysis.changed
+        if made is not None:
+            self.edit.texts |= made.texts
+            self.edit.things |= made.things
+            bodies = made.bodies
+        if bodies is None:
+            self.generated, self.edit = None, Edit()
         else:
-            self.edited |= {id(pou): pou for pou in analysis.changed}
+            self.edit.bodies |= {id(pou): pou for pou in bodies}
         return analysis
+
+    def settle(self) -> None:
+        """Do what the next build needs done before it: best when nobody waits."""
+        if self.generated is not None:
+            with room_for_trees():
+                self.generated.settle()
 
     def digest(self, settings: object) -> bytes:
         """Digest of the program that was parsed last, and of `settings`."""
@@ -244,7 +256,7 @@ class _Build:
         return [source for library in found for source in library.sources]
 
     def generate(self, analysis: Analysis, specs: list[TaskSpec]) -> None:
-        """Objects and package; after an edit of bodies only what that changed."""
+        """Objects and package; after an edit only what that changed."""
         result, options, session = self.result, self.options, self.session
         settings = GenerateOptions(
             options.application,
@@ -261,18 +273,18 @@ class _Build:
         last, session.generated = session.generated, None
         done = None
         if last is not None and (last.options, last.specs) == (settings, specs) and not options.check_only:
-            done = generator.again(last, list(session.edited.values()))
+            done = generator.again(last, analysis, session.edit)
         result.partial = done is not None
         if done is None:
             done = generator.whole(analysis, specs, options.check_only)
         if done is None:
             return
         session.generated = done
-        session.edited = {}
+        session.edit = Edit()
         result.package = done.package
         result.cached_objects = cache.hits
         result.code_size = sum(len(o) for o in done.objects)
-        result.data_size = done.placed.size
+        result.data_size = done.laid.placed.size
         result.functions = len(done.lowered.module.functions)
 
 

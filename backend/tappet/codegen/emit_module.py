@@ -68,11 +68,17 @@ differ:
 
 
 def emit_module(
-    module: ir.Module, names: list[str], options: EmitOptions, whole: bool, copies: Iterable[str] = ()
+    module: ir.Module,
+    names: list[str],
+    options: EmitOptions,
+    whole: bool,
+    copies: Iterable[str] = (),
+    used: set[str] | None = None,
 ) -> str:
     """LLVM text of the functions `names`; `whole` says that they are all there are.
 
-    `copies` are functions of other modules that may be inlined here.
+    `copies` are functions of other modules that may be inlined here. `used` gets the symbols of the data and
+    constants that the text refers to.
     """
     metadata = Metadata()
     metadata.add('!{!"branch_weights", i32 1, i32 1048575}')
@@ -98,7 +104,23 @@ def emit_module(
     head += [_RUNTIME[name] for name in sorted((state.used & _RUNTIME.keys()) - own)]
     head += sorted(state.intrinsics)
     head += [_declaration(module, name) for name in sorted(state.called - own)]
+    if used is not None:
+        used |= state.used
     return "\n".join([*head, *body, _ATTRIBUTES, *debug.named(), *metadata.lines, ""])
+
+
+def same_code(module: ir.Module, one: ir.Function, other: ir.Function) -> bool:
+    """Whether two functions come to the same code, lines included, if what they call is the same."""
+    if (one.exported, one.weight) != (other.exported, other.weight):
+        return False
+    texts = []
+    for function in (one, other):
+        metadata = Metadata()
+        state = ModuleState(module, metadata, DebugInfo(metadata))
+        text = FunctionEmitter(state, function).text("")
+        constants = [module.constants[name].data for name in sorted(state.used) if name in module.constants]
+        texts.append((text, metadata.lines, constants))
+    return texts[0] == texts[1]
 
 
 def _globals(module: ir.Module, state: ModuleState, suffix: str) -> list[str]:

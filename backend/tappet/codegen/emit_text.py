@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 import struct
 
 from tappet.core import ir
 
+_PLAIN = re.compile(rb"[ !#-\[\]-~]*")
+"""Bytes that stand for themselves in names and constants."""
 _TYPES = {"bool": "i1", "f32": "float", "f64": "double", "ptr": "ptr", "void": "void"}
 _TYPES |= {f"{s}{n}": f"i{n}" for s in "iu" for n in (8, 16, 32, 64)}
 
@@ -57,6 +60,8 @@ def single(value: float) -> float:
 
 def quoted(data: bytes) -> str:
     """Bytes as the inside of an LLVM `c"..."` constant or name."""
+    if _PLAIN.fullmatch(data):
+        return data.decode("ascii")
     return "".join(chr(b) if 32 <= b < 127 and b not in (34, 92) else f"\\{b:02X}" for b in data)
 
 

@@ -1,24 +1,26 @@
-"""From a checked program to a code package, as a whole or only what an edit of bodies changed."""
+"""From a checked program to a code package, as a whole or only what an edit changed."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tappet.codegen import layout as image_layout
 from tappet.codegen.compile_pool import Compilation, is_warm
-from tappet.codegen.emit_module import EmitOptions, emit_module
+from tappet.codegen.emit_module import EmitOptions, emit_module, same_code
 from tappet.codegen.identity import code_id
 from tappet.codegen.online import code_change, plan_online_change
 from tappet.codegen.online_code import add_online_change
 from tappet.codegen.optimise import ObjectCache, OptimiseOptions
-from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, TaskSpec
-from tappet.codegen.partition import Part, copies_for, partition
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, OnlineChange, TaskSpec
+from tappet.codegen.partition import SMALL, Part, partition, refreshed
+from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbols_build import (
     Remanence,
+    TypeTable,
     build_symbol_map,
     instance_paths,
     remanent_variables,
@@ -26,13 +28,14 @@ from tappet.codegen.symbols_build import (
 from tappet.codegen.tasks import event_place
 from tappet.core import passes
 from tappet.core.effects import EffectsTable
+from tappet.core.grounds import Grounds
 from tappet.core.lower import Lowered, Task, lower
 from tappet.core.program import AREA_PREFIX
-from tappet.core.relower import relower
+from tappet.core.relower import Edit, Relowering
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.symbols import PouSymbol
+from tappet.lang.symbols import GvlSymbol, PouSymbol
 
 Timed = Callable[[str], AbstractContextManager[None]]
 
@@ -50,19 +53,48 @@ class GenerateOptions:
 
 
 @dataclass(slots=True)
+class Laid:
+    """The data of an application, placed."""
+
+    placed: image_layout.Layout
+    signatures: dict[str, str]
+    """Digests of what the bytes of each data object mean, by symbol."""
+    symbols: SymbolMap
+    tasks: list[TaskSpec]
+    remanence: Remanence
+    change: OnlineChange | None
+    image: bytes
+    """Initial bytes."""
+    types: image_layout.Signatures
+    table: TypeTable
+    """What is known of types."""
+
+
+@dataclass(slots=True)
 class Generated:
     """A generated application with what the next generation may reuse."""
 
     options: GenerateOptions
     specs: list[TaskSpec]
     lowered: Lowered
-    placed: image_layout.Layout
+    laid: Laid
     effects: EffectsTable
     parts: list[Part]
     keys: list[str]
     """Names of the objects in the cache."""
     objects: list[bytes]
     package: CodePackage
+    grounds: Grounds | None = None
+    """Made by `settle`."""
+
+    def settle(self) -> Grounds:
+        """Note what the code rests on, before another analysis changes what declarations stand for."""
+        program = self.lowered.program
+        assert program is not None
+        if self.grounds is None:
+            self.grounds = Grounds(program)
+        self.grounds.complete()
+        return self.grounds
 
 
 @dataclass(slots=True)
@@ -76,7 +108,6 @@ class Generator:
     cache: ObjectCache
     timed: Timed
     diagnostics: list[Diagnostic]
-    signatures: dict[str, str] = field(default_factory=dict)
 
     # -- as a whole ----------------------------------------------------------------------------------
 
@@ -90,72 +121,118 @@ class Generator:
             known = previous.type_ids if previous is not None else None
             lowered = lower(analysis, [Task(s.name, s.programs) for s in specs], known)
         with self.timed("layout"):
-            placed = self.place(lowered)
-            symbols = build_symbol_map(
-                lowered.data, placed.objects, self.options.byte_addressing, analysis.configured
-            )
-            events = [event_place(spec, symbols, self.diagnostics) for spec in specs]
-            if check_only or any(d.severity == "error" for d in self.diagnostics):
+            laid = self.lay_out(lowered, analysis, specs, self.diagnostics, check_only)
+            if laid is None:
                 return None
-            remanence = remanent_variables(lowered.data, placed.objects)
-            change = None
-            if previous is not None:
-                change = plan_online_change(previous, symbols, placed)
-                add_online_change(lowered, previous, change, placed.objects, symbols)
-                change = replace(change, refused=self.refusal(lowered))
         with self.timed("passes"):
             effects = passes.run(lowered.module)
         parts = partition(lowered.module)
         everything = list(range(len(parts)))
         keys, objects = self.compile(lowered, parts, everything, [""] * len(parts), [b""] * len(parts))
         with self.timed("package"):
-            package = CodePackage(
-                application=self.options.application,
-                code_id="",
-                data_id=placed.data_id,
-                triple=OptimiseOptions().triple,
-                objects=objects,
-                image_size=placed.size,
-                data_objects=placed.objects,
-                initial_image=self.image(lowered, placed),
-                tasks=[replace(s, symbol=Task(s.name, ()).symbol) for s in events],
-                symbols=symbols,
-                exports=_exports(lowered),
-                type_ids=dict(lowered.type_ids),
-                online_change=change,
-                runtime={
-                    "byte_addressing": self.options.byte_addressing,
-                    "signatures": self.signatures,
-                    "created": self.created(lowered),
-                },
-            )
-            _take_remanence(package, remanence)
-            package.code_id = code_id(package, self.program)
-        return Generated(self.options, specs, lowered, placed, effects, parts, keys, objects, package)
+            package = self.package(lowered, laid, objects)
+        return Generated(self.options, specs, lowered, laid, effects, parts, keys, objects, package)
 
-    def place(self, lowered: Lowered) -> image_layout.Layout:
-        """Sizes and signatures of all data objects, then their offsets."""
-        signatures = image_layout.Signatures()
-        wanted = []
+    def package(self, lowered: Lowered, laid: Laid, objects: list[bytes]) -> CodePackage:
+        """The package of placed data and finished objects."""
+        remanence = laid.remanence
+        package = CodePackage(
+            application=self.options.application,
+            code_id="",
+            data_id=laid.placed.data_id,
+            triple=OptimiseOptions().triple,
+            objects=objects,
+            image_size=laid.placed.size,
+            data_objects=laid.placed.objects,
+            initial_image=laid.image,
+            tasks=[replace(s, symbol=Task(s.name, ()).symbol) for s in laid.tasks],
+            symbols=laid.symbols,
+            retain=remanence.retain,
+            persistent=remanence.persistent,
+            no_init=remanence.no_init,
+            exports=[f.name for f in lowered.module.functions.values() if f.exported],
+            type_ids=dict(lowered.type_ids),
+            online_change=laid.change,
+            runtime={
+                "byte_addressing": self.options.byte_addressing,
+                "signatures": laid.signatures,
+                "created": self.created(lowered),
+            },
+        )
+        package.code_id = code_id(package, self.program)
+        return package
+
+    # -- data ----------------------------------------------------------------------------------------
+
+    def lay_out(
+        self,
+        lowered: Lowered,
+        analysis: Analysis,
+        specs: list[TaskSpec],
+        messages: list[Diagnostic],
+        check_only: bool = False,
+        known: Laid | None = None,
+        things: Set[int] = frozenset(),
+        filled: Set[str] = frozenset(),
+    ) -> Laid | None:
+        """Places of all data and how to get there from the running application; None after errors.
+
+        `known`: what was laid out before, of which only the types in `things`, given by id(), and the data
+        objects with symbols in `filled` are new.
+        """
+        previous = self.previous
+        types = known.types if known is not None else image_layout.Signatures()
+        types.forget(things)
+        signatures = self.sign(lowered, types, known, filled)
+        placed = self.place(lowered, signatures)
+        symbols, table = build_symbol_map(
+            lowered.data,
+            placed.objects,
+            self.options.byte_addressing,
+            analysis.configured,
+            known.table if known is not None else None,
+            things,
+            filled,
+        )
+        events = [event_place(spec, symbols, messages) for spec in specs]
+        if check_only or any(d.severity == "error" for d in messages):
+            return None
+        remanence = remanent_variables(lowered.data, placed.objects, types, table)
+        change = None
+        if previous is not None:
+            change = plan_online_change(previous, symbols, placed)
+            add_online_change(lowered, previous, change, placed.objects, symbols)
+            change = replace(change, refused=self.refusal(lowered))
+        image = self.image(lowered, placed, table)
+        return Laid(placed, signatures, symbols, events, remanence, change, image, types, table)
+
+    def sign(
+        self, lowered: Lowered, types: image_layout.Signatures, known: Laid | None, filled: Set[str]
+    ) -> dict[str, str]:
+        """Digests of what the bytes of all data objects mean, in the order in which they are placed."""
+        found: dict[str, str] = {}
         for area, size in self.area_sizes(lowered).items():
             lowered.module.data[AREA_PREFIX + area] = (size, 64)
-            wanted.append(image_layout.Wanted(AREA_PREFIX + area, size, f"area:{size}"))
+            found[AREA_PREFIX + area] = _digest(f"area:{size}")
         for item in lowered.data:
-            owner = item.owner
-            if isinstance(owner, PouSymbol):
-                assert owner.instance is not None
-                text = signatures.of(owner.instance)
+            if known is not None and item.symbol not in filled:
+                found[item.symbol] = known.signatures[item.symbol]
             else:
-                text = ";".join(
-                    f"{m.name.upper()}@{m.offset}:{signatures.of(m.type)}"
-                    for m in owner.members.values()
-                    if m.type is not None
-                )
-            wanted.append(image_layout.Wanted(item.symbol, max(item.size, 1), f"{item.size}:{text}"))
-        self.signatures = {
-            w.symbol: hashlib.blake2b(w.signature.encode(), digest_size=12).hexdigest() for w in wanted
-        }
-        wanted = [replace(w, signature=self.signatures[w.symbol]) for w in wanted]
+                found[item.symbol] = _digest(f"{item.size}:{_meaning(types, item.owner)}")
+        return found
+
+    def place(self, lowered: Lowered, signatures: dict[str, str]) -> image_layout.Layout:
+        """Offsets of all data objects."""
+        sizes = {item.symbol: max(item.size, 1) for item in lowered.data}
+        wanted = [
+            image_layout.Wanted(
+                symbol,
+                sizes.get(symbol) or lowered.module.data[symbol][0],
+                lowered.module.data[symbol][0],
+                text,
+            )
+            for symbol, text in signatures.items()
+        ]
         if self.previous is None:
             return image_layout.place(wanted)
         known = self.previous.runtime.get("signatures", {})
@@ -187,56 +264,70 @@ class Generator:
                 return f"'{type_}' is created with __NEW and its declaration has changed: download it"
         return ""
 
-    def image(self, lowered: Lowered, placed: image_layout.Layout) -> bytes:
+    def image(self, lowered: Lowered, placed: image_layout.Layout, table: TypeTable) -> bytes:
         """Initial bytes of the whole image."""
         image = bytearray(placed.size)
         for item in lowered.data:
             start = placed.objects[item.symbol].offset
             image[start : start + item.size] = item.template.data
         prefix = f"{self.options.device}.{self.options.application}"
-        for offset, type_, path in instance_paths(lowered.data, placed.objects, prefix):
+        for offset, type_, path in instance_paths(lowered.data, placed.objects, prefix, table):
             text = path.encode("latin-1", "replace")[: type_.length]
             image[offset : offset + type_.size] = text.ljust(type_.size, b"\0")
         return bytes(image)
 
     # -- after an edit -------------------------------------------------------------------------------
 
-    def again(self, last: Generated, changed: list[PouSymbol]) -> Generated | None:
-        """Only the bodies in `changed` are new; None when that is not all. Raises LoweringError."""
-        lowered, program = last.lowered, last.lowered.program
+    def again(self, last: Generated, analysis: Analysis, edit: Edit) -> Generated | None:
+        """Only what is in `edit` is new; None when that is not all.
+
+        Raises LoweringError and ImageTooLargeError.
+        """
+        lowered, program, previous = last.lowered, last.lowered.program, self.previous
         assert program is not None
-        change = None
-        if self.previous is not None:
-            if self.previous.data_id != last.placed.data_id or self.previous.type_ids != program.type_ids:
-                return None
-            change = code_change(self.previous, last.package.symbols)
-            change = replace(change, refused=self.refusal(lowered))
+        if previous is not None and not previous.type_ids.items() <= program.type_ids.items():
+            return None
+        grounds = last.settle()
+        data, caught = dict(lowered.module.data), lowered.module.catches_faults
         with self.timed("lower"):
             lowered.module.functions.pop(ONLINE_CHANGE_SYMBOL, None)
-            caught = lowered.module.catches_faults
-            fresh = relower(lowered, last.effects, changed)
+            work = Relowering(lowered, last.effects, grounds)
+            if edit.texts and not work.declarations(analysis, edit):
+                return None
+            work.bodies(edit.bodies.values())
+            work.complete()
             if lowered.module.catches_faults != caught:
                 return None
+        laid = last.laid
+        areas = {AREA_PREFIX + area: size for area, size in self.area_sizes(lowered).items()}
+        with self.timed("layout"):
+            moved = edit.texts or any(data[symbol][0] != size for symbol, size in areas.items())
+            if moved or (previous is not None and previous.data_id != laid.placed.data_id):
+                found = self.lay_out(lowered, analysis, last.specs, [], False, laid, edit.things, work.filled)
+                if found is None:
+                    return None
+                laid = found
+            else:
+                change = None
+                if previous is not None:
+                    change = code_change(previous, laid.symbols)
+                    if change.initialise:
+                        add_online_change(lowered, previous, change, laid.placed.objects, laid.symbols)
+                    change = replace(change, refused=self.refusal(lowered))
+                laid = replace(laid, change=change)
+        with self.timed("passes"):
+            fresh = work.finish(lambda old, new: new.weight <= SMALL and same_code(lowered.module, old, new))
             fresh.add(ONLINE_CHANGE_SYMBOL)
-            data, sizes = lowered.module.data, self.area_sizes(lowered)
-            if any(data[AREA_PREFIX + area][0] != size for area, size in sizes.items()):
-                return None
-            parts, dirty = _refreshed(lowered, last.parts, fresh)
+        resized = {symbol for symbol, size in lowered.module.data.items() if data.get(symbol) != size}
+        parts, dirty = refreshed(lowered.module, last.parts, fresh, resized)
         more = len(parts) - len(last.parts)
         keys, objects = self.compile(
             lowered, parts, dirty, [*last.keys, *[""] * more], [*last.objects, *[b""] * more]
         )
+        program.keep_strings(set().union(*(part.used for part in parts)))
         with self.timed("package"):
-            package = replace(
-                last.package,
-                objects=objects,
-                exports=_exports(lowered),
-                type_ids=dict(lowered.type_ids),
-                online_change=change,
-                runtime={**last.package.runtime, "created": self.created(lowered)},
-            )
-            package.code_id = code_id(package, self.program)
-        return replace(last, parts=parts, keys=keys, objects=objects, package=package)
+            package = self.package(lowered, laid, objects)
+        return replace(last, laid=laid, parts=parts, keys=keys, objects=objects, package=package)
 
     # -- objects -------------------------------------------------------------------------------------
 
@@ -251,7 +342,9 @@ class Generator:
         for number in dirty:
             part = parts[number]
             with self.timed("emit"):
-                text = emit_module(lowered.module, part.names, emit_options, len(parts) == 1, part.copies)
+                part.used = set()
+                whole = len(parts) == 1
+                text = emit_module(lowered.module, part.names, emit_options, whole, part.copies, part.used)
             with self.timed("compile"):
                 keys[number] = compilation.add(text)
         with self.timed("compile"):
@@ -261,42 +354,22 @@ class Generator:
         return keys, objects
 
 
-def _refreshed(lowered: Lowered, parts: list[Part], fresh: set[str]) -> tuple[list[Part], list[int]]:
-    """Modules after an edit: new functions get one of their own. The numbers of those to compile."""
-    functions = lowered.module.functions
-    placed = {name for part in parts for name in part.names}
-    result: list[Part] = []
-    dirty: list[int] = []
-    for number, part in enumerate(parts):
-        if fresh.isdisjoint(part.names) and fresh.isdisjoint(part.copies):
-            result.append(part)
-            continue
-        names = [name for name in part.names if name in functions]
-        result.append(Part(names))
-        dirty.append(number)
-    added = sorted(functions.keys() - placed)
-    if added and len(result) == 1:
-        result[0].names += added
-        dirty = [0]
-    elif added:
-        dirty.append(len(result))
-        result.append(Part(added))
-    if len(result) > 1:
-        for number in dirty:
-            result[number].copies = copies_for(lowered.module, result[number].names)
-    return result, dirty
-
-
 def _signature(type_: t.Type) -> str:
     """A short form of the layout of a type."""
-    return hashlib.blake2b(image_layout.Signatures().of(type_).encode(), digest_size=12).hexdigest()
+    return _digest(image_layout.Signatures().of(type_))
 
 
-def _exports(lowered: Lowered) -> list[str]:
-    return [f.name for f in lowered.module.functions.values() if f.exported]
+def _digest(text: str) -> str:
+    return hashlib.blake2b(text.encode(), digest_size=12).hexdigest()
 
 
-def _take_remanence(package: CodePackage, remanence: Remanence) -> None:
-    package.retain = remanence.retain
-    package.persistent = remanence.persistent
-    package.no_init = remanence.no_init
+def _meaning(types: image_layout.Signatures, owner: GvlSymbol | PouSymbol) -> str:
+    """What the bytes of a program or list mean."""
+    if isinstance(owner, PouSymbol):
+        assert owner.instance is not None
+        return types.of(owner.instance)
+    return ";".join(
+        f"{m.name.upper()}@{m.offset}:{types.of(m.type)}"
+        for m in owner.members.values()
+        if m.type is not None
+    )

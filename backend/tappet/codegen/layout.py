@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 
 from tappet.codegen.package import MAX_IMAGE, DataObject
@@ -17,6 +17,8 @@ class Wanted:
 
     symbol: str
     size: int
+    extent: int
+    """Bytes that code may take it for: as many are there."""
     signature: str
 
 
@@ -56,7 +58,7 @@ def place(
     for item in items:
         if item.symbol not in objects:
             objects[item.symbol] = DataObject(gaps.take(item.size), item.size)
-    size = max((_aligned(o.offset + o.size) for o in objects.values()), default=0)
+    size = max((_aligned(objects[i.symbol].offset + i.extent) for i in items), default=0)
     if size > MAX_IMAGE:
         raise ImageTooLargeError(f"the data need {size} bytes; the image holds {MAX_IMAGE}")
     digest = hashlib.blake2b(digest_size=12)
@@ -98,7 +100,13 @@ class Signatures:
 
     def __init__(self) -> None:
         self.known: dict[int, str] = {}
-        self.keep: list[t.Type] = []
+        self.keep: dict[int, t.Type] = {}
+
+    def forget(self, things: Set[int]) -> None:
+        """Types given by id() are laid out differently now."""
+        for key in self.known.keys() & things:
+            del self.known[key]
+            del self.keep[key]
 
     def of(self, type_: t.Type) -> str:
         """Signature of a type."""
@@ -106,7 +114,7 @@ class Signatures:
             found = self.known.get(id(type_))
             if found is None:
                 self.known[id(type_)] = type_.name  # a recursive mention
-                self.keep.append(type_)
+                self.keep[id(type_)] = type_
                 parts = [
                     f"{m.name.upper()}@{m.offset}{'' if m.bit is None else f'.{m.bit}'}:{self.of(m.type)}"
                     for m in type_.members.values()

@@ -12,7 +12,7 @@ from tappet.codegen.symbol_map import SymbolMap, TypeInfo
 from tappet.core import calls, initial, ir, places, templates
 from tappet.core.body import Body
 from tappet.core.life_cycle import contains_instance_with, init_methods, life_cycle_methods
-from tappet.core.lower import Lowered, complete, instances
+from tappet.core.lower import Lowered, complete_bodies, instances
 from tappet.core.program import Program
 from tappet.lang import types as t
 
@@ -94,7 +94,7 @@ def add_online_change(
         return
     function.body = [*b.entry, *b.out]
     lowered.module.functions[function.name] = function
-    complete(program, lowered.data)
+    complete_bodies(program)
 
 
 def _run_new(b: Body, base: ir.Place, steps: list[templates.Step], offset: int, fresh: Fresh) -> None:
@@ -164,7 +164,7 @@ def _initialise_moved(
 
 def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh: Fresh) -> None:
     """FB_Reinit of all instances inside an object that were copied, inner ones first (LDEC-104, LDEC-107)."""
-    if not contains_instance_with(type_, "FB_REINIT"):
+    if not contains_instance_with(type_, "FB_REINIT", b.program.holding):
         return
     if isinstance(type_, t.Array):
         for element, first in _elements(b, place, at, type_.count, type_.element.size, fresh):

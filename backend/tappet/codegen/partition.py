@@ -14,11 +14,11 @@ from tappet.core.walk import visit
 
 WHOLE = 3_000
 """Up to this weight an application is one module, and everything in it can be inlined."""
-PART = 600
+PART = 200
 """Weight of the modules of larger applications: what is compiled again after an edit."""
 SMALL = 60
 """Weight of bodies that are copied into the modules that call them; LLVM inlines nothing larger."""
-COPIES = 1_500
+COPIES = 600
 """Weight of all copies in one module; the smallest come first."""
 
 
@@ -28,6 +28,8 @@ class Part:
 
     names: list[str]
     copies: list[str] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)
+    """Symbols of data and constants that its text refers to."""
 
 
 def partition(module: ir.Module) -> list[Part]:
@@ -91,3 +93,34 @@ def _callees(module: ir.Module, function: ir.Function) -> list[str]:
         virtual = module.virtual.get(name)
         names += [name] if virtual is None else direct_targets(virtual)
     return names
+
+
+def refreshed(
+    module: ir.Module, parts: list[Part], fresh: set[str], resized: set[str]
+) -> tuple[list[Part], list[int]]:
+    """Modules after an edit, and the numbers of those to compile: all that hold a function of `fresh`, be it
+    only for inlining, or use data objects of `resized`. New functions get a module of their own."""
+    functions = module.functions
+    placed = {name for part in parts for name in part.names}
+    result: list[Part] = []
+    dirty: list[int] = []
+    for number, part in enumerate(parts):
+        kept = all(name in functions for name in part.names)
+        touched = not (fresh.isdisjoint(part.names) and fresh.isdisjoint(part.copies))
+        if kept and not touched and resized.isdisjoint(part.used):
+            result.append(part)
+            continue
+        names = [name for name in part.names if name in functions]
+        result.append(Part(names))
+        dirty.append(number)
+    added = sorted(functions.keys() - placed)
+    if added and len(result) == 1:
+        result[0].names += added
+        dirty = [0]
+    elif added:
+        dirty.append(len(result))
+        result.append(Part(added))
+    if len(result) > 1:
+        for number in dirty:
+            result[number].copies = copies_for(module, result[number].names)
+    return result, dirty

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 
 from tappet.codegen.display import FLAG as DISPLAY_FLAG
@@ -36,16 +36,40 @@ def elementary_kind(type_: t.Elementary) -> str:
 
 
 class TypeTable:
-    """Numbers types and describes them."""
+    """Numbers types and describes them; may serve several builds, see `forget`."""
 
-    def __init__(self, areas: Mapping[str, tuple[int, int]]) -> None:
+    def __init__(self, areas: Mapping[str, tuple[int, int]], statics: Mapping[int, int]) -> None:
         self.areas = areas
         """I, Q and M to (offset, size) in the image."""
-        self.statics: dict[int, int] = {}
-        """Offset in the image of each VAR_STAT variable, by id."""
+        self.statics = statics
+        """Offset in the image of each VAR_STAT variable, by id()."""
         self.types: list[TypeInfo] = []
         self.numbers: dict[object, int] = {}
-        self.keep: list[t.Type] = []
+        self.described: dict[int, t.Type] = {}
+        """What the entries of `types` describe, those of variable lists apart."""
+        self.lists: dict[str, int] = {}
+        """Entries of variable lists, by the name of the root."""
+        self.remanent: dict[int, bool] = {}
+        self.with_path: dict[int, bool] = {}
+        """Whether types, by id(), hold remanent variables, or texts that get the path of their instance."""
+        self.limit = 0
+
+    @property
+    def is_full(self) -> bool:
+        """Whether too many entries may be out of use."""
+        return len(self.types) > self.limit
+
+    def forget(self, things: Set[int]) -> None:
+        """Types given by id() look different now."""
+        for known in (self.remanent, self.with_path):
+            for key in known.keys() & things:
+                del known[key]
+        for number, type_ in list(self.described.items()):
+            inner = type_
+            while isinstance(inner, t.Array):
+                inner = inner.element
+            if id(inner) in things:
+                self.types[number] = self._describe(type_)
 
     def number(self, type_: t.Type) -> int:
         """Index of a type in the table."""
@@ -54,7 +78,7 @@ class TypeTable:
         number = self.numbers.get(key)
         if number is None:
             number = self.numbers[key] = len(self.types)
-            self.keep.append(type_)
+            self.described[number] = type_
             self.types.append(TypeInfo(str(type_), "bits", type_.size))
             self.types[number] = self._describe(type_)
         return number
@@ -171,45 +195,85 @@ def build_symbol_map(
     objects: Mapping[str, DataObject],
     byte_addressing: bool,
     configured: Iterable[ConfiguredAddress] = (),
-) -> SymbolMap:
-    """Symbol map of placed data objects, and of the variables that are copied from and to an address."""
+    known: TypeTable | None = None,
+    things: Set[int] = frozenset(),
+    filled: Set[str] = frozenset(),
+) -> tuple[SymbolMap, TypeTable]:
+    """Symbol map of placed data objects, and of the variables that are copied from and to an address.
+
+    `known`: the table of the build before, of which only the types in `things`, given by id(), and the data
+    objects with symbols in `filled` look different now.
+    """
     areas = {
         area: (place.offset, place.size)
         for area in "IQM"
         if (place := objects.get(AREA_PREFIX + area)) is not None
     }
-    table = TypeTable(areas)
-    symbols = SymbolMap(table.types, byte_addressing=byte_addressing)
+    statics = _statics(data, objects)
+    if known is not None and (known.areas, known.statics) == (areas, statics) and not known.is_full:
+        table = known
+        table.forget(things)
+    else:
+        known, table = None, TypeTable(areas, statics)
+    symbols = SymbolMap([], byte_addressing=byte_addressing)
     symbols.areas.update(areas)
-    for item in data:
-        if isinstance(item.owner, GvlSymbol):
-            start = objects[item.symbol].offset
-            statics = (v for v in item.owner.members.values() if v.section == "VAR_STAT")
-            table.statics |= {id(v): start + v.offset for v in statics if _home(v) is Storage.GLOBAL}
     for item in data:
         name = item.symbol.removeprefix(DATA_PREFIX)
         shown = item.owner.name if "." not in name else f"{name.rpartition('.')[0].title()}.{item.owner.name}"
         offset = objects[item.symbol].offset
-        extra = tuple(shared(table, item.owner))
+        fresh = known is None or item.symbol in filled
         if isinstance(item.owner, PouSymbol):
             assert item.owner.instance is not None
             number = table.number(item.owner.instance)
-            info = table.types[number]
-            members = _exported(item.owner, (*info.members, *extra))
-            if members != info.members:
-                table.types[number] = TypeInfo(info.name, info.kind, info.size, members=members)
+            if fresh:
+                _with_shared(table, number, item.owner)
             symbols.roots[name] = Root(shown, "program", offset, number)
             continue
-        members = _exported(item.owner, (*_list_members(table, item.owner), *extra))
-        table.types.append(TypeInfo(item.owner.name, "gvl", item.size, members=members))
-        symbols.roots[name] = Root(shown, "gvl", offset, len(table.types) - 1)
+        if fresh:
+            _describe_list(table, name, item.owner)
+        number = table.lists[name]
+        members = table.types[number].members
+        symbols.roots[name] = Root(shown, "gvl", offset, number)
         if not item.owner.qualified_only and not name.startswith("__") and "." not in name:
             for member in members:
                 key = member.name.upper()
                 symbols.globals[key] = "" if key in symbols.globals else name
     for entry in configured:
         symbols.mapped[entry.path.upper()] = (entry.area, entry.address, entry.bit)
-    return symbols
+    if known is None:
+        table.limit = 2 * len(table.types) + 100
+    symbols.types = list(table.types)
+    return symbols, table
+
+
+def _statics(data: list[ProgramData], objects: Mapping[str, DataObject]) -> dict[int, int]:
+    """Offset in the image of each VAR_STAT variable, by id()."""
+    found: dict[int, int] = {}
+    for item in data:
+        if isinstance(item.owner, GvlSymbol):
+            start = objects[item.symbol].offset
+            own = (v for v in item.owner.members.values() if v.section == "VAR_STAT")
+            found |= {id(v): start + v.offset for v in own if _home(v) is Storage.GLOBAL}
+    return found
+
+
+def _with_shared(table: TypeTable, number: int, program: PouSymbol) -> None:
+    """Describe a program with the variables that are not in its own data."""
+    info = table.types[number]
+    members = _exported(program, (*info.members, *shared(table, program)))
+    if members != info.members:
+        table.types[number] = TypeInfo(info.name, info.kind, info.size, members=members)
+
+
+def _describe_list(table: TypeTable, name: str, gvl: GvlSymbol) -> None:
+    members = _exported(gvl, (*_list_members(table, gvl), *shared(table, gvl)))
+    number = table.lists.setdefault(name, len(table.types))
+    if number == len(table.types):
+        table.types.append(_NO_TYPE)
+    table.types[number] = TypeInfo(gvl.name, "gvl", gvl.size, members=members)
+
+
+_NO_TYPE = TypeInfo("", "gvl", 0)
 
 
 def _list_members(table: TypeTable, gvl: GvlSymbol) -> Iterator[MemberInfo]:
@@ -255,11 +319,12 @@ class Remanence:
     no_init: list[tuple[int, int]]
 
 
-def remanent_variables(data: list[ProgramData], objects: Mapping[str, DataObject]) -> Remanence:
+def remanent_variables(
+    data: list[ProgramData], objects: Mapping[str, DataObject], signatures: Signatures, table: TypeTable
+) -> Remanence:
     """RETAIN and PERSISTENT variables over nested instances, by path (LDEC-70..LDEC-76)."""
     found = Remanence([], [], [])
-    signatures = Signatures()
-    walk = _RemanentWalk(found, signatures)
+    walk = _RemanentWalk(found, signatures, table.remanent)
     for item in data:
         base = objects[item.symbol].offset
         if isinstance(item.owner, GvlSymbol):
@@ -276,10 +341,10 @@ def remanent_variables(data: list[ProgramData], objects: Mapping[str, DataObject
 class _RemanentWalk:
     """Descends into instances that are not remanent as a whole."""
 
-    def __init__(self, found: Remanence, signatures: Signatures) -> None:
+    def __init__(self, found: Remanence, signatures: Signatures, interesting: dict[int, bool]) -> None:
         self.found = found
         self.signatures = signatures
-        self.interesting: dict[int, bool] = {}
+        self.interesting = interesting
 
     def members(self, path: str, offset: int, type_: t.FunctionBlock | t.Struct) -> None:
         for member in type_.members.values():
@@ -328,10 +393,10 @@ class _RemanentWalk:
 
 
 def instance_paths(
-    data: list[ProgramData], objects: Mapping[str, DataObject], prefix: str
+    data: list[ProgramData], objects: Mapping[str, DataObject], prefix: str, table: TypeTable
 ) -> Iterator[tuple[int, t.String, str]]:
     """Offset, type and text of every STRING with attribute instance-path or init_namespace."""
-    known: dict[int, bool] = {}
+    known = table.with_path
 
     def wants(type_: t.Type) -> bool:
         if isinstance(type_, t.Array):

@@ -141,7 +141,7 @@ def reference_value(b: Body, value: ast.Expr) -> ir.Expr:
     if value.is_constant and not places.is_place(value):
         return NULL
     place = b.place(value)
-    b.program.expose(place, value.type)
+    b.program.expose(b.function, place, value.type)
     return places.address_of(place)
 
 

@@ -111,7 +111,7 @@ class Body:
         """Value converted to the scalar of `type_`."""
         if isinstance(type_, t.Interface) and isinstance(e.type, t.FunctionBlock):
             place = self.place(e)
-            self.program.expose(place, e.type)
+            self.program.expose(self.function, place, e.type)
             return ir.Address(ir.PTR, place)
         scalar = scalar_of(type_)
         assert scalar is not None

@@ -172,11 +172,11 @@ def _adr(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     if isinstance(target, PouSymbol):
         if target.kind == "PROGRAM":
             place = places.program_data(target)
-            b.program.expose(place, target.instance)
+            b.program.expose(b.function, place, target.instance)
             return ir.Address(ir.PTR, place)
         return ir.FunctionAddress(ir.PTR, b.program.function(target))
     place = b.place(operand)
-    b.program.expose(place, operand.type)
+    b.program.expose(b.function, place, operand.type)
     b.touch(place)
     return places.address_of(place)
 
@@ -184,7 +184,7 @@ def _adr(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
 def _adrinst(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     if b.own_data is None:
         raise b.error("there is no own instance here", e)
-    b.program.expose(b.own_data, b.block)
+    b.program.expose(b.function, b.own_data, b.block)
     return places.address_of(b.own_data)
 
 

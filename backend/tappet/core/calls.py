@@ -350,7 +350,7 @@ def _any_argument(b: Body, value: ast.Expr) -> ir.Expr:
     fill: list[ir.Stmt] = []
     if places.is_place(value) and not _is_bit(value):
         place = b.place(value)
-        b.program.expose(place, type_)
+        b.program.expose(b.function, place, type_)
         b.touch(place)
     else:
         place = ir.Place(b.space(type_.size, type_.align))
@@ -382,7 +382,7 @@ def in_out_address(b: Body, before: list[ir.Stmt], parameter: VarSymbol, value: 
         before += fill
         return ir.Address(ir.PTR, ir.Place(local))
     place = b.place(value)
-    b.program.expose(place, value.type)
+    b.program.expose(b.function, place, value.type)
     b.touch(place)
     address = places.address_of(place)
     wanted = parameter.type

@@ -12,12 +12,13 @@ class Exposure:
 
     def __init__(self, module: ir.Module) -> None:
         self.module = module
-        self.roots = set(module.exposed)
+        exposed = set().union(*(function.exposed for function in module.functions.values()))
+        self.roots = set(exposed)
         """(data symbol or block type, root offset), offset -1 = all."""
         inside: dict[str, set[str]] = {}
         for (name, _), types in module.nested.items():
             inside.setdefault(name, set()).update(types)
-        for name, root in module.exposed:
+        for name, root in exposed:
             found: Iterable[str] = module.nested.get((name, root), ()) if root >= 0 else inside.get(name, ())
             for type_ in found:
                 self.roots |= {(relative, -1) for relative in self._family(type_)}

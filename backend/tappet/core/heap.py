@@ -49,7 +49,7 @@ def new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
             else:
                 initial.initialise_place(b, ir.Place(ir.Indirect(read)), type_, made)
         body.append(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), fill, []))
-    b.program.expose(ir.Place(ir.Data("")), type_)
+    b.program.expose(b.function, ir.Place(ir.Data("")), type_)
     return ir.Sequence(ir.PTR, body, read)
 
 
@@ -87,7 +87,7 @@ def delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
     read = ir.Load(ir.PTR, place)
     base = operand.type.base
     with b.block_of() as then:
-        if base is not None and contains_instance_with(base, "FB_EXIT"):
+        if base is not None and contains_instance_with(base, "FB_EXIT", b.program.holding):
             _destruct_elements(b, read, base)
         b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
         b.emit(ir.Store(place, NULL))

@@ -156,7 +156,7 @@ def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol], in_copy: bool 
 
 def destruct_all(b: Body, place: ir.Place, type_: t.Type, in_copy: bool = False) -> None:
     """Call FB_Exit of all instances inside an object of any type."""
-    if not contains_instance_with(type_, "FB_EXIT"):
+    if not contains_instance_with(type_, "FB_EXIT", b.program.holding):
         return
     if isinstance(type_, t.FunctionBlock):
         destruct(b, place, type_, in_copy)
@@ -182,30 +182,30 @@ def initial_function(program: Program, type_: t.FunctionBlock) -> str:
     """Name of the function that runs the dynamic steps of a block's members."""
     name = program.initial_functions.get(id(type_))
     if name is None:
-        pou = type_.pou.symbol if type_.pou is not None else None
-        name = program.unique(f"{program.block_name(type_)}.__INIT")
+        name = unique = program.unique(f"{program.block_name(type_)}.__INIT")
         program.initial_functions[id(type_)] = name
-
-        def lower() -> None:
-            assert name is not None
-            source = pou.source if isinstance(pou, PouSymbol) else None
-            function = ir.Function(
-                name,
-                [ir.Parameter("self", ir.PTR)],
-                uri=source.uri if source else "",
-                self_type=program.block_name(type_),
-                cold=True,
-            )
-            b = Body(program, function, source)
-            b.block = type_
-            b.own_data = ir.Place(ir.Self(function.self_type))
-            b.pou = pou if isinstance(pou, PouSymbol) else None
-            run_steps(b, b.own_data, initialiser_of(program).of_type(type_).steps)
-            function.body = [*b.entry, *b.out]
-            program.module.functions[name] = function
-
-        program.queue.append(lower)
+        program.make_for(type_, name, lambda: _lower_initial_function(program, unique, type_))
     return name
+
+
+def _lower_initial_function(program: Program, name: str, type_: t.FunctionBlock) -> None:
+    """Lower the function that runs the dynamic steps of a block's members."""
+    pou = type_.pou.symbol if type_.pou is not None else None
+    source = pou.source if isinstance(pou, PouSymbol) else None
+    function = ir.Function(
+        name,
+        [ir.Parameter("self", ir.PTR)],
+        uri=source.uri if source else "",
+        self_type=program.block_name(type_),
+        cold=True,
+    )
+    b = Body(program, function, source)
+    b.block = type_
+    b.own_data = ir.Place(ir.Self(function.self_type))
+    b.pou = pou if isinstance(pou, PouSymbol) else None
+    run_steps(b, b.own_data, initialiser_of(program).of_type(type_).steps)
+    function.body = [*b.entry, *b.out]
+    program.module.functions[name] = function
 
 
 INITIALISERS.append(initialise_place)

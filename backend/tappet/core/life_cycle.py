@@ -24,22 +24,24 @@ def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
     return found
 
 
-def contains_instance_with(type_: t.Type, name: str, seen: set[int] | None = None) -> bool:
-    """Whether an object of a type is or contains an instance with FB_Exit or FB_Reinit. `seen`: id() of the
-    types that were looked at."""
-    seen = set() if seen is None else seen
+def contains_instance_with(type_: t.Type, name: str, known: dict[tuple[str, int], bool]) -> bool:
+    """Whether an object of a type is or contains an instance with FB_EXIT or FB_REINIT, whichever is named.
+
+    `known` keeps answers.
+    """
     if isinstance(type_, t.Array):
-        return contains_instance_with(type_.element, name, seen)
-    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
+        return contains_instance_with(type_.element, name, known)
+    if not isinstance(type_, t.FunctionBlock | t.Struct):
         return False
-    seen.add(id(type_))
-    if isinstance(type_, t.FunctionBlock) and life_cycle_methods(type_, name):
-        return True
-    return any(
-        contains_instance_with(m.type, name, seen)
-        for m in type_.members.values()
-        if m.section != "VAR_IN_OUT"
-    )
+    found = known.get((name, id(type_)))
+    if found is None:
+        known[name, id(type_)] = False
+        found = isinstance(type_, t.FunctionBlock) and bool(life_cycle_methods(type_, name))
+        inside = (m.type for m in type_.members.values() if m.section != "VAR_IN_OUT")
+        found = known[name, id(type_)] = found or any(
+            contains_instance_with(inner, name, known) for inner in inside
+        )
+    return found
 
 
 def after_init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:

@@ -37,6 +37,8 @@ INIT = "tappet.init"
 EXIT = "tappet.exit"
 COPY_EXIT_PREFIX = "tappet.copy_exit."
 TASK_PREFIX = "tappet.task."
+LARGEST_STEP = 4096
+"""Data objects are taken for this much larger than they are at most, see `extent`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,8 @@ class DataObject:
     size: int
     template: templates.Template
     owner: GvlSymbol | PouSymbol
+    init: str = ""
+    """The function that runs its dynamic initial values, if it has had any."""
 
 
 @dataclass(slots=True)
@@ -70,6 +74,7 @@ class Lowered:
     data: list[DataObject] = field(default_factory=list)
     type_ids: dict[str, int] = field(default_factory=dict)
     program: Program | None = None
+    tasks: Sequence[Task] = ()
 
 
 def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, int] | None = None) -> Lowered:
@@ -77,14 +82,19 @@ def lower(analysis: Analysis, tasks: Sequence[Task] = (), type_ids: dict[str, in
     program = Program(analysis, type_ids=dict(type_ids or {}))
     program.lower_pou = lambda pou: lower_pou(program, pou)
     data = data_objects(program)
+    _export_functions(program)
+    lower_frame(program, data, tasks)
+    complete(program, data)
+    return Lowered(program.module, data, program.type_ids, program, tasks)
+
+
+def lower_frame(program: Program, data: list[DataObject], tasks: Sequence[Task]) -> None:
+    """Task entries, and what runs at start and end."""
     for task in tasks:
         _task_function(program, task, tasks)
-    _export_functions(program)
     if tasks:
         _init_function(program, data)
         _exit_function(program, data)
-    complete(program, data)
-    return Lowered(program.module, data, program.type_ids, program)
 
 
 def complete(program: Program, data: list[DataObject]) -> None:
@@ -124,21 +134,39 @@ def work_off(program: Program) -> None:
 def data_objects(program: Program) -> list[DataObject]:
     """All lists and programs: lists first (LDEC-43)."""
     found: list[DataObject] = []
-    initialiser = templates.initialiser_of(program)
-    for gvl in program.analysis.gvls:
-        template = templates.Template(bytearray(gvl.size))
-        for member in gvl.members.values():
-            _variable(initialiser, template, member)
-        found.append(DataObject(data_symbol(gvl), gvl.size, template, gvl))
-    for pou in program.analysis.pous:
-        if pou.kind == "PROGRAM" and pou.instance is not None:
-            template = initialiser.of_type(pou.instance)
-            found.append(DataObject(data_symbol(pou), pou.instance.size, template, pou))
-    for item in found:
-        program.module.data[item.symbol] = (max(item.size, 1), OBJECT_ALIGN)
+    for owner in data_owners(program.analysis):
+        item = DataObject(data_symbol(owner), 0, templates.Template(bytearray()), owner)
+        fill_data_object(program, item)
+        found.append(item)
     for area, size in program.analysis.options.area_limits.items():
         program.module.data[AREA_PREFIX + area] = (size, OBJECT_ALIGN)
     return found
+
+
+def data_owners(analysis: Analysis) -> list[GvlSymbol | PouSymbol]:
+    """All that has a data object."""
+    programs = [pou for pou in analysis.pous if pou.kind == "PROGRAM" and pou.instance is not None]
+    return [*analysis.gvls, *programs]
+
+
+def fill_data_object(program: Program, item: DataObject) -> None:
+    """Size and initial values of a data object."""
+    initialiser, owner = templates.initialiser_of(program), item.owner
+    if isinstance(owner, PouSymbol):
+        assert owner.instance is not None
+        item.size, item.template = owner.instance.size, initialiser.of_type(owner.instance)
+    else:
+        item.size, item.template = owner.size, templates.Template(bytearray(owner.size))
+        for member in owner.members.values():
+            _variable(initialiser, item.template, member)
+    program.module.data[item.symbol] = (extent(item.size), OBJECT_ALIGN)
+
+
+def extent(size: int) -> int:
+    """Bytes that code may take a data object for: somewhat more than it has, so that the code of those who
+    use it stays as it is when it grows a little."""
+    step = min(max(OBJECT_ALIGN, (1 << size.bit_length()) // 16), LARGEST_STEP)
+    return (max(size, 1) + step - 1) // step * step
 
 
 def _variable(initialiser: templates.Initialiser, template: templates.Template, member: VarSymbol) -> None:
@@ -154,8 +182,9 @@ def _init_function(program: Program, data: list[DataObject]) -> None:
     program.module.functions[INIT] = entry
     for item in data:
         if not item.template.steps:
+            program.module.functions.pop(item.init, None)
             continue
-        name = program.unique(f"{item.owner.name}.__INIT")
+        name = item.init = item.init or program.unique(f"{item.owner.name}.__INIT")
         source = item.owner.source
         function = ir.Function(name, uri=source.uri if source else "", cold=True)
         b = Body(program, function, source)
@@ -174,6 +203,7 @@ def _init_function(program: Program, data: list[DataObject]) -> None:
 def _exit_function(program: Program, data: list[DataObject]) -> None:
     """`tappet.exit`: FB_Exit of every instance; only there when some block has one."""
     function = ir.Function(EXIT, exported=True, uri="", cold=True)
+    program.module.functions.pop(EXIT, None)
     b = Body(program, function, None)
     for item in data:
         base = ir.Place(ir.Data(item.symbol))
@@ -189,6 +219,7 @@ def _exit_function(program: Program, data: list[DataObject]) -> None:
 def _copy_exit_function(program: Program, item: DataObject) -> None:
     """FB_Exit of the instances of one data object, for an online change that moves it (LDEC-106)."""
     function = ir.Function(COPY_EXIT_PREFIX + item.symbol, exported=True, uri="", cold=True)
+    program.module.functions.pop(function.name, None)
     b = Body(program, function, None)
     base = ir.Place(ir.Data(item.symbol))
     for offset, type_ in instances(item.owner, leaving=True):

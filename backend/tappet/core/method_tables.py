@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+
 from tappet.core import ir
 from tappet.core.program import Program
 from tappet.core.virtual_calls import fits
@@ -16,7 +18,7 @@ def number_methods(program: Program) -> None:
     """
     program.module.dispatch.clear()
     slots: dict[str, int] = {}
-    taken: dict[str, set[int]] = {name: set() for name in program.blocks}
+    taken: defaultdict[str, set[int]] = defaultdict(set)
     users: dict[str, list[str]] = {}
     for block_name, block in program.blocks.items():
         symbol = block.pou.symbol if block.pou is not None else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -73,11 +74,24 @@ class Program:
     """`templates.Initialiser`, made on first use."""
     initial_functions: dict[int, str] = field(default_factory=dict)
     """id(FunctionBlock) to the function that runs the dynamic initial values of its members."""
+    made_for: dict[str, tuple[t.FunctionBlock, Callable[[], None]]] = field(default_factory=dict)
+    """Functions that are made from the members of a block and no text, by name: how to lower them again."""
+    holding: dict[tuple[str, int], bool] = field(default_factory=dict)
+    """Whether types, by id(), hold an instance with a method of this name: see `life_cycle`."""
     check_names: dict[str, PouSymbol | None] = field(default_factory=dict)
     created: dict[str, t.Type] = field(default_factory=dict)
     """Blocks and structures that __NEW makes, by upper-case name: an online change cannot move them."""
 
     def __post_init__(self) -> None:
+        self.claim()
+        for pou in self.analysis.pous:
+            for name in pou.vtable:
+                self.having.setdefault(name, []).append(pou)
+
+    def claim(self) -> None:
+        """Which data object each variable of a list or program is in, and how far the areas are used."""
+        self.homes.clear()
+        self.area_use.clear()
         for gvl in self.analysis.gvls:
             symbol = data_symbol(gvl)
             for member in gvl.members.values():
@@ -86,8 +100,6 @@ class Program:
         for pou in self.analysis.pous:
             if pou.kind == "PROGRAM":
                 self._claim(pou)
-            for name in pou.vtable:
-                self.having.setdefault(name, []).append(pou)
 
     def _claim(self, pou: PouSymbol) -> None:
         symbol = data_symbol(pou)
@@ -127,6 +139,11 @@ class Program:
             self.queue.append(lambda: self.lower_pou(pou))
         return name
 
+    def make_for(self, block: t.FunctionBlock, name: str, lower: Callable[[], None]) -> None:
+        """Put a function that is made from the members of `block` on the work list."""
+        self.made_for[name] = block, lower
+        self.queue.append(lower)
+
     def unique(self, name: str) -> str:
         """`name`, or a variant of it that no function has."""
         candidate, number = name, 2
@@ -157,10 +174,18 @@ class Program:
         """Read-only bytes, shared by equal ones."""
         found = self.strings.get((data, align))
         if found is None:
-            symbol = f"tappet.const.{len(self.strings)}"
+            # named by content: the same code has the same text in every build
+            name = hashlib.blake2b(data + align.to_bytes(4, "little"), digest_size=12).hexdigest()
+            symbol = f"tappet.const.{name}"
             found = self.strings[(data, align)] = ir.Constant(symbol, data, align)
             self.module.constants[symbol] = found
         return found
+
+    def keep_strings(self, used: set[str]) -> None:
+        """Drop the constants whose symbols are not in `used`."""
+        gone = [key for key, constant in self.strings.items() if constant.symbol not in used]
+        for key in gone:
+            del self.module.constants[self.strings.pop(key).symbol]
 
     # -- function blocks -----------------------------------------------------------------------------
 
@@ -189,31 +214,31 @@ class Program:
             self.queried[symbol] = interface
         return symbol
 
-    def expose(self, place: ir.Place, type_: t.Type | None) -> None:
-        """Note that the address of a variable gets known, so that pointers may change it."""
+    def expose(self, function: ir.Function, place: ir.Place, type_: t.Type | None) -> None:
+        """Note that the address of a variable gets known in a function: pointers may change it."""
         if isinstance(place.base, ir.Data):
-            self.module.exposed.add((place.base.symbol, place.root))
+            function.exposed.add((place.base.symbol, place.root))
         elif isinstance(place.base, ir.Self):
-            self.module.exposed.add((place.base.type, place.root))
-        self._expose_blocks(type_)
+            function.exposed.add((place.base.type, place.root))
+        self._expose_blocks(function.exposed, type_)
 
-    def _expose_blocks(self, type_: t.Type | None) -> None:
+    def _expose_blocks(self, exposed: set[tuple[str, int]], type_: t.Type | None) -> None:
         if isinstance(type_, t.FunctionBlock):
             key = (self.block_name(type_), -1)
-            if key in self.module.exposed:
+            if key in exposed:
                 return
-            self.module.exposed.add(key)
+            exposed.add(key)
             for member in type_.members.values():
-                self._expose_blocks(member.type)
+                self._expose_blocks(exposed, member.type)
             derived = type_.base
             while derived is not None:
-                self.module.exposed.add((self.block_name(derived), -1))
+                exposed.add((self.block_name(derived), -1))
                 derived = derived.base
         elif isinstance(type_, t.Array):
-            self._expose_blocks(type_.element)
+            self._expose_blocks(exposed, type_.element)
         elif isinstance(type_, t.Struct):
             for member in type_.members.values():
-                self._expose_blocks(member.type)
+                self._expose_blocks(exposed, member.type)
 
 
 def qualified_name(pou: PouSymbol) -> str:

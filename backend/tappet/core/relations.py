@@ -3,14 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
+from tappet.core import ir
 from tappet.core.program import Program
 from tappet.lang import types as t
 from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
 
+Nested = dict[tuple[str, int], frozenset[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Relations:
+    """What was known of a module at some time."""
+
+    nested: Nested
+    containers: dict[str, set[str]]
+
+    @classmethod
+    def of(cls, module: ir.Module) -> Relations:
+        """What is known now; `relate` makes it anew."""
+        return cls(module.nested, module.containers)
+
+    def changed(self, module: ir.Module) -> set[str]:
+        """Data objects and block types of which something else is known in `module` now."""
+        found = set()
+        if self.nested != module.nested:
+            found |= {name for (name, _), _ in self.nested.items() ^ module.nested.items()}
+        for name in self.containers.keys() | module.containers.keys():
+            if self.containers.get(name) != module.containers.get(name):
+                found.add(name)
+        return found
+
 
 def relate(program: Program, data: Sequence[tuple[str, GvlSymbol | PouSymbol]]) -> None:
     """Which block types share bases, and which data objects hold instances of which."""
+    module = program.module
+    module.nested, module.containers, module.families = {}, {}, {}
     groups: dict[str, set[str]] = {}
     for pou in program.analysis.pous:
         if pou.kind == "FUNCTION_BLOCK" and pou.instance is not None:
@@ -22,13 +51,13 @@ def relate(program: Program, data: Sequence[tuple[str, GvlSymbol | PouSymbol]]) 
                 groups.setdefault(name, {name}).add(program.block_name(pou.instance))
     for group in groups.values():
         for name in group:
-            program.module.families[name] = frozenset(group)
+            module.families[name] = frozenset(group)
     nested: dict[int, set[str]] = {}
     for symbol, owner in data:
         holder = owner.instance if isinstance(owner, PouSymbol) else owner
         members = holder.members.values() if holder is not None else ()
         for name in _nested_blocks(program, symbol, members, nested):
-            program.module.containers.setdefault(name, set()).add(symbol)
+            module.containers.setdefault(name, set()).add(symbol)
     for pou in program.analysis.pous:
         if pou.kind == "FUNCTION_BLOCK" and pou.instance is not None:
             name = program.block_name(pou.instance)

@@ -59,21 +59,28 @@ class Initialiser:
 
     def __init__(self, program: Program) -> None:
         self.program = program
-        self.types: dict[int, Template] = {}
+        self.types: dict[int, tuple[t.Type, Template]] = {}
+        """By id() of the type."""
 
     def of_type(self, type_: t.Type) -> Template:
         """Template of a type without an initialiser of its own."""
-        found = self.types.get(id(type_))
+        known = self.types.get(id(type_))
+        found = known[1] if known is not None else None
         if found is None:
             found = Template(bytearray(type_.size))
             if isinstance(type_, t.Struct | t.FunctionBlock):
-                self.types[id(type_)] = found
+                self.types[id(type_)] = (type_, found)
                 self._members(found, type_)
             elif isinstance(type_, t.Array):
                 self._elements(found, 0, type_, None, ())
             elif isinstance(type_, t.Enum) and type_.default:
                 found.data[:] = type_.default.to_bytes(type_.size, "little", signed=type_.default < 0)
         return found
+
+    def forget(self, things: frozenset[int] | set[int]) -> None:
+        """Types given by id() may start with something else now."""
+        for key in self.types.keys() & things:
+            del self.types[key]
 
     def _members(self, template: Template, type_: t.Struct | t.FunctionBlock) -> None:
         if isinstance(type_, t.FunctionBlock) and not type_.program:

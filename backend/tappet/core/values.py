@@ -59,7 +59,7 @@ def _load(b: Body, e: ast.Expr) -> ir.Expr:
 def _this(b: Body, e: ast.Expr) -> ir.Expr:
     if b.own_data is None:
         raise b.error("there is no own instance here", e)
-    b.program.expose(b.own_data, b.block)
+    b.program.expose(b.function, b.own_data, b.block)
     return address_of(b.own_data)
 
 

@@ -71,6 +71,8 @@ class Compiler:
     def __init__(self) -> None:
         self._sessions: OrderedDict[str, BuildSession] = OrderedDict()
         self._previous: tuple[bytes, CodePackage] | None = None
+        self._built: tuple[bytes, CodePackage] | None = None
+        """The last package made here: the next order's running one, mostly."""
         self._at_work = False
         self._partial = False
         self._since = 0
@@ -96,7 +98,10 @@ class Compiler:
         return found
 
     def tidy(self) -> None:
-        """Look for garbage: after builds of everything, and now and then."""
+        """What can wait until the answer is out: what the next build needs, and looking for garbage after
+        builds of everything, and now and then."""
+        for session in self._sessions.values():
+            session.settle()
         self._since += 1
         if not self._partial or self._since >= PARTIAL_BUILDS:
             self._since = 0
@@ -123,11 +128,14 @@ class Compiler:
         result = build_application(sources, tasks, options, previous, session)
         self._partial = result.partial
         package = result.package
+        packed = package.to_bytes() if package else None
+        if package is not None and packed is not None:
+            self._built = packed, package
         change = package.online_change if package else None
         if change is not None and change.refused:
             change = replace(change, base_code_id="", reasons=(change.refused,))
         return {
-            "package": package.to_bytes() if package else None,
+            "package": packed,
             "code_id": package.code_id if package else None,
             "data_id": package.data_id if package else None,
             "change_base": (change.base_code_id or None) if change else None,
@@ -143,8 +151,11 @@ class Compiler:
         """The running package; from one build to the next it is mostly the same."""
         if not data:
             return None
-        if self._previous is None or self._previous[0] != data:
-            self._previous = data, CodePackage.from_bytes(data)
+        for known in (self._previous, self._built):
+            if known is not None and known[0] == data:
+                self._previous = known
+                return known[1]
+        self._previous = data, CodePackage.from_bytes(data)
         return self._previous[1]
 
 

@@ -50,6 +50,8 @@ class Function:
     """How many labels its text has."""
     callees: set[str] | None = None
     """Functions it calls, and keys of virtual methods, once somebody has looked."""
+    exposed: set[tuple[str, int]] = field(default_factory=set)
+    """Variables whose addresses it makes known: (data symbol or block type, root offset); offset -1 = all."""
     areas: dict[str, int] = field(default_factory=dict)
     """Bytes of the areas I, Q, M that the body reaches to."""
     assumed: dict[str, object] = field(default_factory=dict)
@@ -119,8 +121,6 @@ class Module:
     """Data objects with instances of a function block type, by its name."""
     nested: dict[tuple[str, int], frozenset[str]] = field(default_factory=dict)
     """Function block types with instances in a variable: (data symbol or type name, root offset)."""
-    exposed: set[tuple[str, int]] = field(default_factory=set)
-    """Variables reachable through pointers: (data symbol or type name, root offset); offset -1 = all."""
 
     @property
     def catches_faults(self) -> bool:

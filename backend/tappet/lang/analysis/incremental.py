@@ -48,7 +48,7 @@ def reanalyse(
     if not state.waiting:
         state.session.suggestions = 0
     changed: list[PouSymbol] = []
-    state.session.analysis = replace(previous, changed=changed, continued=True)
+    state.session.analysis = replace(previous, changed=changed, redeclared=None, continued=True)
     previous.state = None
     for old, new in pairs:
         for before, after in zip(old.declarations, new.declarations, strict=True):

@@ -11,7 +11,7 @@ add, change and take away variables, values, methods and parameters. Everything 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from tappet.lang import ast
@@ -23,7 +23,7 @@ from tappet.lang.analysis.declare import all_pous, declare
 from tappet.lang.analysis.dependents import Dependents, configures
 from tappet.lang.analysis.effects import Effects, contents, sizes
 from tappet.lang.analysis.relayout import Layout
-from tappet.lang.analysis.result import Analysis, AnalysisOptions
+from tappet.lang.analysis.result import Analysis, AnalysisOptions, Redeclared
 from tappet.lang.analysis.scope import Level
 from tappet.lang.analysis.words import Words, words_of
 from tappet.lang.diagnostics import Diagnostic
@@ -163,6 +163,7 @@ class _Again:
             session.suggestions = 0
         earlier = {uri: session.made.pop(uri) for uri in self.texts if uri in session.made}
         before, sizes_before = contents(earlier), sizes(earlier) | sizes(self.layout.made)
+        things = _ids(earlier)
         session.before = {uri: dict(table) for uri, table in earlier.items()}
         old_pous = _pous(earlier.values())
         for uri in self.texts:
@@ -193,7 +194,10 @@ class _Again:
                 state.texts.pop(id(unit), None)
         state.units = tuple(self.units)
         state.words = self.words
-        self._analyse_bodies(effects, first)
+        bodies = self._analyse_bodies(effects, first)
+        texts = self.texts | self.layout.made.keys()
+        things |= _ids(made) | _ids(self.layout.made)
+        session.analysis.redeclared = Redeclared(frozenset(texts), frozenset(things), bodies)
         return finish(state) if session.suggestions < SUGGESTION_LIMIT else None
 
     def _stays_where_it_is(self, message: Diagnostic) -> bool:
@@ -201,7 +205,8 @@ class _Again:
         the one that is laid out first."""
         return message.uri in self.texts and (message.code not in _OF_CIRCLES or not self.layout.made)
 
-    def _analyse_bodies(self, effects: Effects, first: frozenset[str] | None) -> None:
+    def _analyse_bodies(self, effects: Effects, first: frozenset[str] | None) -> list[PouSymbol]:
+        """Those of which something else may have become known."""
         state = self.state
         names = self._names_declared() if self.session.options.static.codes else frozenset()
         for pou in all_pous(state.found):
@@ -212,10 +217,12 @@ class _Again:
                 state.waiting[id(pou)] = pou
             elif words is not None and self._may_read_otherwise(record, words, names):
                 state.coding_waiting[id(pou)] = pou
+        found = list(state.waiting.values())
         if first is None or len(state.waiting) + len(state.coding_waiting) <= AT_ONCE:
             state.analyse_waiting()
         else:
             state.analyse_waiting(first=first | self.edited.keys())
+        return found
 
     def _names_declared(self) -> frozenset[str]:
         """Names of which coding rules may see something else now."""
@@ -294,6 +301,11 @@ class _Again:
                 state.coding_waiting.pop(id(pou), None)
                 state.session.calls.pop(id(pou), None)
                 state.found.own.pop(id(pou), None)
+
+
+def _ids(made: Mapping[str, Mapping[Key, object]]) -> set[int]:
+    """id() of all that stands for the declarations of some texts."""
+    return {id(thing) for table in made.values() for thing in table.values()}
 
 
 def _pous(tables: Iterable[dict[Key, object]]) -> list[PouSymbol]:

@@ -141,6 +141,18 @@ class ConfiguredAddress:
     """Of a marker: offset in the list `AGREED` of the value that it and the variable had last."""
 
 
+@dataclass(frozen=True, slots=True)
+class Redeclared:
+    """What an edit of declarations has made new; everything else is as in the previous analysis."""
+
+    texts: frozenset[str]
+    """Uris of the texts that were declared again."""
+    things: frozenset[int]
+    """id() of all symbols and types that stand for the declarations of these texts, or stood for them."""
+    bodies: list[PouSymbol]
+    """POUs, methods and accessors whose bodies were analysed again."""
+
+
 @dataclass(slots=True)
 class Analysis:
     """A checked program. Names in dictionaries are upper case."""
@@ -164,6 +176,8 @@ class Analysis:
     """id() of every POU that code calls, instantiates or takes the address of."""
     changed: list[PouSymbol] | None = None
     """POUs, methods and accessors with a new body since the previous analysis; None: everything is new."""
+    redeclared: Redeclared | None = None
+    """What is new when declarations were edited; None: everything, or what `changed` says."""
     continued: bool = False
     """Whether symbols of the previous analysis live on here."""
     is_waiting: bool = False
@@ -210,6 +224,7 @@ __all__ = [
     "Analysis",
     "AnalysisOptions",
     "ConfiguredAddress",
+    "Redeclared",
     "VarSymbol",
     "carried_type",
     "yields_reference",

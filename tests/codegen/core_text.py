@@ -1,0 +1,63 @@
+"""The core form of an application as text, to be compared."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from tappet.core import ir
+
+
+def functions(module: ir.Module) -> dict[str, str]:
+    """Every function that is called, or called from outside, by name."""
+    found: dict[str, str] = {}
+    todo = [name for name, function in module.functions.items() if function.exported]
+    while todo:
+        name = todo.pop()
+        if name not in found and name in module.functions:
+            text = _Text(module)
+            found[name] = text.function(module.functions[name])
+            todo += text.called
+    return found
+
+
+_LEFT_OUT = {"weight", "callees", "loops", "locals"}
+
+
+class _Text:
+    """The text of one function."""
+
+    def __init__(self, module: ir.Module) -> None:
+        self.module = module
+        self.called: list[str] = []
+        self.numbers: dict[int, int] = {}
+
+    def function(self, function: ir.Function) -> str:
+        parts = [
+            f"{f.name}={self.of(getattr(function, f.name))}"
+            for f in fields(function)
+            if f.name not in _LEFT_OUT
+        ]
+        return "\n".join(parts)
+
+    def of(self, thing: object) -> str:
+        if isinstance(thing, ir.Local):
+            number = self.numbers.setdefault(id(thing), len(self.numbers))
+            return f"local{number}:{thing.name}:{thing.size}:{thing.align}:{thing.type}"
+        if isinstance(thing, (ir.Call, ir.FunctionAddress)):
+            self.called.append(thing.function if isinstance(thing, ir.Call) else thing.name)
+        if isinstance(thing, ir.VirtualMethod):
+            self.called += thing.targets.values()
+            return f"{thing.key} {sorted(thing.targets.items())}"
+        if isinstance(thing, (list, tuple)):
+            return "[" + "\n".join(self.of(part) for part in thing) + "]"
+        if isinstance(thing, (set, frozenset)):
+            return str(sorted(map(self.of, thing)))
+        if isinstance(thing, dict):
+            return str(sorted(self.of(key) + ":" + self.of(value) for key, value in thing.items()))
+        names = [f.name for f in fields(thing)] if isinstance(thing, _NODES) else []
+        if names:
+            return f"{thing.__class__.__name__}({', '.join(self.of(getattr(thing, n)) for n in names)})"
+        return repr(thing)
+
+
+_NODES = (ir.Expr, ir.Stmt, ir.Place, ir.Subscript, ir.Indirect, ir.SwitchCase, ir.Parameter)
