@@ -106,3 +106,17 @@ def test_an_archive_of_a_twincat_project_is_unpacked(tmp_path: Path) -> None:
     assert code == 0, said
     assert "Readme" not in said
     assert "Packing line: " in said.splitlines()[-1]
+
+
+def test_libraries_that_are_not_installed_are_named(tmp_path: Path) -> None:
+    project = tmp_path / "Line.plcproj"
+    names = ("Tc2_Standard", "Util", "Plant Parts")
+    references = "".join(f'<PlaceholderReference Include="{name}"/>' for name in names)
+    project.write_text(f"<Project><ItemGroup>{references}</ItemGroup></Project>")
+    code, said = tappet("import", project, "--to", tmp_path / "line")
+    assert code == 0, said
+    lines = [line for line in said.splitlines() if "not installed" in line]
+    assert len(lines) == 1
+    assert (
+        "kept Plant Parts: the library is not installed: what it declares is unknown until it is" in lines[0]
+    )

@@ -9,6 +9,7 @@ import typer
 
 from tappet.cli.inputs import is_project, load_project
 from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
+from tappet.libraries.missing import tell_missing
 from tappet.project import folder
 from tappet.project.errors import ProjectError
 from tappet.project.exchange import ARCHIVES, ImportReport, import_files, importable, is_importable
@@ -45,6 +46,7 @@ def import_project(
         folder.save(project, to)
     except ProjectError as error:
         raise UsageError(str(error)) from error
+    tell_missing(project, report)
     _show(project, report, to, output)
 
 

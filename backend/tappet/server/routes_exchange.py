@@ -8,6 +8,7 @@ from fastapi import APIRouter, Form, Query, UploadFile
 from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
+from tappet.libraries.missing import tell_missing
 from tappet.project.errors import FolderFormatError
 from tappet.project.exchange import ARCHIVES, ImportReport, Place, import_files, importable
 from tappet.project.exchange.parts import part_of, st_files
@@ -49,6 +50,7 @@ def preview_files(
     """What an import of these files would bring, and what it would say; nothing is changed."""
     project = store.load(project_id) if project_id is not None else None
     imported = import_files(_uploaded(files), project, where=_place(place))
+    tell_missing(imported.project, imported.report)
     return ImportPreview(name=imported.project.name, nodes=imported.nodes, report=imported.report)
 
 
@@ -64,6 +66,7 @@ def import_files_as_project(
     """Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, archives of them, or our own one."""
     imported = import_files(_uploaded(files), name=name or "", chosen=_keys(chosen))
     content = imported.project
+    tell_missing(content, imported.report)
     info = store.create_project(
         name or content.name,
         who.username,
@@ -95,6 +98,7 @@ def import_files_into_project(
 
     def grown(project: Project) -> tuple[Project, ImportReport]:
         imported = import_files(content, project, where=where, chosen=keys)
+        tell_missing(imported.project, imported.report)
         return imported.project, imported.report
 
     report = store.edit(project_id, who.username, "import", grown, _named(files))

@@ -18,10 +18,11 @@ def reference(
     """The data of a library reference. Versions of other systems say nothing here, so any will do."""
     ours = _SAME.get(name.casefold())
     if ours is not None:
-        report.add("changed", source, f"the library became '{ours}'", name=name, line=line)
+        text = f"its contents are in '{ours}', which takes its place"
+        report.add("changed", source, text, name=name, line=line)
         return {"name": ours, "version": "*", "namespace": namespace or name}
     if version not in ("*", "") and name.casefold() != "standard":
-        text = f"version {version} is not asked for: any version is taken"
+        text = f"the file names version {version}; any version that is installed is taken"
         report.add("changed", source, text, name=name, line=line)
     return {"name": name, "version": "*", "namespace": "" if namespace == name else namespace}
 

@@ -1,0 +1,22 @@
+"""After an import: which libraries the project names that are not installed here."""
+
+from __future__ import annotations
+
+from tappet.libraries import repository
+from tappet.project.data import LibraryManagerData
+from tappet.project.exchange import ImportReport
+from tappet.project.model import Project
+
+
+def tell_missing(project: Project, report: ImportReport) -> None:
+    """One entry for each library that is referenced and not installed."""
+    for item in project.find_kind("library_manager"):
+        if not isinstance(item.data, LibraryManagerData):
+            continue
+        for reference in item.data.references:
+            try:
+                repository.find(reference.name, reference.version)
+            except repository.UnknownLibraryError:
+                text = "the library is not installed: what it declares is unknown until it is"
+                place = project.path_of(item.id)
+                report.add("kept", place, text, name=reference.name, object_id=item.id)
