@@ -48,8 +48,9 @@ class EditMaker(ProgramMaker):
         self.renewed: dict[Any, Any] = {}
         if level == "everything":
             self.types = []
-            for made in old.types:
-                self.renewed[made] = self._edited_type(made)
+            shared = [t for u in old.types if isinstance(u, Struct) and u.union for _, t in u.members]
+            for made in old.types:  # which of two changed members of a union stays is not settled
+                self.renewed[made] = made if made in shared else self._edited_type(made)
                 self.types.append(self.renewed[made])
             self.globals = self._edited(old.globals, "gv")
             self.functions = []

@@ -358,7 +358,7 @@ class Machine:
             return compare(e.op, left, right)
         if e.op in ("AND", "OR", "XOR"):
             return bitwise(e.op, left, right, e.computed)
-        if self.program.checks and right == 0 and e.op in ("/", "MOD"):
+        if self.program.checks and right == 0 and e.op in ("/", "MOD") and not e.constant:
             right = convert(1, e.computed)
         return arithmetic(e.op, left, right, e.computed)
 

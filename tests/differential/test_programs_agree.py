@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from programs import ProgramMaker
 
 QUICK = settings(
-    max_examples=15,
+    max_examples=10,
     deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much],
