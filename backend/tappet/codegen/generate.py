@@ -26,6 +26,7 @@ from tappet.codegen.symbols_build import (
     remanent_variables,
 )
 from tappet.codegen.tasks import event_place
+from tappet.codegen.watched import watched_values
 from tappet.core import passes
 from tappet.core.effects import EffectsTable
 from tappet.core.grounds import Grounds
@@ -157,6 +158,7 @@ class Generator:
                 "byte_addressing": self.options.byte_addressing,
                 "signatures": laid.signatures,
                 "created": self.created(lowered),
+                "watched": watched_values(lowered, laid.placed.objects),
             },
         )
         package.code_id = code_id(package, self.program)

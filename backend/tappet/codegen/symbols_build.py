@@ -16,9 +16,10 @@ from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
 from tappet.core.lower import DataObject as ProgramData
 from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
 from tappet.core.templates import VFTABLE
+from tappet.core.watched_properties import is_watchable
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.monitored import SHOWN
+from tappet.lang.analysis.monitored import CALLED, SHOWN
 from tappet.lang.analysis.result import ConfiguredAddress
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Kind
@@ -143,6 +144,9 @@ class TypeTable:
         name = m.name
         if m.decl is not None and m.decl.attributes:
             name = attribute_value(m.decl.attributes, SHOWN) or name
+            if attribute_value(m.decl.attributes, CALLED) is not None and not is_watchable(m.type):
+                name = m.name
+                flags.add("HIDDEN")
         return MemberInfo(name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
 
 

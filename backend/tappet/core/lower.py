@@ -21,6 +21,7 @@ from tappet.core import (
     places,
     properties,
     templates,
+    watched_properties,
 )
 from tappet.core.body import Body
 from tappet.core.method_tables import number_methods
@@ -258,7 +259,17 @@ def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
         if pou is not None:
             function.body.append(ir.Evaluate(ir.Call(ir.VOID, program.function(pou), [])))
     function.body += after
+    function.body += watched_properties.refresh(program, *_served(program, task, tasks))
     program.module.functions[task.symbol] = function
+
+
+def _served(program: Program, task: Task, tasks: Sequence[Task]) -> tuple[list[PouSymbol], list[GvlSymbol]]:
+    """Programs and lists whose watched properties a task serves: each program the first task that calls it,
+    the lists the first task of all."""
+    earlier = {n.upper() for other in tasks[: tasks.index(task)] for n in other.programs}
+    names = [n.upper() for n in task.programs if n.upper() not in earlier]
+    found = [program.analysis.programs[n] for n in dict.fromkeys(names) if n in program.analysis.programs]
+    return found, program.analysis.gvls if task == tasks[0] else []
 
 
 def _export_functions(program: Program) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Iterable, Sequence
 
 from tappet.codegen.symbol_map import SymbolMap
@@ -13,6 +14,10 @@ from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.tasks import TaskStatistics
+
+_PATIENCE_S = 0.5
+"""How long reading waits for a property that is monitored by a call."""
+_MOMENT_S = 0.002
 
 
 class PlcError(RuntimeError):
@@ -41,7 +46,17 @@ class ApplicationAccess:
         return self._need().package.symbols
 
     def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes at (offset, size) places of the image."""
+        """Bytes at (offset, size) places of the image; properties that are monitored by a call are as of now
+        where the tasks run."""
+        with self._lock:
+            application = self._need()
+            asked = application.watched.lease(places)
+        end = time.monotonic() + _PATIENCE_S
+        while asked and application.calls_watched and time.monotonic() < end:
+            time.sleep(_MOMENT_S)
+            with self._lock:
+                if self.application is not application or application.watched.arrived(asked):
+                    break
         with self._lock:
             return self._need().read(places)
 

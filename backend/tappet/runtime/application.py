@@ -21,6 +21,7 @@ from tappet.runtime.retain import LIVE, Kept, KeptValue, Remanent, RetainFile, m
 from tappet.runtime.task_group import TaskError, TaskGroup
 from tappet.runtime.tasks import TaskOwnership, TaskStatistics, read_statistics
 from tappet.runtime.threads import NORMAL, Scheduling
+from tappet.runtime.watched import WatchedProperties
 
 QUEUE_LENGTH = 256
 _READ_TRIES = 50
@@ -56,6 +57,8 @@ class LoadedApplication:
         self.ownership = TaskOwnership(package)
         self.forces = ForceTable()
         self.recorders: dict[int, list[Recorder]] = {}
+        self.watched = WatchedProperties(self.image)
+        self.watched.load(package)
         self.retain_file: RetainFile | None = None
         self.buffers = IoBuffers(Block(self.area("I")[1]), Block(self.area("Q")[1]), Block(8))
         self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
@@ -371,6 +374,16 @@ class LoadedApplication:
         listed = RecorderList(self.executive, recorders)
         self.recorders[task] = recorders
         self.tasks.publish(cell, listed.address if recorders else 0, listed)
+        self.ask_for_watched()
+
+    def ask_for_watched(self) -> None:
+        """Have Get called for the properties that are watched now."""
+        self.watched.update(place for found in self.recorders.values() for r in found for place in r.located)
+
+    @property
+    def calls_watched(self) -> bool:
+        """Whether cycles run by themselves, so that it is worth waiting for a value."""
+        return not self.virtual and self.tasks.state == RUNNING
 
     def task_number(self, name: str | None) -> int:
         """Index of a task; the bus cycle task for None. ValueError when there is none."""

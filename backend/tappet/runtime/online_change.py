@@ -85,6 +85,7 @@ def apply_change(
         application.package = package
         application.connect_code(code)
         lost = _relocate(application, running, package)
+        application.watched.load(package)
         remanence = (running.retain, running.persistent) != (package.retain, package.persistent)
         if remanence and retain_folder is not None:
             application.open_retain_file(retain_folder)

@@ -26,6 +26,7 @@ from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
+from tappet.runtime.places import Place, path_at
 from tappet.runtime.reports import build_report, summary
 from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
 from tappet.runtime.task_group import TaskError
@@ -135,6 +136,7 @@ class SoftPlc(ApplicationAccess):
         with self._lock:
             if self.application is not None:
                 self.application.tasks.collect()
+                self._tell_failed(self.application)
             state = self.state
             if state == "exception" and self._report is None:
                 report = self._report = build_report(self._need(), self.log)
@@ -143,6 +145,14 @@ class SoftPlc(ApplicationAccess):
                 entered = state == "exception"
                 self._seen_state = state
                 self._tell("exception" if entered else "state")
+
+    def _tell_failed(self, application: LoadedApplication) -> None:
+        """Note the watched properties whose Get has ended in an exception; the application runs on."""
+        application.ask_for_watched()
+        for offset, size in application.watched.failed():
+            name = path_at(application.package.symbols, Place(offset, size)) or f"offset {offset}"
+            text = f"monitoring '{name}' ended in an exception of its Get, which is called no more"
+            self.log.add("warning", "monitoring", text)
 
     def _tell(self, kind: str) -> None:
         self._seen_state = self.state
@@ -171,7 +181,9 @@ class SoftPlc(ApplicationAccess):
         with self._lock:
             application = self._need()
             if application.tasks.state != STOPPED:
-                raise PlcError(f"a single cycle needs a stopped application; this one is in state {self.state}")
+                raise PlcError(
+                    f"a single cycle needs a stopped application; this one is in state {self.state}"
+                )
             if self.virtual:
                 raise PlcError("a single cycle needs real time; virtual time is advanced instead")
             self.log.add("info", "application", f"{application.package.application}: single cycle")

@@ -6,7 +6,7 @@ from tappet.lang import ast
 from tappet.lang.analysis.collect_variables import check_name, collect_variables
 from tappet.lang.analysis.collected import Collected, OwnVariables
 from tappet.lang.analysis.context import Session
-from tappet.lang.analysis.monitored import keeping_variable
+from tappet.lang.analysis.monitored import keeping_variables
 from tappet.lang.analysis.same_names import check_result, is_free, member_named, report_twice
 from tappet.lang.source import Source
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, Storage, VarSymbol
@@ -64,8 +64,7 @@ def collect_property(
     symbol = session.stand_for(symbol, source.uri, owner.qualified_name)
     check_name(session, property_.name, source, property_.name_span)
     owner.properties[property_.name.upper()] = symbol
-    kept = keeping_variable(owner, property_, source)
-    if kept is not None:
+    for kept in keeping_variables(owner, property_, source):
         kept = session.stand_for(kept, source.uri, owner.qualified_name)
         assert kept.decl is not None
         kept.decl.symbol = kept
