@@ -6,6 +6,7 @@ import pytest
 from plc_programs import FAULTY_POUS, build
 
 from tappet.codegen.faults import Fault
+from tappet.core.guarded import RECORD_SIZE
 from tappet.lang.exceptions import CODES
 from tappet.runtime.local import ApplicationException, LocalRuntime
 
@@ -122,3 +123,33 @@ END_PROGRAM
         assert runtime.exception is None
         runtime.run(cycles=1)
         assert runtime.read("PLC_PRG.careful.value") == -1
+
+
+def test_a_fault_keeps_its_place_while_finally_catches_another() -> None:
+    text = (
+        FAULTY_POUS
+        + """PROGRAM PLC_PRG
+VAR zero, n : DINT; END_VAR
+__TRY
+    n := Quotient(1, zero);
+__FINALLY
+    __TRY
+        n := 2 / zero;
+    __CATCH
+        n := 3;
+    __ENDTRY
+__ENDTRY
+END_PROGRAM
+"""
+    )
+    with LocalRuntime(build(text)) as runtime:
+        with pytest.raises(ApplicationException) as ended:
+            runtime.run(cycles=1)
+        assert (ended.value.report.code, ended.value.report.pou) == (Fault.DIV_ZERO, "Quotient")
+        assert runtime.read("PLC_PRG.n") == 3
+
+
+def test_what_is_kept_of_a_fault_has_room(running: LocalRuntime) -> None:
+    application = running.plc.application
+    assert application is not None
+    assert application.executive.layouts["FAULT_RECORD"].size <= RECORD_SIZE

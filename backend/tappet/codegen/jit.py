@@ -32,10 +32,22 @@ define void @tappet_fault(i32 %code, i64 %a, i64 %b, i64 %c) noreturn {
   store i64 %a, ptr getelementptr (i8, ptr @tappet.fault, i64 8)
   store i64 %b, ptr getelementptr (i8, ptr @tappet.fault, i64 16)
   store i64 %c, ptr getelementptr (i8, ptr @tappet.fault, i64 24)
-  call void @tappet_rethrow(i32 %code)
+  call void @tappet.leave(i32 %code)
   unreachable
 }
-define void @tappet_rethrow(i32 %code) noreturn {
+define void @tappet_keep_fault(i64 %record) {
+  %place = inttoptr i64 %record to ptr
+  call void @llvm.memcpy.p0.p0.i64(ptr %place, ptr @tappet.fault, i64 32, i1 false)
+  ret void
+}
+define void @tappet_rethrow(i32 %code, i64 %record) noreturn {
+  %place = inttoptr i64 %record to ptr
+  call void @llvm.memcpy.p0.p0.i64(ptr @tappet.fault, ptr %place, i64 32, i1 false)
+  call void @tappet.leave(i32 %code)
+  unreachable
+}
+declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)
+define internal void @tappet.leave(i32 %code) noreturn {
   %target = load ptr, ptr @tappet.target
   call void @longjmp(ptr %target, i32 %code)
   unreachable

@@ -17,6 +17,8 @@ from tappet.core.body import Body
 
 BUFFER_SIZE = 512
 """Bytes of a jmp_buf, more than any C library needs."""
+RECORD_SIZE = 640
+"""Bytes of what the runtime knows of a fault, at least (FAULT_RECORD)."""
 
 
 @dataclass(slots=True)
@@ -39,7 +41,8 @@ def externals(b: Body) -> None:
     """Import what the runtime offers."""
     for function in (
         ir.External(ir.GUARD, [ir.U64], ir.U64),
-        ir.External("tappet_rethrow", [ir.I32], ir.VOID, noreturn=True),
+        ir.External("tappet_keep_fault", [ir.U64]),
+        ir.External("tappet_rethrow", [ir.I32, ir.U64], ir.VOID, noreturn=True),
         ir.External("tappet_exception_code", [ir.I32], ir.U32),
     ):
         b.program.module.externals.setdefault(function.name, function)
@@ -87,9 +90,12 @@ def guarded(
 
 
 def pass_on(b: Body, guard: Guard, fault: ir.Local) -> None:
-    """A handler that lets the fault go on to the next guard, after `__FINALLY`."""
+    """A handler that lets the fault go on to the next guard, after `__FINALLY`, which may catch faults of its
+    own meanwhile."""
     read = ir.Load(ir.I32, ir.Place(fault))
-    go_to_final(b, guard, lambda: b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_rethrow", [read]))))
+    record = ir.Convert(ir.U64, ir.Address(ir.PTR, ir.Place(b.space(RECORD_SIZE, 8))))
+    b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_keep_fault", [record])))
+    go_to_final(b, guard, lambda: b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_rethrow", [read, record]))))
 
 
 def leave(b: Body, crossed: Sequence[Guard], exit_: Callable[[], None]) -> None:

@@ -36,7 +36,7 @@ ENTRIES = (
 
 SERVICES = (
     "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
-    "tappet_rethrow", "tappet_exception_code",
+    "tappet_keep_fault", "tappet_rethrow", "tappet_exception_code",
     "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_allocate", "tappet_release",
 )  # fmt: skip
 """What compiled applications and libraries may call."""
