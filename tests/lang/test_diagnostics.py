@@ -72,7 +72,7 @@ def test_a_message_is_said_in_another_language() -> None:
     assert said(made.code, english, made.facts, "zh").message == "不能将类型“INT”转换为类型“BYTE”"
     hinted = report("E0201", "PLC_PRG", span, name="Spd", hint="Did you mean 'Speed'?")
     told = said(hinted.code, Texts(hinted.message, hinted.advice), hinted.facts, "zh")
-    assert told == ("标识符“Spd”未定义", "Did you mean 'Speed'?")
+    assert told == ("标识符“Spd”未定义", "是否指“Speed”？")
     assert [language_of(tag) for tag in ("zh-CN", "zh", "en-US", "de", None)] == [
         "zh",
         "zh",

@@ -7,7 +7,7 @@ from typing import Final
 
 from lsprotocol import types as lsp
 
-from tappet.lang.diagnostic_translations import Language, Texts, said
+from tappet.lang.diagnostic_translations import Language, Texts, phrase, said
 from tappet.lang.services.documents import Place, Position
 from tappet.lang.services.formatting import Style
 from tappet.lang.services.results import (
@@ -285,7 +285,7 @@ def diagnostics(
             message = f"{message}. {advice}"
         tag = _TAGS.get(report.code)
         related = [
-            lsp.DiagnosticRelatedInformation(location(item.place, lines), item.message)
+            lsp.DiagnosticRelatedInformation(location(item.place, lines), phrase(item.message, language))
             for item in report.related
         ]
         found.append(
