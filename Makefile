@@ -7,26 +7,32 @@ PORT   ?= 8080
 DATA   ?= data
 
 .DEFAULT_GOAL := run
-.PHONY: run test test-all fuzz check format lock system generate pictures clean
+.PHONY: run test test-all test-frontend fuzz check check-backend check-frontend check-types format lock system generate pictures clean
 
 ## run: set everything up, then serve the IDE with a running example machine and print its address
 run: $(VENV)/.ready frontend/dist/.ready
 	$(BIN)/tappet serve --port $(PORT) --data $(DATA) --example bottling --local-link
 
-# Browsers want the machine for themselves: their tests come last, two at a time.
+# Steps that need nothing of each other run beside each other; what each one prints stays together.
+BESIDE := $(MAKE) --no-print-directory -j 2 $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
+CHECKS := check-frontend check-backend check-types
+
+# Browsers want the machine for themselves: their tests come last, two at a time. There are few and they are long:
+# who has nothing left to do takes over some of the other's.
 PARALLEL := -n 2 --dist loadfile
+BROWSERS := -n 2 --dist worksteal
 
 ## test: all fast tests, those in a real browser included
-test: $(VENV)/.ready frontend/dist/.ready system check
-	cd frontend && npm run --silent test
+test:
+	@$(BESIDE) system $(CHECKS) test-frontend frontend/dist/.ready
 	$(BIN)/python -m pytest -m "not slow and not e2e" $(PARALLEL)
-	$(BIN)/python -m pytest -m "not slow and e2e" $(PARALLEL)
+	$(BIN)/python -m pytest -m "not slow and e2e" $(BROWSERS)
 
 ## test-all: the slow suites as well
-test-all: $(VENV)/.ready frontend/dist/.ready system check
-	cd frontend && npm run --silent test
+test-all:
+	@$(BESIDE) system $(CHECKS) test-frontend frontend/dist/.ready
 	$(BIN)/python -m pytest -m "not e2e" $(PARALLEL)
-	$(BIN)/python -m pytest -m e2e $(PARALLEL)
+	$(BIN)/python -m pytest -m e2e $(BROWSERS)
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
 FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \
@@ -36,12 +42,23 @@ fuzz: $(VENV)/.ready
 	for name in $(FUZZ); do $(BIN)/python -m tests.fuzz $$name --seconds $(SECONDS) --to build/fuzz || exit 1; done
 
 ## check: format, lint, types, imports
-check: $(VENV)/.ready frontend/node_modules/.ready
+check:
+	@$(BESIDE) $(CHECKS)
+
+check-backend: $(VENV)/.ready
 	$(BIN)/ruff format --check backend tests
 	$(BIN)/ruff check backend tests
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
-	cd frontend && npm run --silent lint && npm run --silent typecheck
+
+check-frontend: frontend/node_modules/.ready
+	cd frontend && npm run --silent lint
+
+check-types: frontend/node_modules/.ready
+	cd frontend && npm run --silent typecheck
+
+test-frontend: frontend/node_modules/.ready
+	cd frontend && npm run --silent test
 
 format: $(VENV)/.ready
 	$(BIN)/ruff format backend tests
