@@ -9,18 +9,19 @@ from contextlib import contextmanager
 import core_text
 import pytest
 from compiled_programs import change_over
-from edited_declarations import CHOICES, EDITS, VALUES, build
+from edited_declarations import CHOICES, EDITS, OPTIONS, VALUES, build
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tappet.codegen import generate
-from tappet.codegen.build import BuildSession
+from tappet.codegen.build import BuildSession, build_application
 from tappet.codegen.generate import Generated
 from tappet.codegen.jit import ApplicationFault, LoadedApplication, loaded
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.core.lower import lower_pou
 from tappet.core.program import Program
+from tappet.lang.source import Source
 from tappet.lang.symbols import PouSymbol
 
 
@@ -274,3 +275,34 @@ def test_what_a_session_keeps_does_not_grow() -> None:
         table = generated.laid.table
         assert len(table.types) <= table.limit + len(table.types) // 2
     assert rounds[1] == rounds[2]
+
+
+WATCHED = """FUNCTION_BLOCK FB
+VAR {lead}n : DINT; END_VAR
+{{attribute 'monitoring' := 'call'}}
+PROPERTY Twice : DINT
+GET
+Twice := n * 2;
+END_GET
+END_PROPERTY
+n := n + 1;
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG VAR a : FB; b : ARRAY [0..3] OF FB; END_VAR
+a(); b[1]();
+END_PROGRAM
+"""
+
+
+@pytest.mark.usefixtures("no_machine_code")
+def test_functions_made_for_a_block_follow_its_layout() -> None:
+    session = BuildSession()
+    running: CodePackage | None = None
+    for lead in ("", "lead : LREAL; ", "lead : STRING(30); ", ""):
+        texts, other = [Source("FB", WATCHED.format(lead=lead))], BuildSession()
+        after = build_application(texts, (), OPTIONS, running, session)
+        build_application(texts, (), OPTIONS, running, other)
+        assert session.generated is not None
+        assert other.generated is not None
+        assert after.partial == (running is not None)
+        assert differences(session.generated, other.generated) == []
+        running = running or after.package

@@ -119,7 +119,7 @@ def _monitor(program: Program, type_: t.FunctionBlock) -> str:
         function.body = [*b.entry, *b.out]
         program.module.functions[key] = function
 
-    program.queue.append(lower)
+    program.make_for(type_, key, lower)
     return key
 
 
