@@ -118,7 +118,7 @@ class _Plan:
             self.move(old_at, new_at, min(old.size, new.size - unit))
 
     def elements(self, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int) -> None:
-        """Move the elements whose indices both arrays have; of several dimensions only if they are the same."""
+        """Move the elements whose indices both arrays have; several dimensions must be the same."""
         if old.elem is None or new.elem is None:
             return
         old_size, new_size = self.old.types[old.elem].size, self.new.types[new.elem].size
