@@ -159,9 +159,9 @@ async def test_wrong_token_is_refused_and_logged() -> None:
 
 
 async def test_no_runtime_at_that_address() -> None:
-    with pytest.raises(ConnectionLost, match="no runtime at .*nothing listens there"):
+    with pytest.raises(ConnectionLost, match=r"no runtime at .*nothing listens there"):
         await RuntimeClient.connect("ws://127.0.0.1:1", TOKEN)
-    with pytest.raises(ConnectionLost, match="no runtime at .*(not known|resolution|associated)"):
+    with pytest.raises(ConnectionLost, match=r"no runtime at .*(not known|resolution|associated)"):
         await RuntimeClient.connect("ws://no-such-host.invalid:1", TOKEN)
 
 

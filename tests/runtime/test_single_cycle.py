@@ -10,7 +10,10 @@ from tappet.runtime.access import PlcError
 from tappet.runtime.plc import SoftPlc
 
 FAST = "PROGRAM Fast\nVAR n : DINT; END_VAR\nn := n + 2;\nEND_PROGRAM\n"
-SLOW = "PROGRAM Slow\nVAR n : DINT; left : DINT := 3; END_VAR\nn := n + 1;\nn := n + 0 / (left + 1 - n);\nEND_PROGRAM\n"
+SLOW = (
+    "PROGRAM Slow\nVAR n : DINT; left : DINT := 3; END_VAR\n"
+    "n := n + 1;\nn := n + 0 / (left + 1 - n);\nEND_PROGRAM\n"
+)
 TASKS = (
     TaskSpec("FastTask", "cyclic", MS, 1, programs=("Fast",)),
     TaskSpec("SlowTask", "cyclic", 40 * MS, 2, programs=("Slow",)),
@@ -58,7 +61,8 @@ def test_an_exception_in_it_is_one_of_the_application(plc: SoftPlc) -> None:
     for _ in range(4):
         plc.single_cycle()
     report = plc.exception()
-    assert report is not None and (report.task, report.pou) == ("SlowTask", "Slow")
+    assert report is not None
+    assert (report.task, report.pou) == ("SlowTask", "Slow")
     with pytest.raises(PlcError, match="state exception"):
         plc.single_cycle()
 

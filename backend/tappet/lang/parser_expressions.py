@@ -124,7 +124,8 @@ class ExpressionParser(Core, ABC):
             self.i += 1
             right = self.binary(precedence)
             a, b = left.span, right.span
-            around = kinds[start] == "(" or kinds[self.i - 1] == ")"  # of an operand: they belong to the whole
+            # Parentheses of an operand belong to the whole.
+            around = kinds[start] == "(" or kinds[self.i - 1] == ")"
             left = ast.Binary(
                 span=self.span_from(start) if around else make_span((a[0], a[1], b[2], b[3])),
                 op="AND" if operator == "&" else operator,

@@ -88,7 +88,8 @@ class Connection:
         self._upload: bytearray | None = None
         self._upload_size = 0
         self._operations: dict[str, Callable[[Fields], Awaitable[Any]]] = {
-            "info": self._info, "start": self._start, "stop": self._stop, "single_cycle": self._single_cycle, "reset": self._reset,
+            "info": self._info, "start": self._start, "stop": self._stop, "reset": self._reset,
+            "single_cycle": self._single_cycle,
             "download_begin": self._download_begin, "download_chunk": self._download_chunk,
             "download_commit": self._download_commit, "symbols": self._symbols, "read": self._read,
             "write": self._write, "force": self._force, "unforce": self._unforce, "forces": self._forces,
