@@ -116,6 +116,18 @@ def test_a_drawn_body_is_kept() -> None:
     assert [entry.outcome for entry in done.report.entries] == ["kept"]
 
 
+def test_an_accessor_of_another_name_is_refused() -> None:
+    items = [
+        Item(5, 0, "pou", "FB_Press", "FUNCTION_BLOCK FB_Press", ""),
+        Item(7, 5, "property", "Force", "PROPERTY Force : REAL"),
+        Item(8, 7, "accessor", "Fetch", "", "Force := 1;"),
+    ]
+    done = import_files({"one.export": native(items)})
+    (told,) = done.report.noteworthy()
+    assert (told.object, told.outcome) == ("Fetch", "refused")
+    assert "is named Get or Set, not 'Fetch'" in told.text
+
+
 @pytest.mark.parametrize(
     ("content", "text"),
     [

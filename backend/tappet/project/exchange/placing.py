@@ -294,6 +294,7 @@ class _Placer:
         rule = RULES.get(draft.kind)
         naming = rule.naming if rule is not None else "free"
         if naming == "fixed":
+            check_spelling(draft.kind, name)
             return name
         try:
             check_spelling(draft.kind, name)
