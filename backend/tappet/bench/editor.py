@@ -2,8 +2,8 @@
 
 What is timed is the language server as the browser talks to it: the notification `didChange` goes in, the
 messages of the edited document come out. Only the pause that the server waits for the typing to stop is not
-counted; it is kept between two edits, because the server looks for garbage then. The baseline is the check of
-the whole project when its first document is opened.
+counted; it is kept between two edits, because the server prepares the next check then. The baseline is the
+check of the whole project when its first document is opened.
 
 The project is that of the build benchmark with a list of global variables, a recipe and a counter: each block
 uses one of the variables and has a counter, each tenth calls a method of the recipe. An edit of the counter

@@ -34,6 +34,10 @@ from tappet.server.lsp.positions import Line, apply_change, lines_of, to_positio
 
 DEBOUNCE_S: Final = 0.3
 """Pause in the typing after which messages are worked out anew."""
+IDLE_S: Final = 2.0
+"""Pause without edits after which garbage is looked for, which takes longer than a check."""
+UNTIDY: Final = 3
+"""So many whole analyses leave garbage at most, also when edits never pause."""
 SLICE_S: Final = 0.03
 """Requests and edits wait at most so long for a check that goes on behind the messages of the edited text."""
 MAX_DOCUMENT: Final = 4_000_000
@@ -112,6 +116,7 @@ class LanguageSession:
         self._timer: asyncio.TimerHandle | None = None
         self._publishing: asyncio.Task[None] | None = None
         self._again = False
+        self._tidying: asyncio.TimerHandle | None = None
         self._tidied = 0
         """Whole analyses of the workspace whose garbage is gone."""
 
@@ -126,8 +131,9 @@ class LanguageSession:
 
     async def close(self) -> None:
         """End the session."""
-        if self._timer is not None:
-            self._timer.cancel()
+        for timer in (self._timer, self._tidying):
+            if timer is not None:
+                timer.cancel()
         if self._publishing is not None:
             self._publishing.cancel()
             with contextlib.suppress(asyncio.CancelledError):
@@ -299,8 +305,9 @@ class LanguageSession:
 
     def _schedule(self) -> None:
         """Work the messages out when the typing pauses."""
-        if self._timer is not None:
-            self._timer.cancel()
+        for timer in (self._timer, self._tidying):
+            if timer is not None:
+                timer.cancel()
         self._timer = self._loop.call_later(self._debounce_s, self._publish_soon)
 
     def _publish_soon(self) -> None:
@@ -321,8 +328,9 @@ class LanguageSession:
                 # The session goes on: the next change of a text tries again.
                 log.exception("the messages of a program could not be worked out")
                 return
-            await self.endpoint.run(self._tidy)
+            await self.endpoint.run(self._prepare)
             if not self._again:
+                self._tidy_later()
                 return
 
     async def _work_on(self) -> bool:
@@ -360,13 +368,25 @@ class LanguageSession:
         with room_for_trees():
             return self._new_messages(self.workspace.snapshots(), None)
 
-    def _tidy(self) -> None:
-        """After a whole analysis, look for its garbage and prepare the next one: nobody waits for
-        messages."""
+    def _prepare(self) -> None:
+        """Make the next check quick: the trees of a whole analysis are old enough to be left alone by the
+        search for young garbage, which would look at each of them during the first edit."""
+        self.workspace.prepare()
         if self._tidied != self.workspace.whole_analyses:
-            self._tidied = self.workspace.whole_analyses
-            gc.collect()
-            self.workspace.prepare()
+            gc.freeze()
+            gc.unfreeze()
+
+    def _tidy_later(self) -> None:
+        """Look for garbage when there are no edits for a while."""
+        left = self.workspace.whole_analyses - self._tidied
+        if left:
+            pause = IDLE_S if left < UNTIDY else 0.0
+            self._tidying = self._loop.call_later(pause, self.endpoint.post, self._tidy, "tidying")
+
+    def _tidy(self) -> None:
+        """Look for the garbage of whole analyses while nobody waits for messages."""
+        self._tidied = self.workspace.whole_analyses
+        gc.collect()
 
     def _new_messages(self, snapshots: list[Snapshot], only: set[str] | None) -> list[Any]:
         """Documents, or of some documents those, whose messages are others than those told last, and those
