@@ -302,21 +302,15 @@ class Generator:
                 return None
         laid = last.laid
         areas = {AREA_PREFIX + area: size for area, size in self.area_sizes(lowered).items()}
-        with self.timed("layout"):
-            moved = edit.texts or any(data[symbol][0] != size for symbol, size in areas.items())
-            if moved or (previous is not None and previous.data_id != laid.placed.data_id):
+        moved = edit.texts or any(data[symbol][0] != size for symbol, size in areas.items())
+        if moved or (previous is not None and previous.data_id != laid.placed.data_id):
+            with self.timed("layout"):
                 found = self.lay_out(lowered, analysis, last.specs, [], False, laid, edit.things, work.filled)
-                if found is None:
-                    return None
-                laid = found
-            else:
-                change = None
-                if previous is not None:
-                    change = code_change(previous, laid.symbols)
-                    if change.initialise:
-                        add_online_change(lowered, previous, change, laid.placed.objects, laid.symbols)
-                    change = replace(change, refused=self.refusal(lowered))
-                laid = replace(laid, change=change)
+            if found is None:
+                return None
+            laid = found
+        else:
+            laid = replace(laid, change=self.code_change(lowered, laid))
         with self.timed("passes"):
             fresh = work.finish(lambda old, new: new.weight <= SMALL and same_code(lowered.module, old, new))
             fresh.add(ONLINE_CHANGE_SYMBOL)
@@ -330,6 +324,16 @@ class Generator:
         with self.timed("package"):
             package = self.package(lowered, laid, objects)
         return replace(last, laid=laid, parts=parts, keys=keys, objects=objects, package=package)
+
+    def code_change(self, lowered: Lowered, laid: Laid) -> OnlineChange | None:
+        """How to get from the running application, whose data are the same, to this one."""
+        previous = self.previous
+        if previous is None:
+            return None
+        change = code_change(previous, laid.symbols)
+        if change.initialise:
+            add_online_change(lowered, previous, change, laid.placed.objects, laid.symbols)
+        return replace(change, refused=self.refusal(lowered))
 
     # -- objects -------------------------------------------------------------------------------------
 
