@@ -219,7 +219,7 @@ def lowered_bodies(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
         ({"shape": 1}, {"FB_Shape", "FB_Shape.Area", "FB_Square", "PLC_PRG"}),
         ({"by": 1}, {"FB_Shape.Move", "PLC_PRG"}),
     ],
-    ids=str,
+    ids=lambda value: str(value) if isinstance(value, dict) else "",
 )
 def test_bodies_that_can_tell_no_difference_stay(
     edit: dict[str, int], looked_at: set[str], monkeypatch: pytest.MonkeyPatch

@@ -11,6 +11,7 @@ from server_clients import SOCKETS, bare
 from starlette.testclient import WebSocketDenialResponse
 from starlette.websockets import WebSocketDisconnect
 
+from tappet.project.model import Project
 from tappet.project.store import Store
 from tappet.server.lsp.project_programs import ProjectPrograms, parse_part_uri, part_uri
 from tappet.server.services import Services
@@ -144,6 +145,23 @@ def test_documents_of_a_project(services: Services) -> None:
     )  # not told yet
     programs.changed()
     assert not any(t.source.uri == "PLC_PRG" for t in programs({head: "PROGRAM PLC_PRG"})[0].texts)
+
+
+def test_a_change_while_the_project_is_read_is_not_lost(services: Services) -> None:
+    store: Store = services.store
+    info = store.create_project("Mill", "tester")
+    main = next(item for item in store.load(info.id).walk() if item.name == "PLC_PRG")
+
+    def read() -> Project:
+        before = store.load(info.id)
+        if any(item.id == main.id for item in before.walk()):
+            store.delete(info.id, "tester", main.id)  # too late for this reading
+            programs.changed()
+        return before
+
+    programs = ProjectPrograms(info.id, read)
+    assert any(t.source.uri == "PLC_PRG" for t in programs({})[0].texts)
+    assert not any(t.source.uri == "PLC_PRG" for t in programs({})[0].texts)
 
 
 @pytest.mark.parametrize(

@@ -37,15 +37,20 @@ class ProjectPrograms:
         self.project_id = project_id
         self._load = load
         self._project: Project | None = None
+        self._changes = 0
+        self._loaded = 0
+        """Changes that the project read last holds for certain."""
 
     def changed(self) -> None:
-        """The stored project is another one now."""
-        self._project = None
+        """The stored project is another one now. Any thread may say so, also while the project is read."""
+        self._changes += 1
 
     def __call__(self, unsaved: Mapping[str, str]) -> list[Program]:
         """All applications with the libraries they use."""
-        if self._project is None:
+        if self._project is None or self._loaded != self._changes:
+            changes = self._changes
             self._project = self._load()
+            self._loaded = changes  # one that came meanwhile counts: it may have been too late to be read
         project = self._with_unsaved(self._project, unsaved)
         programs = [self._application(project, application) for application in project.applications()]
         return programs or [self._without_application(project)]
