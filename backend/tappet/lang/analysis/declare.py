@@ -109,6 +109,12 @@ def all_pous(found: Collected) -> Iterable[PouSymbol]:
         yield from pou.with_children()
 
 
+def _heads(found: Collected) -> Iterable[PouSymbol]:
+    """The methods of interfaces, each once: their inputs have initial values, too."""
+    heads = {id(m): m for interface, _, _ in found.interfaces for m in interface.methods.values()}
+    return [method for method in heads.values() if id(method) in found.own]
+
+
 def lay_out_lists(session: Session, found: Collected) -> None:
     """Gives the variables of global lists their offsets."""
     for gvl, source in found.gvls:
@@ -233,7 +239,7 @@ def _initial_values(session: Session, found: Collected, declarations: Declaratio
         session.account(source.uri)
         for member in gvl.members.values():
             _initial_value(declarations.bodies[id(gvl)], member, declarations)
-    for pou in all_pous(found):
+    for pou in (*all_pous(found), *_heads(found)):
         body = declarations.bodies[id(pou)]
         session.account(body.uri)
         for variable in found.own[id(pou)].variables.values():
