@@ -24,6 +24,7 @@ def test_report_has_the_cold_build_the_edit_and_their_own_stages():
         "one POU edited",
         "program of all calls edited",
         "variable added to one POU",
+        "variable added to the program",
     ]
     cold, edit, declared = report.remarks
     assert cold.startswith("cold build by stage: parse ")

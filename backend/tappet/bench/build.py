@@ -140,7 +140,7 @@ def run(pous: int = POUS) -> Report:
             body = _median([edited(number, "> 1.0", "> 2.0") for number in blocks])
             calls = edited(-1, "iMode := 1", "iMode := 2")
             added = "diCount : DINT;", "diCount, diMore : DINT;"
-            variable = _median([edited(number + 1, *added) for number in blocks])
+            variable = _median([edited(number, *added) for number in blocks])
             local = edited(-1, "END_VAR", "    diMore : DINT;\nEND_VAR")
     finally:
         gc.enable()
