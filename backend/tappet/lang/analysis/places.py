@@ -73,7 +73,7 @@ def writable(b: Body, target: ast.Expr) -> bool:
                     return False
                 if base.type is None:
                     return _variable_writable(b, target, e, symbol)
-                if "CONSTANT" in symbol.flags:
+                if "CONSTANT" in symbol.flags and not _is_own_input(base, symbol):
                     b.report("E0305", target.span, name=text_of(target), hint="It is a constant.")
                     return False
                 written.add(id(symbol))
@@ -152,6 +152,12 @@ def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -
         hint = "It is no variable."
     b.report("E0305", target.span, name=text_of(target), hint=hint)
     return False
+
+
+def _is_own_input(base: ast.Expr, symbol: VarSymbol) -> bool:
+    """Whether a method writes a constant input of its block behind THIS^; CODESYS takes that."""
+    through_this = isinstance(base, ast.Deref) and isinstance(base.base, ast.This)
+    return through_this and symbol.section == "VAR_INPUT"
 
 
 def _access_allowed(b: Body, e: ast.Member, symbol: VarSymbol) -> bool:
