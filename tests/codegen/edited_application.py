@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from compiled_programs import change_over
@@ -146,13 +147,15 @@ def values(application: LoadedApplication, cycles: int = 3) -> list[object]:
     return found + [application.read(name) for name in names]
 
 
-def changed_over(old: CodePackage, new: CodePackage) -> list[object]:
-    """Values after an online change in the third cycle."""
+def changed_over(
+    old: CodePackage, new: CodePackage, run: Callable[[LoadedApplication, int], list[object]] = values
+) -> list[object]:
+    """Values after an online change in the third cycle; `run` takes cycles and gives what they leave."""
     with loaded(old) as application:
-        values(application, 2)
+        run(application, 2)
         changed = change_over(application, new)
         try:
-            return values(changed)
+            return run(changed, 3)
         finally:
             changed.close()
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import core_text
 import pytest
-from compiled_programs import change_over
+from edited_application import changed_over
 from edited_declarations import CHOICES, EDITS, OPTIONS, VALUES, build
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -135,17 +135,6 @@ def values(application: LoadedApplication, cycles: int = 3) -> list[object]:
     return found + [application.read(name) for name in VALUES]
 
 
-def changed_over(old: CodePackage, new: CodePackage) -> list[object]:
-    """Values after an online change in the third cycle."""
-    with loaded(old) as application:
-        values(application, 2)
-        changed = change_over(application, new)
-        try:
-            return values(changed)
-        finally:
-            changed.close()
-
-
 @pytest.mark.usefixtures("small_modules")
 @pytest.mark.parametrize(
     "edit",
@@ -177,7 +166,7 @@ def test_the_application_runs_and_changes_over_as_one_built_whole(edit: dict[str
         a.start()
         b.start()
         assert values(a) == values(b)
-    assert changed_over(old, after.package) == changed_over(old, whole.package)
+    assert changed_over(old, after.package, values) == changed_over(old, whole.package, values)
     back = build({}, session, after.package)
     assert back.partial
     assert back.package is not None

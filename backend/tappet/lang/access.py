@@ -32,8 +32,7 @@ def _declares(block: PouSymbol, symbol: Symbol) -> bool:
     key = symbol.name.upper()
     if isinstance(symbol, VarSymbol):
         return block.locals.get(key) is symbol
-    head = (symbol.getter or symbol.setter) if isinstance(symbol, PropertySymbol) else symbol
-    owner = head.owner if isinstance(head, PouSymbol) else None
+    owner = _owner(symbol)
     walk: PouSymbol | None = block
     for _ in range(_DEEPEST):
         if walk is None or walk is owner:
@@ -44,3 +43,19 @@ def _declares(block: PouSymbol, symbol: Symbol) -> bool:
 
 def _inherits(block: PouSymbol, symbol: Symbol) -> bool:
     return block.base is not None and _declares(block.base, symbol)
+
+
+def _owner(symbol: Symbol) -> PouSymbol | None:
+    """The block of a method or property."""
+    head = (symbol.getter or symbol.setter) if isinstance(symbol, PropertySymbol) else symbol
+    return head.owner if isinstance(head, PouSymbol) else None
+
+
+def home_of(symbol: Symbol) -> str | None:
+    """Name of the block that declares a member, else of the library."""
+    owner = _owner(symbol)
+    if owner is not None:
+        return owner.name
+    if isinstance(symbol, VarSymbol) and symbol.owner is not None:
+        return symbol.owner
+    return symbol.source.library if symbol.source is not None else None

@@ -8,7 +8,7 @@ from typing import Any
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.access import may_use
+from tappet.lang.access import home_of, may_use
 from tappet.lang.analysis import addresses, conversion, folding, operators
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol, describe
@@ -199,17 +199,9 @@ def check_use(b: Body, e: ast.Name | ast.Member | ast.NamedType, symbol: Symbol)
     """Reports what this text may not use (LDEC-127)."""
     if may_use(symbol, b.block, b.source):
         return
-    home = symbol.owner if isinstance(symbol, (VarSymbol, PouSymbol)) else None
-    if isinstance(home, PouSymbol):
-        home = home.name
-    elif isinstance(symbol, PropertySymbol):
-        head = symbol.getter or symbol.setter
-        home = head.owner.name if head is not None and head.owner is not None else None
-    if home is None and symbol.source is not None:
-        home = symbol.source.library
     span = e.name_span if isinstance(e, ast.Member) else e.span
     what = describe(symbol).capitalize()
-    b.report("E0213", span, what=what, name=symbol.name, type=home, access=symbol.access)
+    b.report("E0213", span, what=what, name=symbol.name, type=home_of(symbol), access=symbol.access)
 
 
 def resolve_variable(b: Body, e: ast.Name | ast.Member, symbol: VarSymbol) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tappet.lang import ast
-from tappet.lang.access import may_use
+from tappet.lang.access import home_of, may_use
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
@@ -56,8 +56,7 @@ def _find(session: Session, source: Source, name: str, span: Span) -> Symbol | N
         else:
             return None
     if symbol is not None and not may_use(symbol, None, source):
-        home = symbol.source.library if symbol.source is not None else None
-        what = describe(symbol).capitalize()
+        home, what = home_of(symbol), describe(symbol).capitalize()
         session.report(
             "E0213", source.uri, span, what=what, name=symbol.name, type=home, access=symbol.access
         )
