@@ -72,14 +72,17 @@ lock: $(VENV)/.ready
 
 ## generate: what is made from the sources: OpenAPI, client types, pages of the diagnostics
 generate: $(VENV)/.ready frontend/node_modules/.ready
-	$(BIN)/python -m tappet.server.openapi > frontend/src/api/openapi.json
+	$(BIN)/python -m tappet.server.print_openapi > frontend/src/api/openapi.json
 	cd frontend && npm run --silent generate
 	$(BIN)/python -m tappet.lang.diagnostic_pages
+	$(BIN)/python -m tappet.iec.typescript
+	$(BIN)/python tests/iec/iec_texts.py
 
 $(VENV)/.ready: requirements.lock pyproject.toml
 	@test -d $(VENV) || $(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps -e .
+	$(BIN)/python -m compileall -q backend/tappet
 	@touch $@
 
 frontend/node_modules/.ready: frontend/package-lock.json frontend/package.json

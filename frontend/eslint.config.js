@@ -1,10 +1,42 @@
 import js from '@eslint/js';
+import boundaries from 'eslint-plugin-boundaries';
 import reactHooks from 'eslint-plugin-react-hooks';
 import globals from 'globals';
 import tseslint from 'typescript-eslint';
 
+/**
+ * The rooms of `src`, bottom to top: a file imports from its own room and from those above it in this list.
+ * Rooms in `editors` are listed one by one, since they build on each other.
+ */
+const ROOMS = [
+  'i18n',
+  'icons',
+  'api',
+  'session',
+  'project',
+  'ui',
+  'iec',
+  'workbench',
+  'text',
+  'lsp',
+  'online',
+  'editors/form',
+  'editors/crossReferences',
+  'editors/assistant',
+  'editors/online',
+  'editors/documents',
+  'editors/st',
+  'editors/declaration',
+  'editors/il',
+  'editors/textObject',
+  'editors',
+  'kinds',
+  'app',
+];
+const types = (rooms) => ({ element: { types: { anyOf: rooms } } });
+
 export default tseslint.config(
-  { ignores: ['dist', 'node_modules', 'src/api/schema.ts', 'test-results'] },
+  { ignores: ['dist', 'node_modules', 'src/api/schema.ts', 'src/iec/grammar.ts', 'test-results'] },
   js.configs.recommended,
   {
     files: ['**/*.{ts,tsx}'],
@@ -24,6 +56,29 @@ export default tseslint.config(
       '@typescript-eslint/no-misused-promises': ['error', { checksVoidReturn: { attributes: false } }],
       '@typescript-eslint/switch-exhaustiveness-check': ['error', { considerDefaultExhaustiveForUnions: true }],
       '@typescript-eslint/no-unused-vars': ['error', { argsIgnorePattern: '^_', varsIgnorePattern: '^_' }],
+    },
+  },
+  {
+    files: ['src/**/*.{ts,tsx}'],
+    ignores: ['src/**/*.test.{ts,tsx}', 'src/**/*.d.ts'],
+    plugins: { boundaries },
+    settings: {
+      'boundaries/elements': ROOMS.map((room) => ({ type: room, pattern: `src/${room}` })),
+      'boundaries/include': ['src/**/*.{ts,tsx}'],
+      'import/resolver': { typescript: { project: 'tsconfig.app.json' } },
+    },
+    rules: {
+      'boundaries/no-unknown-files': 'error',
+      'boundaries/dependencies': [
+        'error',
+        {
+          default: 'disallow',
+          message: "The room '{{from.element.type}}' may not import from '{{to.element.type}}': rooms import one way.",
+          policies: [
+            ...ROOMS.map((room, at) => ({ from: types([room]), allow: { to: types(ROOMS.slice(0, at + 1)) } })),
+          ],
+        },
+      ],
     },
   },
   { files: ['tests/**', '**/*.test.{ts,tsx}', 'vite.config.ts'], languageOptions: { globals: globals.node } },

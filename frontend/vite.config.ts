@@ -15,6 +15,7 @@ export default defineConfig({
   test: {
     environment: 'node',
     include: ['src/**/*.test.{ts,tsx}', 'tests/**/*.test.{ts,tsx}'],
+    setupFiles: ['tests/setup.ts'],
     pool: 'threads',
     maxWorkers: 2,
     // Property tests on a busy machine: a limit against hanging, not a measure of speed.

@@ -1,5 +1,7 @@
 """`python -m tappet` is the same as `tappet`."""
 
+import sys
+
 from tappet.cli import main
 
-main()
+sys.exit(main())

@@ -20,7 +20,7 @@ RUNTIME = "/runtimes/local"
 FIRST_START_S = 90
 
 
-def until(condition: Callable[[], Any], what: str, seconds: float = 20) -> Any:
+def until(condition: Callable[[], Any], what: str, seconds: float = 60) -> Any:
     """The first true answer of `condition`."""
     end = time.monotonic() + seconds
     while True:
@@ -159,7 +159,7 @@ class Script:
         """State of the local runtime."""
         return self.get(RUNTIME)
 
-    def wait_for_state(self, state: str, seconds: float = 20) -> Any:
+    def wait_for_state(self, state: str, seconds: float = 60) -> Any:
         """Until the runtime is connected and in `state`."""
 
         def reached() -> Any:

@@ -46,7 +46,7 @@ def plant(folder: Path) -> Iterator[Station]:
         slow = {
             "priority": 20,
             "interval": "T#10ms",
-            "watchdog": {"enabled": True, "time": "T#200ms", "sensitivity": 1},
+            "watchdog": {"enabled": True, "time": "T#2s", "sensitivity": 1},
             "pous": [{"name": "Endless"}],
         }
         made = script.add("task", "Slow", parent_id=configuration, data=slow)
@@ -105,7 +105,7 @@ def test_an_endless_loop_ends_as_an_exception(plant: Station) -> None:
     pid = plant.runtime_pid()
     script.write("Endless.xSpin", "TRUE")
     script.get("/projects")
-    script.wait_for_state("exception", 10)
+    script.wait_for_state("exception")
     report = script.get(f"{RUNTIME}/exception")
     assert report["name"] == "WATCHDOG"
     assert report["task"] == "Slow"

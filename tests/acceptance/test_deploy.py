@@ -18,6 +18,7 @@ import pytest
 from live_server import FIRST_START_S, process, until
 
 from tappet.runtime.client import RuntimeClient
+from tappet.runtime.operations.values import Read
 
 COUNTER = """PROGRAM Main
 VAR
@@ -45,7 +46,7 @@ class SoftPlc:
         async with await RuntimeClient.connect(self.url, self.token_file.read_text().strip()) as client:
             symbols = await client.symbols()
             ref = symbols.resolve(path)
-            (data,) = await client.read([(ref.offset, ref.size)])
+            (data,) = await client.call(Read([(ref.offset, ref.size)]))
             return int.from_bytes(data, "little", signed=True)
 
 

@@ -6,19 +6,15 @@ import json
 import zipfile
 from pathlib import Path
 
-from typer.testing import CliRunner
-
-from tappet.cli import app
-from tappet.cli.output import UsageError
+from tests.cli.invoke import invoke
 
 SAMPLES = Path(__file__).parents[1] / "project" / "exchange" / "samples"
 
 
 def tappet(*arguments: object) -> tuple[int, str]:
-    done = CliRunner().invoke(app, [str(argument) for argument in arguments])
-    if isinstance(done.exception, UsageError):
-        return 2, str(done.exception)
-    return done.exit_code, done.output
+    done = invoke(*arguments)
+    said = done.errors.removeprefix("tappet: ").rstrip("\n") if done.code == 2 else done.output
+    return done.code, said
 
 
 def test_a_twincat_project_comes_in_with_a_report_and_compiles(tmp_path: Path) -> None:

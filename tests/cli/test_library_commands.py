@@ -4,16 +4,12 @@ import json
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from tests.cli import invoke as commands
 
-from tappet.cli import app
-from tappet.cli.output import UsageError
 from tappet.libraries import repository
 from tappet.project import edit, folder
 from tappet.project.model import Project
-from tappet.project.templates import new_project
-
-RUN = CliRunner()
+from tappet.project.new_project import new_project
 
 
 @pytest.fixture(autouse=True)
@@ -47,9 +43,9 @@ def project_of_motor() -> Project:
 
 
 def invoke(*arguments: object) -> str:
-    result = RUN.invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
-    assert result.exit_code == 0, result.output
-    return result.output
+    done = commands.invoke(*arguments)
+    assert done.code == 0, done.errors
+    return done.output
 
 
 def test_a_project_is_saved_installed_used_and_removed(tmp_path: Path) -> None:
@@ -73,8 +69,9 @@ def test_a_project_is_saved_installed_used_and_removed(tmp_path: Path) -> None:
     )
     assert values.split() == ["Main.n", "=", "7", "Main.c", "=", "100", "Main.m.n", "=", "7"]
     invoke("library", "remove", "Drives", "1.0.0.0")
-    with pytest.raises(UsageError, match="is not installed"):
-        RUN.invoke(app, ["library", "remove", "Drives", "1.0.0.0"], catch_exceptions=False)
+    refused = commands.invoke("library", "remove", "Drives", "1.0.0.0")
+    assert refused.code == 2
+    assert "is not installed" in refused.errors
 
 
 def test_a_project_that_does_not_compile_is_no_library(tmp_path: Path) -> None:
@@ -83,13 +80,13 @@ def test_a_project_that_does_not_compile_is_no_library(tmp_path: Path) -> None:
     project, _ = edit.add_object(project, None, "pou", "Bad", data=body)
     folder.save(project, tmp_path / "project")
     file = tmp_path / "bad.tappetlib"
-    arguments = ["library", "save", str(tmp_path / "project"), "--to", str(file), "--version", "1.0"]
-    result = RUN.invoke(app, arguments)
-    assert result.exit_code == 1
-    assert "nowhere" in result.output
+    result = commands.invoke("library", "save", tmp_path / "project", "--to", file, "--version", "1.0")
+    assert result.code == 1
+    assert "nowhere" in result.errors
     assert not file.exists()
 
 
 def test_a_folder_that_is_no_library_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match=r"has no library\.json"):
-        RUN.invoke(app, ["library", "install", str(tmp_path)], catch_exceptions=False)
+    refused = commands.invoke("library", "install", tmp_path)
+    assert refused.code == 2
+    assert "has no library.json" in refused.errors

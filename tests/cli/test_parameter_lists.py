@@ -3,15 +3,12 @@
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from tests.cli import invoke as commands
 
-from tappet.cli import app
 from tappet.libraries import repository
 from tappet.project import edit, folder
 from tappet.project.model import Project
-from tappet.project.templates import new_project
-
-RUN = CliRunner()
+from tappet.project.new_project import new_project
 
 
 @pytest.fixture(autouse=True)
@@ -20,9 +17,9 @@ def library_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def invoke(*arguments: object, code: int = 0) -> str:
-    result = RUN.invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
-    assert result.exit_code == code, result.output
-    return result.output
+    done = commands.invoke(*arguments)
+    assert done.code == code, done.errors
+    return done.output
 
 
 def library_project() -> Project:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 
+from linked_application import LoadedApplication
+
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
 from tappet.codegen.package import CodePackage, left_behind, rearranged
 from tappet.lang.source import Source
 

@@ -39,25 +39,25 @@ class _Text:
         ]
         return "\n".join(parts)
 
-    def of(self, thing: object) -> str:
-        if isinstance(thing, ir.Local):
-            number = self.numbers.setdefault(id(thing), len(self.numbers))
-            return f"local{number}:{thing.name}:{thing.size}:{thing.align}:{thing.type}"
-        if isinstance(thing, (ir.Call, ir.FunctionAddress)):
-            self.called.append(thing.function if isinstance(thing, ir.Call) else thing.name)
-        if isinstance(thing, ir.VirtualMethod):
-            self.called += thing.targets.values()
-            return f"{thing.key} {sorted(thing.targets.items())}"
-        if isinstance(thing, (list, tuple)):
-            return "[" + "\n".join(self.of(part) for part in thing) + "]"
-        if isinstance(thing, (set, frozenset)):
-            return str(sorted(map(self.of, thing)))
-        if isinstance(thing, dict):
-            return str(sorted(self.of(key) + ":" + self.of(value) for key, value in thing.items()))
-        names = [f.name for f in fields(thing)] if isinstance(thing, _NODES) else []
+    def of(self, entity: object) -> str:
+        if isinstance(entity, ir.Local):
+            number = self.numbers.setdefault(id(entity), len(self.numbers))
+            return f"local{number}:{entity.name}:{entity.size}:{entity.align}:{entity.type}"
+        if isinstance(entity, (ir.Call, ir.FunctionAddress)):
+            self.called.append(entity.function if isinstance(entity, ir.Call) else entity.name)
+        if isinstance(entity, ir.VirtualMethod):
+            self.called += entity.targets.values()
+            return f"{entity.key} {sorted(entity.targets.items())}"
+        if isinstance(entity, (list, tuple)):
+            return "[" + "\n".join(self.of(part) for part in entity) + "]"
+        if isinstance(entity, (set, frozenset)):
+            return str(sorted(map(self.of, entity)))
+        if isinstance(entity, dict):
+            return str(sorted(self.of(key) + ":" + self.of(value) for key, value in entity.items()))
+        names = [f.name for f in fields(entity)] if isinstance(entity, _NODES) else []
         if names:
-            return f"{thing.__class__.__name__}({', '.join(self.of(getattr(thing, n)) for n in names)})"
-        return repr(thing)
+            return f"{entity.__class__.__name__}({', '.join(self.of(getattr(entity, n)) for n in names)})"
+        return repr(entity)
 
 
 _NODES = (ir.Expr, ir.Stmt, ir.Place, ir.Subscript, ir.Indirect, ir.SwitchCase, ir.Parameter)

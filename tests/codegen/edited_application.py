@@ -6,14 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from compiled_programs import change_over
+from linked_application import ApplicationFault, LoadedApplication, loaded
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication, loaded
-from tappet.codegen.package import CodePackage, TaskSpec
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task
 from tappet.lang.source import Source
 
 OPTIONS = BuildOptions(level=1)
-TASKS = (TaskSpec("T", programs=("PLC_PRG",)),)
+TASKS = (Task("T", programs=("PLC_PRG",)),)
 
 OBJECTS = {
     "G": "VAR_GLOBAL {G} total : DINT; log : STRING(40); calls : INT; END_VAR",
@@ -116,10 +117,10 @@ class Pair:
     other: BuildSession = field(default_factory=BuildSession)
     """Keeps nothing but library texts and objects."""
 
-    def build(self, previous: CodePackage | None = None, tasks: tuple[TaskSpec, ...] = TASKS) -> BuildResult:
+    def build(self, previous: CodePackage | None = None, tasks: tuple[Task, ...] = TASKS) -> BuildResult:
         return build_application(sources(self.bodies), tasks, OPTIONS, previous, self.session)
 
-    def whole(self, previous: CodePackage | None = None, tasks: tuple[TaskSpec, ...] = TASKS) -> BuildResult:
+    def whole(self, previous: CodePackage | None = None, tasks: tuple[Task, ...] = TASKS) -> BuildResult:
         self.other.analysis = self.other.generated = None
         return build_application(sources(self.bodies), tasks, OPTIONS, previous, self.other)
 

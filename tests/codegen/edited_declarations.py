@@ -6,11 +6,12 @@ import re
 from collections.abc import Mapping
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
-from tappet.codegen.package import CodePackage, TaskSpec
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task
 from tappet.lang.source import Source
 
 OPTIONS = BuildOptions(level=1)
-TASKS = (TaskSpec("T", programs=("PLC_PRG", "P_Second")),)
+TASKS = (Task("T", programs=("PLC_PRG", "P_Second")),)
 
 OBJECTS: dict[str, str] = {
     "Limits": "VAR_GLOBAL CONSTANT\n{limits}    nLast : DINT := 3; lrGain : LREAL := {gain};\nEND_VAR",

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 from compiled_programs import build
-
-from tappet.codegen.jit import loaded
+from linked_application import loaded
 
 TEXT = """
 FUNCTION_BLOCK FB

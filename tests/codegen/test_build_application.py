@@ -7,23 +7,22 @@ import io
 from dataclasses import dataclass
 from pathlib import Path
 
-import msgpack
+import msgspec
 import pytest
 from compiled_programs import build, result
 from elftools.elf.elffile import ELFFile
+from linked_application import loaded
 
 from tappet.codegen.build import (
     BuildOptions,
     BuildSession,
     LibraryReference,
-    SystemBuildError,
     build_application,
-    build_system,
-    layout_of,
 )
 from tappet.codegen.check import check_application, format_diagnostic
-from tappet.codegen.jit import loaded
-from tappet.codegen.package import MAGIC, CodePackage, PackageError, WatchdogSpec
+from tappet.codegen.package import MAGIC, CodePackage, PackageError
+from tappet.codegen.system import SystemBuildError, build_system, layout_of
+from tappet.iec.task import Watchdog
 from tappet.lang.source import Scope, Source
 
 PROGRAM = """
@@ -42,7 +41,7 @@ class Task:
     interval_ns: int = 1_000_000
     priority: int = 1
     event: str | None = None
-    watchdog: WatchdogSpec | None = None
+    watchdog: Watchdog | None = None
     programs: tuple[str, ...] = ("PLC_PRG",)
 
 
@@ -74,14 +73,20 @@ def test_damaged_packages_are_refused_or_harmless():
                 CodePackage.from_bytes(bytes(data))
 
 
-@pytest.mark.parametrize(("place", "value"), [(5, b"x"), (2, float("inf")), (6, "bit"), (3, 99)])
-def test_a_task_with_values_of_other_types_is_refused(place: int, value: object):
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("event_offset", b"x"), ("interval_ns", float("inf")), ("event_bit", "bit"), ("priority", 99),
+        ("kind", "sometimes"),
+    ],
+)  # fmt: skip
+def test_a_task_with_values_of_other_types_is_refused(field: str, value: object):
     whole = build(PROGRAM).to_bytes()
     head = len(MAGIC) + 1
-    body = msgpack.unpackb(whole[head:], raw=False)
-    body["tasks"][0][place] = value
-    with pytest.raises(PackageError):
-        CodePackage.from_bytes(whole[:head] + msgpack.packb(body))
+    body = msgspec.msgpack.decode(whole[head:])
+    body["tasks"][0][field] = value
+    with pytest.raises(PackageError, match=rf"tasks\[0\]\.{field}|tasks\[\.\.\.\]\.{field}"):
+        CodePackage.from_bytes(whole[:head] + msgspec.msgpack.encode(body))
 
 
 def test_truncated_package_is_refused():
@@ -153,8 +158,8 @@ def test_persistent_list():
         (Task(programs=("F",)), "E0709"),
         (Task(kind="event", event="PLC_PRG.nothing"), "E0704"),
         (Task(kind="event", event="PLC_PRG.a"), "E0705"),
-        (Task(watchdog=WatchdogSpec(0)), "E0710"),
-        (Task(watchdog=WatchdogSpec(1000, -1)), "E0710"),
+        (Task(watchdog=Watchdog(0)), "E0710"),
+        (Task(watchdog=Watchdog(1000, -1)), "E0710"),
     ],
 )
 def test_wrong_tasks_are_reported(task: Task, code: str):
@@ -162,9 +167,9 @@ def test_wrong_tasks_are_reported(task: Task, code: str):
 
 
 def test_a_watchdog_tolerates_nothing_at_sensitivity_0():
-    package = build_application([Source("a.st", PROGRAM)], [Task(watchdog=WatchdogSpec(1000, 0))]).package
+    package = build_application([Source("a.st", PROGRAM)], [Task(watchdog=Watchdog(1000, 0))]).package
     assert package is not None
-    assert package.tasks[0].watchdog == WatchdogSpec(1000, 0)
+    assert package.tasks[0].watchdog == Watchdog(1000, 0)
 
 
 def test_warnings_about_tasks_are_in_the_build():
@@ -293,7 +298,8 @@ def test_system_build_exports_c_functions():
 
     import llvmlite.binding as llvm
 
-    from tappet.codegen.optimise import OptimiseOptions, target_machine
+    from tappet.codegen.compile_options import OptimiseOptions
+    from tappet.codegen.optimise import target_machine
 
     built = build_system([Source("s.st", SYSTEM, Scope.LIBRARY)])
     assert built.members_of("ST_Item") == {

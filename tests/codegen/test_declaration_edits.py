@@ -12,11 +12,11 @@ from edited_application import changed_over
 from edited_declarations import CHOICES, EDITS, OPTIONS, VALUES, build
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from linked_application import ApplicationFault, LoadedApplication, loaded
 
-from tappet.codegen import generate
+from tappet.codegen import compile_pool
 from tappet.codegen.build import BuildSession, build_application
 from tappet.codegen.generate import Generated
-from tappet.codegen.jit import ApplicationFault, LoadedApplication, loaded
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.core.lower import lower_pou
@@ -41,7 +41,7 @@ class _NoMachineCode:
 
 @pytest.fixture
 def no_machine_code(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(generate, "Compilation", lambda *given, **options: _NoMachineCode())
+    monkeypatch.setattr(compile_pool, "Compilation", lambda *given, **options: _NoMachineCode())
 
 
 # -- the same as a build of everything --------------------------------------------------------------
@@ -64,7 +64,7 @@ def leaves(symbols: SymbolMap) -> Iterator[tuple[object, ...]]:
 
 _COMPARED = (
     "data_id", "code_id", "image_size", "data_objects", "initial_image", "tasks", "retain", "persistent",
-    "no_init", "type_ids", "online_change", "runtime",
+    "no_init", "type_ids", "online_change", "facts",
 )  # fmt: skip
 
 
@@ -187,7 +187,7 @@ def lowered_bodies(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
         lower_pou(program, pou)
 
     with monkeypatch.context() as patch:
-        patch.setattr("tappet.core.relower.lower_pou", note)
+        patch.setattr("tappet.core.edits.relower.lower_pou", note)
         yield found
 
 
@@ -238,10 +238,11 @@ def counts(session: BuildSession) -> list[int]:
     assert generated is not None
     program = generated.lowered.program
     assert program is not None
-    grounds = generated.settle()
+    dependencies = generated.settle()
     cached = sum(len(cache.memory) for cache in session.objects.values())
     return [
-        cached, len(grounds.grounds), len(grounds.keys), len(program.strings), len(program.module.constants),
+        cached, len(dependencies.dependencies), len(dependencies.keys), len(program.strings),
+        len(program.module.constants),
         len(program.module.functions), len(program.homes), len(program.taken), len(program.holding),
         len(generated.parts), len(generated.laid.types.known), len(program.functions),
     ]  # fmt: skip

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from linked_application import ApplicationFault, LoadedApplication
 
+from tappet.codegen.compile_options import LlvmError, OptimiseOptions
 from tappet.codegen.emit_module import EmitOptions, emit_module
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
-from tappet.codegen.optimise import LlvmError, OptimiseOptions, compile_text
+from tappet.codegen.optimise import compile_text
 from tappet.codegen.package import CodePackage, DataObject
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.core import ir

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import msgspec
 from compiled_programs import build
+from linked_application import loaded
 
-from tappet.codegen.jit import loaded
 from tappet.codegen.symbol_map import SymbolMap
 
 BLOCKS = """
@@ -33,7 +34,7 @@ def test_places_are_in_the_symbol_map() -> None:
         "PLC_PRG.DOORS[2].LEVEL": ("I", 6, None),
         "PLC_PRG.DOORS[2].LAMP": ("Q", 1, None),
     }
-    assert SymbolMap.from_table(symbols.to_table()).mapped == symbols.mapped
+    assert msgspec.convert(msgspec.to_builtins(symbols), SymbolMap).mapped == symbols.mapped
 
 
 def test_an_input_that_is_written_stays_written() -> None:

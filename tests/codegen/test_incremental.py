@@ -10,12 +10,13 @@ from edited_application import BODIES, OPTIONS, Pair, agree, changed_over, edite
 from elftools.elf.elffile import ELFFile
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from linked_application import loaded
 
 from tappet.codegen.build import BuildSession, build_application
-from tappet.codegen.jit import loaded
-from tappet.codegen.package import CodePackage, TaskSpec
+from tappet.codegen.package import CodePackage
 from tappet.core.lower import lower_pou
 from tappet.core.program import LoweringError, Program
+from tappet.iec.task import Task
 from tappet.lang.source import Source
 from tappet.lang.symbols import PouSymbol
 
@@ -93,7 +94,7 @@ def test_edit_of_a_declaration_is_no_whole_build():
 def test_changed_tasks_are_a_whole_build():
     pair = Pair()
     agree(pair, partial=False)
-    tasks = (TaskSpec("T", programs=("PLC_PRG", "PLC_PRG")),)
+    tasks = (Task("T", programs=("PLC_PRG", "PLC_PRG")),)
     after, whole = pair.build(tasks=tasks), pair.whole(tasks=tasks)
     assert not after.partial
     assert after.package is not None
@@ -134,7 +135,7 @@ def test_lowering_that_fails_half_way_is_not_continued(monkeypatch: pytest.Monke
         lower_pou(program, pou)
 
     with monkeypatch.context() as patch:
-        patch.setattr("tappet.core.relower.lower_pou", fails)
+        patch.setattr("tappet.core.edits.relower.lower_pou", fails)
         failed = pair.build()
     assert [d.code for d in failed.diagnostics if d.severity == "error"] == ["E0901"]
     agree(pair, partial=False)

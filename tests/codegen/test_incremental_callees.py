@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 from edited_application import OPTIONS, messages
+from linked_application import loaded
 
 from tappet.codegen.build import BuildResult, BuildSession, build_application
-from tappet.codegen.jit import loaded
 from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 
@@ -191,17 +191,17 @@ END_FUNCTION_BLOCK
 """
 USER = """
 PROGRAM PLC_PRG
-VAR one : FB_One; p : POINTER TO FB_Two; thing : I_Thing; sum : DINT; END_VAR
-thing := one;
+VAR one : FB_One; p : POINTER TO FB_Two; entity : I_Thing; sum : DINT; END_VAR
+entity := one;
 %s
-sum := thing.Name();
+sum := entity.Name();
 END_PROGRAM
 """
 
 
 @pytest.mark.usefixtures("small_modules")
 def test_block_type_known_from_the_running_application_gets_its_methods():
-    texts = {"Things": DYNAMIC, "PLC_PRG": USER % "p := __NEW(FB_Two); thing := p^;"}
+    texts = {"Things": DYNAMIC, "PLC_PRG": USER % "p := __NEW(FB_Two); entity := p^;"}
 
     def build(session: BuildSession, previous: CodePackage | None) -> BuildResult:
         return build_application([Source(n, x) for n, x in texts.items()], (), OPTIONS, previous, session)

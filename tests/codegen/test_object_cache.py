@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tappet.codegen.build import BuildSession
-from tappet.codegen.optimise import ObjectCache
+from tappet.codegen.object_cache import ObjectCache
 
 
 def filled(folder: Path) -> ObjectCache:
@@ -30,11 +30,17 @@ def test_the_oldest_objects_go_when_the_folder_is_full(tmp_path: Path):
     assert ObjectCache(tmp_path).read("c3") == b"c3" * 50
 
 
-def test_a_session_looks_once_whether_its_folder_is_full(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_session_looks_once_whether_its_folder_is_full_before_it_stores(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     looked = []
     monkeypatch.setattr(ObjectCache, "trim", lambda cache: looked.append(cache.folder))
     session = BuildSession()
     assert session.cache(tmp_path) is session.cache(tmp_path)
+    session.cache(tmp_path).read("aa")
+    assert looked == []
+    session.cache(tmp_path).write("aa", b"1")
+    session.cache(tmp_path).write("bb", b"2")
     assert looked == [tmp_path]
 
 

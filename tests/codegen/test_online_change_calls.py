@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 from compiled_programs import build, change_over
+from linked_application import loaded
 
-from tappet.codegen.jit import loaded
 from tappet.codegen.package import CodePackage
 
 BASE = """
@@ -134,7 +134,7 @@ def test_a_new_instance_is_initialised() -> None:
 
 @pytest.mark.parametrize("attribute", ["'symbol' := 'no-exit'", "'no-exit'"])
 def test_instances_without_exit(attribute: str) -> None:
-    """LPRG-36, EX-10: FB_Exit of POU1 only."""
+    """LPRG-36, language_pragmas EX-10: FB_Exit of POU1 only."""
     fbs = f"fb : FB_Base; {{attribute {attribute}}} POU2 : FB_Base;"
     old = build(text(fbs=fbs))
     found = log(old, build(text(fbs=fbs, first="more : LREAL;"), old))

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from compiled_programs import build, change_over
-
-from tappet.codegen.jit import loaded
+from linked_application import loaded
 
 BASE = """
 FUNCTION_BLOCK FB_Counter

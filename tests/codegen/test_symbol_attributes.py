@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from linked_application import loaded
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
 from tappet.codegen.display import Mode, display_text
-from tappet.codegen.jit import loaded
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_export import exported
 from tappet.lang.source import Source

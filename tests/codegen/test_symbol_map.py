@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import struct
 
+import msgspec
 import pytest
 from compiled_programs import build
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.codegen import literals, values
-from tappet.codegen.symbol_map import SymbolError, SymbolMap, TypeInfo
+from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.codegen.symbol_types import TypeInfo
 
 TEXT = """
 TYPE E_Mode : (Off, On := 7) UINT; END_TYPE
@@ -137,12 +139,12 @@ def test_browsing(symbols: SymbolMap):
 
 
 def test_table_round_trip(symbols: SymbolMap):
-    again = SymbolMap.from_table(symbols.to_table())
-    assert again == symbols
-    broken = symbols.to_table()
+    packed = msgspec.msgpack.encode(symbols)
+    assert msgspec.msgpack.decode(packed, type=SymbolMap) == symbols
+    broken = msgspec.msgpack.decode(packed)
     broken["types"][0][3] = 10_000
-    with pytest.raises(ValueError, match="out of range"):
-        SymbolMap.from_table(broken)
+    with pytest.raises(msgspec.ValidationError, match="type index 10000 is out of range"):
+        msgspec.convert(broken, SymbolMap)
 
 
 @pytest.mark.parametrize(

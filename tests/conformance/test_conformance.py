@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,12 +17,13 @@ from pathlib import Path
 import pytest
 
 from tappet.codegen.build import BuildSession, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
+from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
+from tappet.runtime.flight import FlightSettings
+from tappet.runtime.local import ApplicationException, LocalRuntime
 
 FOLDER = Path(__file__).parent
 FILES = sorted(FOLDER.rglob("*.st"))
-CYCLE_NS = 10_000_000
 _DIRECTIVE = re.compile(r"^\s*//\s*(CYCLES|EXPECT|FAULT|ERROR|WARNING):\s*(.+?)\s*$", re.MULTILINE)
 SESSION = BuildSession()
 
@@ -67,26 +69,19 @@ def test_file(path: Path) -> None:
     codes = [d.code for d in result.diagnostics]
     assert set(expectation.warnings) <= set(codes)
     assert result.package is not None
-    application = LoadedApplication(result.package)
-    try:
-        run(application, expectation)
-    finally:
-        application.close()
+    run(result.package, expectation)
 
 
-def run(application: LoadedApplication, expectation: Expectation) -> None:
-    fault = None
-    try:
-        application.start()
-        for _ in range(expectation.cycles):
-            application.cycle()
-            application.clock_ns += CYCLE_NS
-    except ApplicationFault as raised:
-        fault = str(raised)
-    if expectation.fault is None:
-        assert fault is None
-    else:
-        assert fault is not None
-        assert expectation.fault in fault
-    actual = [(path, application.literal(path)) for path, _ in expectation.values]
-    assert actual == expectation.values
+def run(package: CodePackage, expectation: Expectation) -> None:
+    """In the soft PLC itself, on virtual time."""
+    with LocalRuntime(package, flight=FlightSettings(memory=0)) as runtime:
+        with contextlib.suppress(ApplicationException):
+            runtime.run(expectation.cycles)
+        fault = runtime.exception
+        if expectation.fault is None:
+            assert fault is None
+        else:
+            assert fault is not None
+            assert expectation.fault in fault.message
+        actual = [(path, runtime.literal(path)) for path, _ in expectation.values]
+        assert actual == expectation.values

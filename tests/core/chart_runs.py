@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from linked_application import LoadedApplication
+
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

@@ -10,9 +10,9 @@ import random
 from dataclasses import dataclass, field
 
 import pytest
+from linked_application import loaded
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

@@ -12,7 +12,7 @@ TRANSITION FROM Next TO S := FALSE; END_TRANSITION"""
 
 
 def test_timeout() -> None:
-    """EX-07; LSFC-24, LSFC-63..LSFC-66, LSFC-70, LSFC-71."""
+    """language_sfc EX-07; LSFC-24, LSFC-63..LSFC-66, LSFC-70, LSFC-71."""
     flags = """SFCError, SFCQuitError : BOOL; SFCErrorStep, SFCErrorPOU, SFCErrorAnalyzation : STRING;
 SFCErrorAnalyzationTable : ARRAY[0..15] OF ExpressionResult; bReady : BOOL; iCount : INT := 7;"""
     run = Run(chart(TIMED, flags))
@@ -85,7 +85,7 @@ def at_third_step(steps: str) -> Run:
 
 
 def test_init_holds_the_initial_step() -> None:
-    """EX-08; LSFC-60: the initial step is active but not executed, the other flags are reset."""
+    """language_sfc EX-08; LSFC-60: the initial step is active but not executed, the other flags are reset."""
     run = at_third_step(RESETS.replace("{BACK}", ""))
     run["SFCError"] = "TRUE"
     run["SFCInit"] = "TRUE"
@@ -98,7 +98,7 @@ def test_init_holds_the_initial_step() -> None:
 
 
 def test_reset_executes_the_initial_step() -> None:
-    """EX-08; LSFC-61."""
+    """language_sfc EX-08; LSFC-61."""
     run = at_third_step(RESETS.replace("{BACK}", ""))
     run["SFCReset"] = "TRUE"
     run.call(5)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 from chart_runs import SESSION, Run, chart
+from linked_application import loaded
 
 from tappet.codegen.build import BuildOptions, build_application
-from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 
 
 def test_linear_chain() -> None:
-    """EX-01; LSFC-01, LSFC-02, LSFC-12, LSFC-20, LSFC-30, LSFC-40, LSFC-50, LSFC-52, LSFC-55, LSFC-56."""
+    """language_sfc EX-01; LSFC-01, -02, -12, LSFC-20, LSFC-30, LSFC-40, LSFC-50, -52, -55, -56."""
     run = Run(
         chart(
             """
@@ -60,7 +60,7 @@ QUALIFIERS = [
 
 @pytest.mark.parametrize(("qualifier", "active", "last"), QUALIFIERS)
 def test_qualifiers(qualifier: str, active: list[int], last: int | None) -> None:
-    """EX-02; LSFC-30..LSFC-42, LSFC-31: S1 is active in calls 2..6, S2 in 7..11, S3 with R from 12 on."""
+    """language_sfc EX-02; LSFC-30..LSFC-42: S1 is active in calls 2..6, S2 in 7..11, S3 with R from 12 on."""
     run = Run(
         chart(
             f"""
@@ -138,7 +138,7 @@ ACTION X1: log := log * 10 + 5; END_ACTION""",
 
 
 def test_alternative_branch() -> None:
-    """EX-04; LSFC-16, LSFC-17: from left to right, those further right are not evaluated."""
+    """language_sfc EX-04; LSFC-16, LSFC-17: from left to right, those further right are not evaluated."""
     run = Run(
         chart(
             """
@@ -184,7 +184,7 @@ TRANSITION FROM C TO S := TRUE; END_TRANSITION"""
 
 
 def test_parallel_branch() -> None:
-    """EX-05; LSFC-18, LSFC-19: lines begin together, and end when all are at their last step."""
+    """language_sfc EX-05; LSFC-18, LSFC-19: lines begin together, and end when all are at their last step."""
     run = Run(
         chart(
             """
@@ -234,7 +234,7 @@ ACTION Out: outs := outs + 1; END_ACTION""",
 
 
 def test_flags_of_steps_are_seen_from_other_objects() -> None:
-    """EX-03; LSFC-53, LSFC-57, LSFC-58."""
+    """language_sfc EX-03; LSFC-53, LSFC-57, LSFC-58."""
     program = chart(
         """
 INITIAL_STEP step1: END_STEP
@@ -250,7 +250,7 @@ TRANSITION FROM step2 TO step1 := FALSE; END_TRANSITION""",
 
 
 def test_virtual_actions() -> None:
-    """EX-06; LSFC-26: the derived block's action replaces the base's, unless actions are not virtual."""
+    """language_sfc EX-06; LSFC-26: a derived block's action replaces the base's where actions are virtual."""
     base = """{ATTRIBUTE}FUNCTION_BLOCK POU_SFC
 VAR an_int : INT; test_act, test_meth : STRING; END_VAR
 INITIAL_STEP Init: END_STEP

@@ -8,9 +8,9 @@ from __future__ import annotations
 import random
 
 import pytest
+from linked_application import loaded
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 
 _INTEGERS = {

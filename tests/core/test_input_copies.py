@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from tappet.core import ir, passes
-from tappet.core.lower import Task, lower
+from tappet.core.lower import lower
+from tappet.iec.task import Task
 from tappet.lang.analysis.run import analyse
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
@@ -44,7 +45,7 @@ def copies(body: str) -> list[int]:
     unit = parse(Source("a", TEXT.format(body=body)))
     analysis = analyse([unit.unit])
     assert [str(d) for d in [*unit.diagnostics, *analysis.diagnostics] if d.severity == "error"] == []
-    module = lower(analysis, [Task("T", ("PLC_PRG",))]).module
+    module = lower(analysis, [Task("T", programs=("PLC_PRG",))]).module
     passes.run(module)
     found = []
     for statement in module.functions["F"].body:

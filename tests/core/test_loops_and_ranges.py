@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from tappet.core import ir, passes
-from tappet.core.lower import Task, lower
+from tappet.core.lower import lower
 from tappet.core.walk import visit
+from tappet.iec.task import Task
 from tappet.lang.analysis.run import analyse
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
@@ -41,7 +42,7 @@ def lowered(body: str) -> ir.Function:
     unit = parse(Source("a", HEAD + body + "\nEND_PROGRAM"))
     analysis = analyse([unit.unit])
     assert [str(d) for d in [*unit.diagnostics, *analysis.diagnostics] if d.severity == "error"] == []
-    module = lower(analysis, [Task("T", ("PLC_PRG",))]).module
+    module = lower(analysis, [Task("T", programs=("PLC_PRG",))]).module
     passes.run(module)
     return module.functions["PLC_PRG"]
 

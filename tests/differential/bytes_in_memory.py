@@ -46,7 +46,11 @@ def layout(type_: Struct) -> tuple[dict[str, tuple[int, int]], int, int]:
     places: dict[str, tuple[int, int]] = {}
     end = largest = 0
     alignment, bit = 1, 8
-    for name, member in type_.members:
+    inherited = 0
+    if type_.base is not None:
+        places, end, alignment = layout(type_.base)
+        inherited = len(type_.base.members)
+    for name, member in type_.members[inherited:]:
         if isinstance(member, BitMember):
             if type_.union:
                 places[name], largest = (0, 0), max(largest, 1)

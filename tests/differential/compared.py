@@ -7,10 +7,10 @@ from typing import Any
 import reference
 import write_st
 from arithmetic import Fault, same
+from linked_application import ApplicationFault, LoadedApplication
 from typed_tree import Program, base_of
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

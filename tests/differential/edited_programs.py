@@ -1,25 +1,31 @@
 """Random edits of the declarations of a random program, and what an online change keeps of its values.
 
+A constant has its declared value after each edit, in memory as well.
+
 Bodies that see an edited declaration are made anew; a name in both programs means the same variable.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from random import Random
 from typing import Any
 
 from bytes_in_memory import View
-from programs import ProgramMaker, initialisable
 from reference import Machine
 from reference_values import copied, line, overwrite, stored
 from typed_tree import (
     INTEGERS,
     Array,
+    Assign,
     BitMember,
     Block,
     Enum,
     Interface,
+    Name,
     Pointer,
     Program,
     Scalar,
@@ -27,7 +33,10 @@ from typed_tree import (
     Text,
     Type,
     Variable,
+    base_of,
 )
+
+from programs import ProgramMaker, initialisable
 
 LEVELS = ("bodies", "program", "blocks", "everything")
 """What an edit touches: the body of the program; its variables; blocks as well; types and globals too."""
@@ -42,16 +51,31 @@ class EditMaker(ProgramMaker):
 
     dynamic = False
 
+    def __init__(self, r: Random, texts: bool = True, size: int = 10) -> None:
+        super().__init__(r, texts, size)
+        self.constants = Constants(self)
+        self.renewed: dict[Any, Any] = {}
+
+    def program(self) -> Program:
+        """A program with constants."""
+        return self.constants.put_into(super().program())
+
     def edited(self, old: Program) -> Program:
         """The program after one edit."""
+        with self.constants.left_out(old.blocks):
+            made = self._edited_program(old)
+        return self.constants.put_into(made)
+
+    def _edited_program(self, old: Program) -> Program:
         level = self.r.choice(LEVELS)
-        self.renewed: dict[Any, Any] = {}
+        self.renewed = {}
         if level == "everything":
             self.types = []
             shared = [t for u in old.types if isinstance(u, Struct) and u.union for _, t in u.members]
             for made in old.types:  # which of two changed members of a union stays is not settled
                 self.renewed[made] = made if made in shared else self._edited_type(made)
                 self.types.append(self.renewed[made])
+            self.arrays = [Array(self.renew(a.element), a.bounds) for a in self.arrays]
             self.globals = self._edited(old.globals, "gv")
             self.functions = []
             for _ in range(self.r.randint(0, 2)):
@@ -117,16 +141,92 @@ class EditMaker(ProgramMaker):
             if self.chance(50):
                 return old
             return replace(old, members=(*old.members, (self.fresh("v"), old.members[-1][1] + 1)))
-        members = [(name, self.renew(t)) for name, t in old.members]
-        if not self.chance(60):
-            return replace(old, members=tuple(members))
-        if len(members) > 1 and self.chance(40):
-            members.pop(self.r.randrange(len(members)))
-        numbers = (*INTEGERS, BitMember()) if not old.union else INTEGERS
-        members.insert(self.r.randint(0, len(members)), (self.fresh("m"), self.r.choice(numbers)))
-        if self.chance(20):
-            self.r.shuffle(members)
-        return replace(old, members=tuple(members))
+        base = self.renewed.get(old.base, old.base)
+        inherited = base.members if base is not None else ()
+        own = old.members[len(old.base.members) if old.base is not None else 0 :]
+        members = [(name, self.renew(t)) for name, t in own]
+        if self.chance(60):
+            if len(members) > 1 and self.chance(40):
+                members.pop(self.r.randrange(len(members)))
+            numbers = (*INTEGERS, BitMember()) if not old.union else INTEGERS
+            members.insert(self.r.randint(0, len(members)), (self.fresh("m"), self.r.choice(numbers)))
+            if self.chance(20):
+                self.r.shuffle(members)
+        return replace(old, base=base, members=(*inherited, *members))
+
+
+class Constants:
+    """Constants of the program, of its list and of its blocks; edits change their values.
+
+    Nothing but a copy into a variable reads them: what is computed with constants is folded, and may be
+    refused.
+    """
+
+    def __init__(self, maker: EditMaker) -> None:
+        self.maker = maker
+        self.known: dict[str, list[tuple[Variable, Variable]]] = {}
+        """Constants with the variables they are copied to, by the name of their owner."""
+        self.added: set[int] = set()
+        """The copies, by id(), in bodies that stay."""
+        self.kept: list[Assign] = []
+
+    @contextmanager
+    def left_out(self, blocks: list[Block]) -> Iterator[None]:
+        """Blocks without their constants: code that is made meanwhile does not see them."""
+        kept = [(block, block.locals) for block in blocks]
+        for block in blocks:
+            block.locals = _without_constants(block.locals)
+        try:
+            yield
+        finally:
+            for block, variables in kept:
+                block.locals = variables
+
+    def put_into(self, made: Program) -> Program:
+        """The program with its constants; half of the edits leave them as they are."""
+        edit = self.maker.chance(50)
+        for block in made.blocks:
+            found = self._next(block.name, edit)
+            block.locals = [*_without_constants(block.locals), *(v for pair in found for v in pair)]
+            block.body = [*self._copies(found), *(s for s in block.body if id(s) not in self.added)]
+            self.added |= {id(s) for s in self.kept}
+        in_list, own_ones = self._next("", edit), self._next("PLC_PRG", edit)
+        copies = [*(copy for _, copy in in_list), *(v for pair in own_ones for v in pair)]
+        return replace(
+            made,
+            globals=[*made.globals, *(constant for constant, _ in in_list)],
+            variables=[*made.variables, *copies],
+            body=[*self._copies([*in_list, *own_ones]), *made.body],
+        )
+
+    def _copies(self, found: list[tuple[Variable, Variable]]) -> list[Assign]:
+        made = [
+            Assign(Name(b.type, base_of(b.type), False, b.name), Name(a.type, base_of(a.type), False, a.name))
+            for a, b in found
+        ]
+        self.kept += made
+        return made
+
+    def _next(self, owner: str, edit: bool) -> list[tuple[Variable, Variable]]:
+        m, found = self.maker, []
+        for constant, copy in self.known.get(owner, []):
+            type_ = m.renew(constant.type)
+            if not initialisable(type_) or (edit and m.chance(10)):
+                continue
+            if type_ != constant.type or (edit and m.chance(50)):
+                constant = replace(constant, type=type_, initial=m.initial(m.plain, type_))
+            found.append((constant, replace(copy, type=type_)))
+        for _ in range(m.r.choice((0, 0, 1, 2)) if edit or owner not in self.known else 0):
+            type_ = m.type()
+            if initialisable(type_):
+                constant = Variable(m.fresh("kc"), type_, m.initial(m.plain, type_), constant=True)
+                found.append((constant, Variable(m.fresh("kv"), type_)))
+        self.known[owner] = found
+        return found
+
+
+def _without_constants(variables: list[Variable]) -> list[Variable]:
+    return [v for v in variables if not v.name.startswith(("kc", "kv"))]
 
 
 def changed_over(old: Machine, program: Program) -> Machine:
@@ -167,7 +267,7 @@ class _Keeping:
     ) -> None:
         types = {v.name: v.type for v in old}
         for v in new:
-            if v.name in types and v.name in before:
+            if v.name in types and v.name in before and not v.constant:
                 self.one(types[v.name], before[v.name], v.type, now, v.name)
 
     def one(self, old: Type, value: Any, new: Type, holder: Any, key: Any) -> None:

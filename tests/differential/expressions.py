@@ -30,7 +30,10 @@ from typed_tree import (
     Clock,
     Enum,
     Expr,
+    IsNull,
     Literal,
+    Name,
+    Pointer,
     Scalar,
     Text,
     Type,
@@ -255,6 +258,11 @@ class Maker(Leaves):
     def comparison(self, depth: int) -> Expr:
         op = self.r.choice(COMPARISONS)
         choice = self.r.randrange(100)
+        pointers = [v for v in self.variables if isinstance(v.type, Pointer) and not v.type.reference]
+        if pointers and self.chance(10):
+            pointer = self.r.choice(pointers)
+            name = Name(pointer.type, None, False, pointer.name)
+            return IsNull(BOOL, BOOL, False, name, self.chance(50))
         if choice < 10 and self.texts:
             long = Text(255, self.chance(30))
             left, right = self.moving_text(long, depth - 1), self.moving_text(long, depth - 1)

@@ -46,6 +46,7 @@ class ProgramMaker(GuardedStatements):
         self.texts = texts
         self.size = size
         self.types: list[Enum | Struct] = []
+        self.arrays: list[Array] = []
         self.functions: list[Function] = []
         self.blocks: list[Block] = []
         self.interfaces: list[Interface] = []
@@ -81,11 +82,20 @@ class ProgramMaker(GuardedStatements):
         choice = self.r.randrange(100)
         structs = [t for t in self.types if isinstance(t, Struct)]
         if choice < 15 and depth:
+            if self.arrays and self.chance(40):
+                return self.moved(self.r.choice(self.arrays))
             bounds = tuple(self.bound() for _ in range(1 if self.chance(70) else 2))
-            return Array(self.type(depth - 1), bounds)
+            self.arrays.append(Array(self.type(depth - 1), bounds))
+            return self.arrays[-1]
         if choice < 25 and structs and depth:
             return self.r.choice(structs)
         return self.simple()
+
+    def moved(self, known: Array) -> Array:
+        """An array type with the elements of another one, and perhaps other bounds."""
+        shifts = [self.r.choice((0, 1, -3, 7)) for _ in known.bounds]
+        bounds = ((low + s, high + s) for (low, high), s in zip(known.bounds, shifts, strict=True))
+        return Array(known.element, tuple(bounds))
 
     def bound(self) -> tuple[int, int]:
         low = self.r.choice([0, 0, 1, -2, 5])
@@ -126,7 +136,15 @@ class ProgramMaker(GuardedStatements):
             members_ = tuple((self.fresh("m"), self.type(1)) for _ in range(self.r.randint(1, 4)))
             self.types.append(self.packed(Struct(self.fresh("S_"), members_)))
             if self.chance(50):
+                self.types.append(self.derived(self.types[-1]))
+            if self.chance(50):
                 self.types.append(self.union())
+
+    def derived(self, base: Enum | Struct) -> Struct:
+        """A structure that extends another one."""
+        assert isinstance(base, Struct)
+        own = tuple((self.fresh("m"), self.type(1)) for _ in range(self.r.randint(1, 3)))
+        return Struct(self.fresh("S_"), base.members + own, base=base)
 
     def given(self) -> Type:
         """Type of an input or a result: arrays and structures, too, are handed over by value."""
@@ -211,7 +229,8 @@ class ProgramMaker(GuardedStatements):
             if not places:
                 continue
             target = self.r.choice(places).type
-            pointer = Variable(self.fresh("ptr"), Pointer(target, self.chance(50)))
+            kind = self.r.randrange(3)
+            pointer = Variable(self.fresh("ptr"), Pointer(target, kind == 0, kind == 1))
             bound += self.lead(b, pointer)
         return bound
 
@@ -224,6 +243,10 @@ class ProgramMaker(GuardedStatements):
         if b.room is not b.maker.variables:
             b.maker.variables.append(pointer)
         return [first]
+
+    def to_block(self, block: Block) -> Pointer:
+        kind = self.r.randrange(3)
+        return Pointer(block, kind == 0, kind == 1)
 
     def pointed_at(self, type_: Type) -> bool:
         return not isinstance(type_, Block | Pointer | Interface | tree.BitMember | tree.OpenArray)
@@ -290,7 +313,7 @@ class ProgramMaker(GuardedStatements):
         first = self.pointers(body)
         for block in self.blocks:
             if self.chance(40):
-                first += self.lead(body, Variable(self.fresh("pfb"), Pointer(block, self.chance(50))))
+                first += self.lead(body, Variable(self.fresh("pfb"), self.to_block(block)))
         for interface in self.interfaces:
             first += self.lead(body, Variable(self.fresh("itf"), interface))
         statements = [*first, *self.statements(body, self.r.randint(2, self.size), 3)]

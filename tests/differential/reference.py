@@ -143,15 +143,21 @@ class Machine:
 
     def _for(self, s: tree.For, f: Frame) -> None:
         type_ = base_of(s.counter.type)
-        counter = f.slot(s.counter.name)
-        counter.write(self.value(s.start, f), type_)
+        counter = self.place(s.counter, f)
+        counter.write(self.value(s.start, f), s.counter.type)
         while True:
+            number = counter.read()
             stop = convert(self.value(s.stop, f), type_)  # every pass looks at it again
-            if counter.read() > stop if s.step > 0 else counter.read() < stop:
+            if number > stop if self._step(s, f) >= 0 else number < stop:
                 return
             if not self._pass(s.body, f):
                 return
-            counter.write(wrap(counter.read() + s.step, type_), type_)
+            number = counter.read()
+            counter.write(wrap(number + self._step(s, f), type_), s.counter.type)
+
+    def _step(self, s: tree.For, f: Frame) -> int:
+        """With its own sign, also where the counter has none."""
+        return s.step if isinstance(s.step, int) else self.value(s.step, f)  # type: ignore[no-any-return]
 
     def _while(self, s: tree.While, f: Frame) -> None:
         guard = f.slot(s.guard.name)
@@ -329,6 +335,8 @@ class Machine:
             return self._clock(e, f)
         if isinstance(e, tree.Bound):
             return self._bounds(e.array, f)[e.dimension][e.upper]
+        if isinstance(e, tree.IsNull):
+            return (self.place(e.pointer, f).read() is None) is e.equal
         if isinstance(e, tree.SizeOf):
             return size_and_alignment(e.of)[0]
         if isinstance(e, tree.Builtin):

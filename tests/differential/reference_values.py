@@ -102,6 +102,8 @@ def overwrite(place: Any, value: Any) -> None:
         place.memory[place.offset : place.offset + len(data)] = data
         return
     for key in range(len(place)) if isinstance(place, list) else list(place.keys()):
+        if isinstance(value, dict) and key not in value:
+            continue  # a derived structure keeps what its base does not have
         if isinstance(place[key], list | dict | View):
             overwrite(place[key], value[key])
         else:
@@ -117,6 +119,8 @@ def stored(value: Any, type_: Type) -> Any:
         return convert(value, base)
     if isinstance(base, Text):
         return value[: base.length]
+    if isinstance(base, Struct) and not base.union:
+        return {name: copied(value[name]) for name, _ in base.members}
     return copied(value)
 
 

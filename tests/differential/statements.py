@@ -8,12 +8,12 @@ from random import Random
 from typing import Any
 
 import typed_tree as tree
+from counting_loops import counting_loop
 from expressions import Maker
 from typed_tree import (
     BOOL,
     DINT,
     INT,
-    INTEGERS,
     NUMBERS,
     SINT,
     USINT,
@@ -33,6 +33,8 @@ from typed_tree import (
     Type,
     Variable,
     base_of,
+    derives,
+    same_shape,
 )
 from typing_rules import assignable
 
@@ -80,7 +82,7 @@ class Statements:
         """A value that may be assigned to `target`."""
         m = b.maker
         if isinstance(target, Array | Struct):
-            places = m.places(lambda t: t == target)
+            places = m.places(lambda t: assignable(t, target))
             return m.filled(self.r.choice(places), 1)
         if m.call is not None and self.chance(5):
             chained = m.places(lambda t: t == target, writable=True)
@@ -127,7 +129,7 @@ class Statements:
                 return [self._if(b, depth)]
             if choice < 20:
                 return [self._case(b, depth)]
-            return [self._for(b, depth) if choice < 32 else self._while(b, depth)]
+            return [counting_loop(self, b, depth) if choice < 32 else self._while(b, depth)]
         if choice < 52:
             called = self._call(b)
             if called is not None:
@@ -172,7 +174,7 @@ class Statements:
             branches.append((ranges, self.statements(b, 1, depth - 1)))
         return tree.Case(selector, branches, self.statements(b, self.r.randint(0, 1), depth - 1))
 
-    def _loop_variable(self, b: Body, prefix: str, type_: Scalar) -> Name:
+    def loop_variable(self, b: Body, prefix: str, type_: Scalar) -> Name:
         made = Variable(self.fresh(prefix), type_)
         b.room.append(made)
         if b.room is not b.maker.variables:
@@ -180,28 +182,9 @@ class Statements:
         b.maker.fixed.add(made.name)
         return Name(type_, type_, False, made.name)
 
-    def _for(self, b: Body, depth: int) -> tree.For:
-        type_ = self.r.choice(INTEGERS)
-        signed = type_.kind == "signed"
-        step = self.r.choice([1, 1, 1, 2, *([-1, -3] if signed else [])])
-        first, last = self.r.choice([0, 1, -2 if signed else 2]), self.r.randint(0, 5)
-        if step < 0:
-            first, last = last, first
-        stop: Expr = b.maker.literal(type_, last)
-        if self.chance(30):
-            limits: list[Expr] = [b.maker.literal(type_, v) for v in (0, 5)]
-            stop = tree.Builtin(
-                type_, type_, False, "LIMIT", [limits[0], b.maker.moving(type_, 0), limits[1]], [type_] * 3
-            )
-        counter = self._loop_variable(b, "k", type_)
-        b.loops += 1
-        body = self.statements(b, self.r.randint(1, 3), depth - 1)
-        b.loops -= 1
-        return tree.For(counter, b.maker.literal(type_, first), stop, step, body)
-
     def _while(self, b: Body, depth: int) -> tree.While:
         condition = b.maker.moving(BOOL, 2)
-        guard = self._loop_variable(b, "g", DINT)
+        guard = self.loop_variable(b, "g", DINT)
         b.loops += 1
         body = self.statements(b, self.r.randint(1, 3), depth - 1)
         b.loops -= 1
@@ -220,7 +203,7 @@ class Statements:
             found = self._blocks(b, lambda t: t.is_a(kind.target))
         else:
             assert isinstance(kind, Pointer)
-            found = b.maker.places(lambda t: t == kind.target, writable=True)
+            found = b.maker.places(lambda t: _leads_to(kind, t), writable=True)
             found = [e for e in found if not isinstance(e, tree.Deref) and _root(e) not in b.maker.heap]
         if not found:
             return None
@@ -298,7 +281,7 @@ class Statements:
 
     def can_give(self, m: Maker, type_: Type) -> bool:
         """Whether there is a value of a type: arrays and structures have no literals."""
-        return not isinstance(type_, Array | Struct) or bool(m.places(lambda t: t == type_))
+        return not isinstance(type_, Array | Struct) or bool(m.places(lambda t: assignable(t, type_)))
 
     def _call_function(self, b: Body, functions: list[Function], place: Expr | None, via: str) -> Any:
         m = b.maker
@@ -365,7 +348,14 @@ def _fits(given: Type, in_out: Type) -> bool:
     """Whether a place may stand for an in-out."""
     if isinstance(in_out, tree.OpenArray) and isinstance(given, Array):
         return given.element == in_out.element and len(given.bounds) == in_out.dimensions
-    return given == in_out
+    return same_shape(given, in_out) or derives(given, in_out)
+
+
+def _leads_to(pointer: Pointer, given: Type) -> bool:
+    """Whether a pointer may have the address of a place."""
+    return derives(given, pointer.target) or (
+        given == pointer.target if pointer.ref_to else same_shape(given, pointer.target)
+    )
 
 
 def _line(block: Block | None) -> list[Block]:

@@ -8,9 +8,9 @@ import chart_tree
 import pytest
 from chart_reference import Run
 from charts import ChartMaker
+from linked_application import LoadedApplication
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

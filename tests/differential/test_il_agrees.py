@@ -8,9 +8,9 @@ import il_programs
 import pytest
 from arithmetic import same
 from il_rows import COMMON, Counter, Machine
+from linked_application import LoadedApplication
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

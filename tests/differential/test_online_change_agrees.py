@@ -16,12 +16,12 @@ import write_st
 from arithmetic import Fault, same
 from bytes_in_memory import Unsettled
 from edited_programs import EditMaker, changed_over
+from linked_application import ApplicationFault, LoadedApplication
 from reference import Machine
 from reference_values import TooLong
 from typed_tree import Program
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
 from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 

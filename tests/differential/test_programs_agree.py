@@ -11,6 +11,7 @@ import write_st
 from bytes_in_memory import Unsettled
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+
 from programs import ProgramMaker
 
 QUICK = settings(

@@ -13,11 +13,11 @@ from typing import Any
 import pytest
 import typed_tree as tree
 from arithmetic import convert, same, wrap
+from linked_application import LoadedApplication
 from typed_tree import BOOL, INTEGERS, LREAL, REAL, Scalar
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.jit import LoadedApplication
-from tappet.lang.literals import decode
+from tappet.iec.literals import decode
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

@@ -48,6 +48,8 @@ from typed_types import Text as Text
 from typed_types import Type as Type
 from typed_types import Variable as Variable
 from typed_types import base_of as base_of
+from typed_types import derives as derives
+from typed_types import same_shape as same_shape
 
 # -- expressions ------------------------------------------------------------------------------------
 
@@ -136,6 +138,14 @@ class Bound(Expr):
 
 
 @dataclass
+class IsNull(Expr):
+    """A pointer or REF_TO compared with NULL."""
+
+    pointer: Name
+    equal: bool
+
+
+@dataclass
 class SizeOf(Expr):
     """SIZEOF of a type."""
 
@@ -204,10 +214,13 @@ class Case:
 
 @dataclass
 class For:
-    counter: Name
+    """`counter` is a variable of its own that only the loop writes, or any place."""
+
+    counter: Expr
     start: Expr
     stop: Expr
-    step: int
+    step: int | Expr
+    """A step in an expression is worked out in each pass and has the sign of its own type."""
     body: list[Any]
 
 

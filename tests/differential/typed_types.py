@@ -135,17 +135,22 @@ class Struct:
     pack: int | None = None
     """`pack_mode`."""
     union: bool = False
+    base: Struct | None = None
+    """What it extends; `members` begin with those of the base."""
 
 
 @dataclass(frozen=True)
 class Pointer:
-    """POINTER TO, or REFERENCE TO."""
+    """POINTER TO, REFERENCE TO or REF_TO."""
 
     target: Type
     reference: bool = False
+    ref_to: bool = False
 
     @property
     def name(self) -> str:
+        if self.ref_to:
+            return f"REF_TO {self.target.name}"
         return f"{'REFERENCE' if self.reference else 'POINTER'} TO {self.target.name}"
 
 
@@ -266,6 +271,7 @@ class Variable:
     initial: Any = None
     arguments: tuple[Any, ...] | None = None
     """What FB_Init of a block gets."""
+    constant: bool = False
 
 
 @dataclass
@@ -284,6 +290,25 @@ class Program:
     """Constants that name bits."""
     checks: bool = False
     """Whether the program brings check functions of its own."""
+
+
+def derives(source: Type, target: Type) -> bool:
+    """Whether a structure is another one, or extends it: it begins with its members."""
+    while isinstance(source, Struct):
+        if source == target:
+            return True
+        if source.base is None:
+            return False
+        source = source.base
+    return False
+
+
+def same_shape(source: Type, target: Type) -> bool:
+    """Whether arrays have the same elements in the same order, whatever their bounds are."""
+    if not isinstance(source, Array) or not isinstance(target, Array):
+        return source == target
+    lengths = [tuple(high - low for low, high in array.bounds) for array in (source, target)]
+    return lengths[0] == lengths[1] and same_shape(source.element, target.element)
 
 
 def base_of(type_: Type) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typed_tree import DINT, LINT, UDINT, ULINT, Enum, Scalar, Text, Type, base_of
+from typed_tree import DINT, LINT, UDINT, ULINT, Enum, Scalar, Text, Type, base_of, derives, same_shape
 
 
 def signed_of(bits: int) -> Scalar:
@@ -66,7 +66,7 @@ def assignable(source: Type, target: Type) -> bool:
         return source is target
     a, b = base_of(source), base_of(target)
     if not isinstance(a, Scalar) or not isinstance(b, Scalar):
-        return bool(source == target)
+        return same_shape(source, target) or derives(source, target)
     if a == b:
         return True
     if a.integer and b.integer:

@@ -116,6 +116,8 @@ def expression(e: Any) -> str:
         return f"{expression(e.base)}.{e.constant_name or e.bit}"
     if isinstance(e, tree.Bound):
         return f"{'UPPER' if e.upper else 'LOWER'}_BOUND({e.array.name}, {e.dimension + 1})"
+    if isinstance(e, tree.IsNull):
+        return f"({e.pointer.name} {'=' if e.equal else '<>'} NULL)"
     if isinstance(e, tree.SizeOf):
         return f"SIZEOF({e.of.name})"
     if isinstance(e, tree.Unary):
@@ -164,10 +166,10 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
             lines += [f"{indent}ELSE", *statements(s.otherwise, deeper)] if s.otherwise else []
             lines.append(f"{indent}END_CASE")
         elif isinstance(s, tree.For):
-            by = f" BY {s.step}" if s.step != 1 else ""
-            lines.append(
-                f"{indent}FOR {s.counter.name} := {expression(s.start)} TO {expression(s.stop)}{by} DO"
-            )
+            step = str(s.step) if isinstance(s.step, int) else expression(s.step)
+            by = f" BY {step}" if s.step != 1 else ""
+            limits = f"{expression(s.start)} TO {expression(s.stop)}"
+            lines.append(f"{indent}FOR {expression(s.counter)} := {limits}{by} DO")
             lines += [*statements(s.body, deeper), f"{indent}END_FOR"]
         elif isinstance(s, tree.While):
             lines += _while(s, indent)
@@ -196,9 +198,9 @@ def _bind(s: tree.Bind) -> str:
     if isinstance(s.target.type, tree.Interface):
         return f"{s.target.name} := {place};"
     assert isinstance(s.target.type, tree.Pointer)
-    return (
-        f"{s.target.name} REF= {place};" if s.target.type.reference else f"{s.target.name} := ADR({place});"
-    )
+    if s.target.type.reference:
+        return f"{s.target.name} REF= {place};"
+    return f"{s.target.name} := {'REF' if s.target.type.ref_to else 'ADR'}({place});"
 
 
 def _try(s: tree.Try, indent: str) -> list[str]:
@@ -250,6 +252,14 @@ def _while(s: tree.While, indent: str) -> list[str]:
 
 
 def _section(word: str, variables: list[Variable]) -> list[str]:
+    constants = [v for v in variables if v.constant]
+    return [
+        *_block_of(word, [v for v in variables if not v.constant]),
+        *_block_of(f"{word} CONSTANT", constants),
+    ]
+
+
+def _block_of(word: str, variables: list[Variable]) -> list[str]:
     if not variables:
         return []
     lines = [word]
@@ -344,10 +354,12 @@ def _type(t: Enum | Struct) -> list[str]:
     if isinstance(t, Enum):
         members = ", ".join(f"{name} := {number}" for name, number in t.members)
         return [f"TYPE {t.name} : ({members}) {t.base.name}; END_TYPE"]
-    members = " ".join(f"{name} : {m.name};" for name, m in t.members)
+    own = t.members[len(t.base.members) :] if t.base is not None else t.members
+    members = " ".join(f"{name} : {m.name};" for name, m in own)
+    extends = f" EXTENDS {t.base.name}" if t.base is not None else ""
     word = "UNION" if t.union else "STRUCT"
     lines = [] if t.pack is None else [f"{{attribute 'pack_mode' := '{t.pack}'}}"]
-    return [*lines, f"TYPE {t.name} : {word} {members} END_{word} END_TYPE"]
+    return [*lines, f"TYPE {t.name}{extends} : {word} {members} END_{word} END_TYPE"]
 
 
 def _interface(i: tree.Interface) -> list[str]:

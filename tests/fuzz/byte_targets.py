@@ -16,7 +16,13 @@ from tappet.libraries import archive as library_archive
 from tappet.project.errors import FolderFormatError
 from tappet.project.folder import archive as project_archive
 from tappet.project.folder import codec
-from tappet.runtime import protocol
+from tappet.runtime import protocol, recorder_wire
+from tappet.runtime.operations import registry
+from tappet.runtime.operations.download import DownloadChunk
+from tappet.runtime.operations.life_cycle import Reset
+from tappet.runtime.operations.recording import Record
+from tappet.runtime.operations.symbols import GetSymbols, LoadedSymbols
+from tappet.runtime.operations.values import Read, Unforce, Write
 
 ROOT = Path(__file__).resolve().parents[2]
 SEPARATOR = b"\n=== "
@@ -88,35 +94,27 @@ def packages() -> list[bytes]:
 
 
 def frame(data: bytes) -> None:
-    """A message to a runtime with every kind of argument, or recorder data."""
-    try:
+    """A message to a runtime, or recorder data; the same bytes as a reply to a client."""
+    with contextlib.suppress(protocol.ProtocolError):
         if protocol.is_frames(data):
             batch = protocol.unpack_frames(data)
             batch.frames(batch.frame_size - 16)
             return
-        request = protocol.parse_request(data)
-    except protocol.ProtocolError:
-        return
-    fields = request.fields
-    for take in (fields.text, fields.optional_text, fields.integer, fields.flag, fields.data):
-        with contextlib.suppress(protocol.ProtocolError):
-            take("a")
-    for rows in (fields.places, fields.values, fields.keys):
-        with contextlib.suppress(protocol.ProtocolError):
-            rows("b")
+        protocol.parse_arguments(protocol.parse_request(data), registry.known())
     with contextlib.suppress(protocol.ProtocolError):
-        fields.optional_rows("b", 2)
+        message = protocol.parse_message(data)
+        protocol.parse_result(GetSymbols, message.result)
 
 
 def frames() -> list[bytes]:
-    arguments = [
-        {"a": "text", "b": [[0, 4], [8, 1]]},
-        {"a": 5, "b": [[0, b"abcd", None], [8, b"x", 3]]},
-        {"a": True, "b": [[0, None], [8, 7]]},
-        {"a": b"bytes", "b": None},
-    ]
-    requests = [protocol.pack({"id": n, "op": "read", **some}) for n, some in enumerate(arguments)]
-    return [*requests, protocol.pack_frames(1, 2, 20, 0, bytes(40))]
+    orders = [
+        Read([(0, 4), (8, 1)]), Write([(0, b"abcd", None), (8, b"x", 3)]), Unforce([(0, None), (8, 7)]),
+        Record([(0, 4)], "Main", 2), Reset("warm"), DownloadChunk(b"bytes"),
+    ]  # fmt: skip
+    requests = [protocol.pack_request(number, order) for number, order in enumerate(orders)]
+    symbols = CodePackage.from_bytes(packages()[0]).symbols
+    reply = protocol.pack_result(1, LoadedSymbols("code", symbols))
+    return [*requests, reply, recorder_wire.pack_frames(1, 2, 20, 0, bytes(40))]
 
 
 def literal(data: bytes) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 from tappet.lang.services.documents import Program, whole_file
 from tappet.lang.source import Source
 from tappet.server.lsp import rpc
+from tappet.server.lsp.project_analysis import ProjectAnalysis
 from tappet.server.lsp.session import LanguageSession
 
 URI = "tappet:/p/a.st"
@@ -31,16 +32,18 @@ async def _talk(texts: list[str]) -> list[dict[str, Any]]:
     """What a session answers to messages, all of it."""
     answers: list[dict[str, Any]] = []
 
-    async def send(text: str) -> None:
-        answers.append(json.loads(text))
+    async def send(message: rpc.Outgoing) -> None:
+        answers.append(json.loads(message.text))
 
-    session = LanguageSession(_programs, send, debounce_s=0.0)
+    analysis = ProjectAnalysis(_programs, debounce_s=0.0)
+    session = LanguageSession(analysis, send)
     try:
         for text in texts:
             await session.receive(text)
         await session.endpoint.settle()
     finally:
         await session.close()
+        await analysis.close()
     return answers
 
 

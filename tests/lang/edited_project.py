@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 
+from tappet.iec.task import Task
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import Analysis
@@ -13,7 +14,6 @@ from tappet.lang.analysis.tasks import check_tasks
 from tappet.lang.parser import parse
 from tappet.lang.source import Scope, Source
 from tappet.lang.symbols import PouSymbol, Symbol, VarSymbol
-from tappet.project.sources import TaskDefinition
 
 OBJECTS: dict[str, str] = {
     "GVL": """{lead}{gvl_head}VAR_GLOBAL
@@ -283,8 +283,8 @@ _LISTS = ("GVL", "Limits", "Common", "Pool", "Config")
 _POOL = ("POUS", "Pool")
 _IN_PARTS = ("FB_Base", "FB_Axis", "FB_Axis.Go", "F_Scale", "P_Other", "PLC_PRG")
 TASKS = (
-    TaskDefinition("Fast", "cyclic", 1_000_000, 1, None, None, ("PLC_PRG",), None),
-    TaskDefinition("Slow", "cyclic", 9_000_000, 9, None, None, ("P_Other", "P_List"), None),
+    Task("Fast", "cyclic", 1_000_000, 1, None, None, ("PLC_PRG",), None),
+    Task("Slow", "cyclic", 9_000_000, 9, None, None, ("P_Other", "P_List"), None),
 )
 
 

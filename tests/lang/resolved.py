@@ -10,7 +10,7 @@ from tappet.lang.symbols import VarSymbol
 from tappet.lang.types import Type
 
 QUIET = frozenset({"W1103", "W1116", "W1121", "W1135", "W1140", "W1141", "W1204", "W1206", "W1209"})
-"""Codes about unused and equally named things, which short samples are full of."""
+"""Codes about unused and equally named entities, which short samples are full of."""
 
 
 def analysed(*texts: str | Source, options: AnalysisOptions | None = None) -> Analysis:
@@ -31,7 +31,7 @@ def program(
 
 
 def codes(analysis: Analysis, *, quiet: frozenset[str] = QUIET) -> list[str]:
-    """Codes of the messages in order, those about unused things left out."""
+    """Codes of the messages in order, those about unused entities left out."""
     return [d.code for d in analysis.diagnostics if d.code not in quiet]
 
 

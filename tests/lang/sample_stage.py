@@ -15,8 +15,8 @@ from tappet.lang.analysis import AnalysisOptions, analyse, check_tasks
 from tappet.lang.coding_settings import StaticAnalysis
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.rules import CODING_RULES
-from tappet.lang.source import Scope, Source
+from tappet.lang.rules import coding_rules
+from tappet.lang.source import BodyText, Scope, Source
 from tappet.project.library_reference import ParameterValue
 
 _OBJECT = re.compile(
@@ -24,7 +24,7 @@ _OBJECT = re.compile(
     r"(PROGRAM|FUNCTION|FUNCTION_BLOCK|INTERFACE|METHOD|ACTION|PROPERTY|VAR_GLOBAL|VAR_CONFIG)\b",
     re.MULTILINE,
 )
-ALL_CODING_RULES = frozenset(code for rule in CODING_RULES for code in rule.CODES)
+ALL_CODING_RULES = frozenset(code for rule in coding_rules() for code in rule.CODES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,13 +119,14 @@ def stage(text: str) -> Stage:
 def _source(head: list[str], text: str, language: str | None) -> Source:
     name, kind, *rest = [*head, "", ""] if head else ["Sample", ""]
     text = _whole(text)
+    bodies = () if language is None else (BodyText(0, language),)
     if kind == "pous":
-        return Source(name, text, Scope.POUS, language=language)
+        return Source(name, text, Scope.POUS, bodies=bodies)
     if kind == "library":
-        return Source(name, text, Scope.LIBRARY, library=rest[0], namespace=rest[0], language=language)
+        return Source(name, text, Scope.LIBRARY, library=rest[0], namespace=rest[0], bodies=bodies)
     if kind == "owner":
-        return Source(f"{rest[0]}.{name}", text, owner=rest[0], language=language)
-    return Source(name, text, language=language, name=name if "VAR_GLOBAL" in text else None)
+        return Source(f"{rest[0]}.{name}", text, owner=rest[0], bodies=bodies)
+    return Source(name, text, bodies=bodies, name=name if "VAR_GLOBAL" in text else None)
 
 
 def _whole(text: str) -> str:

@@ -94,7 +94,7 @@ def test_wording_and_numbers_of_codesys() -> None:
         ("e := 0; e := one; i := e; e := i;", []),
         ("e := 100000;", ["E0301"]),
         ("str := 'abc'; wstr := \"abc\";", []),
-        ('str := "abc";', ["E0301"]),
+        ('str := "abc";', ["W1152"]),
         ("p := 0; p := ADR(i); dw := ADR(i); lw := ADR(i);", ["W1302"]),
         ("i := ADR(i);", ["E0301"]),
         ("i := r; r := i; i := r + 1;", []),

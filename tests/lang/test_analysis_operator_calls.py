@@ -64,7 +64,7 @@ def test_operator_overloads(body: str, parameters: tuple[t.Type | None, ...], re
         ("i := SEL(b, i);", "E0513"),
         ("i := SEL(i, i, i);", "E0301"),
         ("i := SEL(b, i, str);", "E0304"),
-        ("i := LIMIT(MN := 1, IN := 2, MX := 3);", "E0514"),
+        ("i := LIMIT(LOW := 1, IN := 2, MX := 3);", "E0514"),
         ("i := SHL(re, 2);", "E0303"),
         ("re := SIN(b);", "E0303"),
         ("p := ADR(i + 1);", "E0323"),

@@ -10,11 +10,11 @@ from edited_project import CHOICES, OBJECTS, knowledge, messages, parse_edited, 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tappet.lang.analysis import Analysis, analyse, go_on
-from tappet.lang.analysis import redeclare as redeclaring
+from tappet.lang.analysis import Analysis, analyse, resume
 from tappet.lang.analysis.bodies import State
-from tappet.lang.analysis.dependents import Dependents
-from tappet.lang.analysis.words import words_of
+from tappet.lang.analysis.edits import declaration_edits
+from tappet.lang.analysis.edits.dependents import Dependents
+from tappet.lang.analysis.edits.identifiers import identifiers_of
 from tappet.lang.parser import parse
 from tappet.lang.source import Scope, Source
 
@@ -55,13 +55,13 @@ def test_what_waits_is_made_up_for(
     units = units_of(chosen)
     analysis = analyse(list(units.values()))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(redeclaring, "AT_ONCE", 0)
+        patch.setattr(declaration_edits, "AT_ONCE", 0)
         for edit, first, some in edits:
             chosen |= dict(edit)
             parse_edited(units, chosen)
             analysis = analyse(list(units.values()), None, analysis, frozenset([first]))
             if some:
-                go_on(analysis, 0.0)
+                resume(analysis, 0.0)
         analysis = analyse(list(units.values()), previous=analysis)
     assert not analysis.is_waiting
     fresh = units_of(chosen)
@@ -77,16 +77,16 @@ def test_an_edited_text_is_told_of_before_others() -> None:
     units["Common"] = parse(text_of("Common", begin | {"shared": 3})).unit
     units["P_Other"] = parse(text_of("P_Other", begin | {"other_body": 1})).unit
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(redeclaring, "AT_ONCE", 0)
+        patch.setattr(declaration_edits, "AT_ONCE", 0)
         early = analyse(list(units.values()), None, first, frozenset(["P_Other"]))
     assert early.is_waiting
     known = {uri: [str(d) for d in early.diagnostics if d.uri == uri] for uri in ("P_Other", "FB_Axis")}
-    while not go_on(early, 0.0):
+    while not resume(early, 0.0):
         pass
     late = analyse(list(units.values()), previous=early)
-    told = {uri: [str(d) for d in late.diagnostics if d.uri == uri] for uri in ("P_Other", "FB_Axis")}
-    assert known["P_Other"] == told["P_Other"]
-    assert known["FB_Axis"] != told["FB_Axis"]
+    changed = {uri: [str(d) for d in late.diagnostics if d.uri == uri] for uri in ("P_Other", "FB_Axis")}
+    assert known["P_Other"] == changed["P_Other"]
+    assert known["FB_Axis"] != changed["FB_Axis"]
 
 
 def _differences(found: list[str], expected: list[str]) -> list[tuple[str | None, str | None]]:
@@ -159,8 +159,10 @@ def test_texts_with_variables_of_a_block_need_its_size_only(
         source = text_of(name, {place: number})
         if source != units[name].source:
             edited[name] = (units[name], parse(source).unit)
-    words = {name: words_of(edited[name][1] if name in edited else unit) for name, unit in units.items()}
-    found = Dependents(first.state.session, words, edited)
+    identifiers = {
+        name: identifiers_of(edited[name][1] if name in edited else unit) for name, unit in units.items()
+    }
+    found = Dependents(first.state.session, identifiers, edited)
     assert again <= found.again
     assert sized <= found.sized
     assert found.again.isdisjoint(found.sized)
@@ -181,7 +183,7 @@ def test_texts_with_variables_of_a_block_need_its_size_only(
 )
 def test_names_that_are_only_types_of_variables(declared: str, plain: bool) -> None:
     unit = parse(Source("P", f"PROGRAM P\nVAR\n{declared}\nEND_VAR\nEND_PROGRAM")).unit
-    assert ("T" in words_of(unit).plain_types) is plain
+    assert ("T" in identifiers_of(unit).plain_types) is plain
 
 
 def test_types_that_hold_an_edited_one_are_laid_out_again() -> None:

@@ -14,9 +14,9 @@ from sample_stage import diagnose
 
 import tappet.lang
 from tappet import libraries
+from tappet.iec.words import KEYWORDS
 from tappet.lang.diagnostic_translations import Texts, phrase, said, texts
 from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.lexer import KEYWORDS
 from tappet.lang.sample_texts import samples
 from tappet.lang.types import ELEMENTARY
 

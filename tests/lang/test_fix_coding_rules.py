@@ -6,10 +6,10 @@ import re
 from collections.abc import Mapping
 
 import pytest
+from linked_application import loaded
 from sample_stage import ALL_CODING_RULES, stage
 
 from tappet.codegen.build import BuildOptions, build_application
-from tappet.codegen.jit import loaded
 from tappet.lang.coding_settings import StaticAnalysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.sample_texts import Sample, samples

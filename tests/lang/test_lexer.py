@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from st_text import codes
 
-from tappet.lang.lexer import COMMENT, KEYWORDS, PRAGMA, lex, tokenize
+from tappet.iec.words import KEYWORDS
+from tappet.lang.lexer import COMMENT, PRAGMA, lex, tokenize
 from tappet.lang.source import Source, Span
 
 
@@ -51,9 +52,31 @@ def test_kinds(text: str, expected: list[str]) -> None:
     assert kinds(text) == expected
 
 
-@pytest.mark.parametrize("word", sorted(KEYWORDS))
+@pytest.mark.parametrize("word", sorted(KEYWORDS - {"ACTION", "TRANSITION", "PARAMS"}))
 def test_keywords_are_recognised_in_any_case(word: str) -> None:
     assert kinds(f"{word} {word.lower()} {word.title()} {word}x") == [word, word, word, "id"]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("ACTION Run:", ["ACTION", "id", ":"]),
+        ("END_IF; ACTION PRIVATE Run", ["END_IF", ";", "ACTION", "id", "id"]),
+        ("x := ACTION y", ["id", ":=", "id", "id"]),
+        ("ACTION := TRANSITION;", ["id", ":=", "id", ";"]),
+        (
+            "IF ACTION THEN TRANSITION.a[PARAMS] S= b;",
+            ["IF", "id", "THEN", "id", ".", "id", "[", "id", "]", "id", "=", "id", ";"],
+        ),
+        ("CASE PARAMS OF PARAMS OF INT", ["CASE", "id", "OF", "PARAMS", "OF", "id"]),
+        ("ACTION : INT; TRANSITION, PARAMS : INT;", ["id", ":", "id", ";", "id", ",", "id", ":", "id", ";"]),
+        ("TRANSITION FROM a TO b := NULL;", ["TRANSITION", "id", "id", "TO", "id", ":=", "id", ";"]),
+        ("TRANSITION (PRIORITY := 1) FROM", ["TRANSITION", "(", "id", ":=", "int", ")", "id"]),
+        ("ACTION AND TRANSITION", ["id", "AND", "id"]),
+    ],
+)
+def test_words_of_charts_are_names_where_they_begin_nothing(text: str, expected: list[str]) -> None:
+    assert kinds(text) == expected
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tappet.iec.literals import decode
 from tappet.lang import ast
-from tappet.lang.literals import decode
 from tappet.lang.parser import parse_expression
 
 
@@ -85,7 +85,7 @@ def test_value(text: str, kind: str, prefix: str | None, value: object) -> None:
     [
         ("15ms", "E0016", "T# is missing before '15ms'"),
         ("12abc", "E0010", "not a valid number"),
-        ("1__0", "E0010", "single underscore"),
+        ("1__", "E0010", "single underscore"),
         ("8#9", "E0010", "Base 8 has no such digit"),
         ("2#102", "E0010", "Base 2 has no such digit"),
         ("3#12", "E0010", "16#FF"),

@@ -9,8 +9,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from st_text import body_of, expression, same, statements, type_text
 
+from tappet.iec.words import KEYWORDS
 from tappet.lang import ast
-from tappet.lang.lexer import KEYWORDS, tokenize
+from tappet.lang.lexer import tokenize
 from tappet.lang.parser import parse, parse_expression
 from tappet.lang.source import Source
 

@@ -4,8 +4,9 @@ from hypothesis import strategies as st
 
 from tappet.project import edit
 from tappet.project.errors import ProjectError
-from tappet.project.model import Project, make_object, new_id
-from tappet.project.templates import new_project
+from tappet.project.model import Project, new_id
+from tappet.project.new_project import new_project
+from tappet.project.objects import make_object
 
 FREE_NAMES = st.sampled_from(
     ["Motors", "CON", "aux", "电机 1", "50 %", "a:b", "Größe", "x" * 200, "ü" * 200, "index", "~", "%41"]
@@ -99,6 +100,15 @@ def _data(draw: st.DrawFn, kind: str) -> dict[str, object] | None:
     return None
 
 
+def _split_data() -> st.SearchStrategy[dict[str, object]]:
+    """Data of a missing plug-in that say which of them are text files, rightly or not."""
+    endings = st.dictionaries(
+        st.sampled_from(["a", "b", "$texts"]), st.sampled_from(["md", "st", "json", "É"])
+    )
+    fields = st.dictionaries(st.sampled_from(["a", "b", "c"]), TEXTS | JSON_VALUES)
+    return st.builds(lambda data, texts: data | {"$texts": texts}, fields, endings | JSON_VALUES)
+
+
 @st.composite
 def projects(draw: st.DrawFn) -> Project:
     """A sound project; most of its texts do not compile."""
@@ -130,7 +140,7 @@ def projects(draw: st.DrawFn) -> Project:
             kind="oscillogram",
             name="Curve",
             index=0,
-            data=draw(st.dictionaries(st.text(), JSON_VALUES, max_size=4)),
+            data=draw(st.dictionaries(st.text(), JSON_VALUES, max_size=4) | _split_data()),
         )
         objects = {**project.objects, curve.id: curve}
         siblings = [

@@ -1,4 +1,4 @@
-"""Archives from outside: what is unsound is refused before it is believed (DESIGN decision 16)."""
+"""Archives from outside: what is unsound is refused before it is believed (architecture, decision 16)."""
 
 import io
 import struct
@@ -14,7 +14,7 @@ from tappet.project.errors import FolderFormatError
 from tappet.project.folder import encode, read_zip, write_zip
 from tappet.project.folder.archive import Limits, unpack
 from tappet.project.model import Project
-from tappet.project.templates import new_project
+from tappet.project.new_project import new_project
 
 
 def folder_archive(project: Project, prefix: str = "") -> bytes:

@@ -1,11 +1,12 @@
 """Adding, renaming, moving, copying and deleting objects, and the placement rules."""
 
+from typing import Any
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.project import edit
-from tappet.project.data import TaskData
 from tappet.project.errors import (
     InvalidDataError,
     InvalidNameError,
@@ -14,9 +15,13 @@ from tappet.project.errors import (
     ProjectError,
     UnknownObjectError,
 )
-from tappet.project.model import Project, ProjectObject, make_object, new_id
-from tappet.project.placement import RULES, PlacementRule, check_project, check_spelling, proposed_name
-from tappet.project.templates import new_project
+from tappet.project.kind_registry import kinds
+from tappet.project.kinds.task import TaskData
+from tappet.project.model import Project, ProjectObject, new_id
+from tappet.project.new_project import new_project
+from tappet.project.object_kind import ObjectKind
+from tappet.project.objects import make_object
+from tappet.project.placement import Site, check_project, check_spelling, proposed_name
 
 APP = "Tappet Soft PLC/PLC Logic/Application"
 
@@ -49,12 +54,12 @@ def test_adding_fills_in_the_template() -> None:
     check_project(project)
 
 
-@pytest.mark.parametrize("rule", RULES.values(), ids=RULES.keys())
-def test_every_template_says_what_it_is(rule: PlacementRule) -> None:
+@pytest.mark.parametrize("kind", kinds().values(), ids=kinds().keys())
+def test_every_template_says_what_it_is(kind: ObjectKind[Any]) -> None:
     project = new_project("x")
-    for subkind in rule.subkinds:
+    for subkind in kind.templates:
         app = at(project, APP)
-        project, item = edit.add_object(project, app.id, rule.kind, subkind=subkind)
+        project, item = edit.add_object(project, app.id, kind.name, subkind=subkind)
         plain = subkind == "variable_list"  # a list without parameters is told by its kind alone
         assert item.subkind == (None if plain else subkind)
     with pytest.raises(InvalidDataError):
@@ -73,12 +78,12 @@ def test_a_new_device_comes_with_an_application() -> None:
 def test_names_proposed_by_the_dialog() -> None:
     project = new_project("x")
     app = at(project, APP)
-    assert proposed_name(project, "pou", app.id) == "POU"
+    assert proposed_name(Site.of(project, app.id), "pou") == "POU"
     project = edit.delete_object(project, at(project, f"{APP}/PLC_PRG").id)
-    assert proposed_name(project, "pou", app.id) == "PLC_PRG"
+    assert proposed_name(Site.of(project, app.id), "pou") == "PLC_PRG"
     project, _ = edit.add_object(project, app.id, "gvl")
-    assert proposed_name(project, "gvl", app.id) == "GVL_1"
-    assert proposed_name(project, "library_manager", None) == "Library Manager"
+    assert proposed_name(Site.of(project, app.id), "gvl") == "GVL_1"
+    assert proposed_name(Site.of(project, None), "library_manager") == "Library Manager"
 
 
 @pytest.mark.parametrize(
@@ -312,7 +317,7 @@ def test_any_sequence_of_edits_keeps_the_tree_sound(data: st.DataObject) -> None
             names(project, parent)
 
 
-@pytest.mark.parametrize("rule", RULES.values(), ids=RULES.keys())
-def test_every_proposed_name_is_possible(rule: PlacementRule) -> None:
-    for name in rule.names or (rule.proposal,):
-        check_spelling(rule.kind, name)
+@pytest.mark.parametrize("kind", kinds().values(), ids=kinds().keys())
+def test_every_proposed_name_is_possible(kind: ObjectKind[Any]) -> None:
+    for name in kind.naming.names or (kind.naming.proposal, kind.naming.first or kind.naming.proposal):
+        check_spelling(kind.name, name)

@@ -1,4 +1,4 @@
-"""The folder format: readable, byte-stable, and nothing is lost (DESIGN decision 9, CON-03)."""
+"""The folder format: readable, byte-stable, and nothing is lost (architecture, decision 9; CON-03)."""
 
 from pathlib import Path
 
@@ -13,9 +13,12 @@ from tappet.project.folder import decode, encode, load, save
 from tappet.project.folder.filenames import MAX_STEM_BYTES, name_of, stem_of
 from tappet.project.folder.layout import derived_id
 from tappet.project.folder.texts import Parts, read_text, write_text
-from tappet.project.model import Project, ProjectObject, make_object, new_id
+from tappet.project.kind_registry import kinds
+from tappet.project.model import Project, ProjectObject, new_id
 from tappet.project.naming import name_key
-from tappet.project.templates import new_project
+from tappet.project.new_project import new_project
+from tappet.project.object_kind import IecText
+from tappet.project.objects import make_object
 
 APP = "Devices/Tappet Soft PLC/PLC Logic/Application"
 
@@ -137,22 +140,28 @@ def test_folders_on_disk(
     }
 
 
+def text_form(kind: str) -> IecText:
+    form = kinds()[kind].folder
+    assert isinstance(form, IecText)
+    return form
+
+
 @given(TEXTS, TEXTS, st.sampled_from(["pou", "method", "accessor"]))
 def test_any_two_texts_come_apart_again(declaration: str, implementation: str, kind: str) -> None:
     declaration, implementation = (
         text.replace("\r\n", "\n").replace("\r", "\n") for text in (declaration, implementation)
     )
     parts = Parts(declaration, implementation)
-    text, split = write_text(kind, "Get", parts)
-    assert read_text(kind, "Get", text, split) == parts
+    text, split = write_text(text_form(kind), "Get", parts)
+    assert read_text(text_form(kind), "Get", text, split) == parts
 
 
 @given(TEXTS, st.sampled_from(["pou", "method", "accessor", "action", "property", "interface", "dut", "gvl"]))
 def test_any_text_file_is_read_and_then_stable(text: str, kind: str) -> None:
     text = text.replace("\r\n", "\n").replace("\r", "\n")
-    parts = read_text(kind, "Set", text)
-    written, split = write_text(kind, "Set", parts)
-    assert read_text(kind, "Set", written, split) == parts
+    parts = read_text(text_form(kind), "Set", text)
+    written, split = write_text(text_form(kind), "Set", parts)
+    assert read_text(text_form(kind), "Set", written, split) == parts
 
 
 @pytest.mark.parametrize(
@@ -174,7 +183,7 @@ def test_any_text_file_is_read_and_then_stable(text: str, kind: str) -> None:
 def test_texts_written_by_hand(
     kind: str, text: str, declaration: str | None, implementation: str | None
 ) -> None:
-    assert read_text(kind, "Get" if kind == "accessor" else "Start", text) == Parts(
+    assert read_text(text_form(kind), "Get" if kind == "accessor" else "Start", text) == Parts(
         declaration, implementation
     )
 
@@ -270,7 +279,7 @@ def test_what_a_missing_plug_in_wrote_is_kept() -> None:
         (f"{APP}/index.json", b'[{"kind": "pou", "name": "PLC_PRG", "split": -1}]', "split"),
         (
             f"{APP}/index.json",
-            b'[{"kind": "pou", "name": "PLC_PRG", "options": {"language": "Z"}}]',
+            b'[{"kind": "pou", "name": "PLC_PRG", "options": {"language": "no name"}}]',
             "language",
         ),
         (f"{APP}/index.json", b'{"x": NaN}', "NaN is no JSON number"),

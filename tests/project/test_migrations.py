@@ -7,9 +7,10 @@ from threading import Thread
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from sqlalchemy import text
 
-from tappet.project.store import Store
+from tappet.project.store import Store, engine
 from tappet.project.store.engine import StoreError, migrate, newest_revision, open_engine
 from tappet.project.store.tables import metadata
 
@@ -24,6 +25,9 @@ def test_the_migrated_schema_is_that_of_the_tables(store: Store) -> None:
         context = MigrationContext.configure(connection, opts={"include_object": ours, "compare_type": True})
         assert compare_metadata(context, metadata) == []
         assert context.get_current_revision() == newest_revision()
+    assert ScriptDirectory(str(Path(engine.__file__).parent / "migrations")).get_heads() == [
+        newest_revision()
+    ]
 
 
 def test_several_processes_may_start_at_once(database_url: str) -> None:

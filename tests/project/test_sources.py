@@ -4,21 +4,21 @@ from dataclasses import asdict
 
 import pytest
 
+from tappet.iec.places import BodyText, Place, Span
+from tappet.iec.task import Watchdog
 from tappet.project import edit
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.library_reference import LibraryReference, ParameterValue
 from tappet.project.model import Project, ProjectObject
+from tappet.project.new_project import new_project
+from tappet.project.source_text import SourceText
 from tappet.project.sources import (
-    Place,
-    SourceText,
-    WatchdogDefinition,
     application_sources,
     libraries,
-    library_managers,
+    objects_with_libraries,
     source_of,
     tasks,
 )
-from tappet.project.templates import new_project
 
 APP = "Tappet Soft PLC/PLC Logic/Application"
 
@@ -86,20 +86,26 @@ def test_texts_of_an_application() -> None:
     assert (found["Shared"].scope, found["Shared"].name) == ("pous", "Shared")
 
 
+def at_line(text: SourceText, line: int) -> Place:
+    return text.map.place(Span(line, 0, line, 0))
+
+
 def test_every_line_finds_its_editor() -> None:
     project = machine()
     found = texts(project)
     motor = at(project, f"{APP}/Drives/FB_Motor")
-    assert found["FB_Motor"].locate(2) == Place(motor.id, "declaration", 2)
-    assert found["FB_Motor"].locate(4) == Place(motor.id, "implementation", 0)
+    assert at_line(found["FB_Motor"], 2) == Place(motor.id, "declaration", Span(2, 0, 2, 0))
+    assert at_line(found["FB_Motor"], 4) == Place(motor.id, "implementation", Span(0, 0, 0, 0))
     setter = at(project, f"{APP}/Drives/FB_Motor/Speed/Set")
     speed = found["FB_Motor.Speed"]
-    assert speed.locate(6) == Place(setter.id, "declaration", 1)
-    assert speed.locate(8) == Place(setter.id, "implementation", 0)
+    assert at_line(speed, 6) == Place(setter.id, "declaration", Span(1, 0, 1, 0))
+    assert at_line(speed, 8) == Place(setter.id, "implementation", Span(0, 0, 0, 0))
     assert source_of(project, setter.id) == speed
     assert source_of(project, at(project, APP).id) is None
     reset = found["FB_Motor.Reset"]
-    assert reset.locate(0) == reset.locate(1) == Place(reset.object_id, "implementation", 0)
+    first = Place(reset.object_id, "implementation", Span(0, 0, 0, 0))
+    assert at_line(reset, 0) == at_line(reset, 1) == first
+    assert at_line(reset, 2) == Place(reset.object_id, "implementation", Span(0, 12, 0, 12))
 
 
 def test_one_text_of_each_object_is_that_of_its_application() -> None:
@@ -154,7 +160,7 @@ def test_tasks() -> None:
     )
     assert (main.event, main.watchdog) == (None, None)
     assert (fast.kind, fast.interval_ns, fast.event, fast.programs) == ("event", 0, "GVL.xGo", ("A", "B"))
-    assert fast.watchdog == WatchdogDefinition(5_000_000, 2)
+    assert fast.watchdog == Watchdog(5_000_000, 2)
 
 
 def test_without_tasks_plc_prg_is_called() -> None:
@@ -184,7 +190,7 @@ def test_a_reference_comes_with_its_parameters_and_its_place() -> None:
     (found,) = libraries(project, at(project, APP).id)
     assert found == LibraryReference("Util", "1.0", None, "U", given, f"{APP}/Library Manager")
     assert LibraryReference.of(asdict(found)) == found
-    assert [item.id for item in library_managers(project, at(project, APP).id)] == [manager.id]
+    assert [item.id for item in objects_with_libraries(project, at(project, APP).id)] == [manager.id]
     twice = [{"name": "cMax", "value": "1"}, {"name": "CMAX", "value": "2"}]
     with pytest.raises(InvalidDataError, match="the parameter 'CMAX' of 'Util' has two values"):
         edit.change_data(project, manager.id, {"references": [{"name": "Util", "parameters": twice}]})
@@ -203,9 +209,10 @@ def test_language_of_a_body() -> None:
     project, rows = edit.add_object(project, application.id, "pou", "Rows", language="IL")
     project, _ = edit.add_object(project, rows.id, "action", "Clear", language="IL")
     project, _ = edit.add_object(project, rows.id, "method", "Plain")
-    found = {text.uri: text.language for text in application_sources(project, application.id)}
-    assert found["Rows"] == found["Rows.Clear"] == "IL"
-    assert found["Rows.Plain"] is None
+    found = {text.uri: text.bodies for text in application_sources(project, application.id)}
+    assert found["Rows"] == (BodyText(3, "IL"),)
+    assert found["Rows.Clear"] == (BodyText(1, "IL"),)
+    assert found["Rows.Plain"] == ()
     with pytest.raises(InvalidDataError, match="possible: ST, IL"):
         edit.add_object(project, application.id, "pou", "Chart", language="FBD")
     with pytest.raises(InvalidDataError, match="possible: none"):

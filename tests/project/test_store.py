@@ -14,10 +14,11 @@ from tappet.project.errors import (
     NotPlaceableError,
     UnknownObjectError,
 )
-from tappet.project.model import Project, ProjectObject, make_object, new_id
+from tappet.project.model import Project, ProjectObject, new_id
+from tappet.project.new_project import new_project
+from tappet.project.objects import make_object
 from tappet.project.store import StaleRevision, Store, saving
 from tappet.project.store.records import ChangeEvent, UnknownProjectError, UnknownRevisionError
-from tappet.project.templates import new_project
 
 APP = "Tappet Soft PLC/PLC Logic/Application"
 

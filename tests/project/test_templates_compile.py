@@ -4,23 +4,29 @@ from tappet.codegen.build import as_source
 from tappet.lang.analysis import AnalysisOptions, analyse
 from tappet.lang.parser import parse
 from tappet.project import edit
+from tappet.project.kind_registry import kinds
 from tappet.project.model import Project
-from tappet.project.placement import RULES
+from tappet.project.new_project import new_project
 from tappet.project.sources import application_sources
-from tappet.project.templates import new_project
+
+PLAIN = ("function", "program")
 
 
 def everything() -> Project:
     """A new project with one new object of every template that an application can hold."""
     project = new_project("x")
     (application,) = project.applications()
-    for rule in RULES.values():
-        if "application" not in rule.parents or rule.naming == "fixed" or rule.kind == "application":
+    for kind in kinds().values():
+        places = kind.placement.parents
+        if "application" not in places or kind.naming.style == "fixed" or kind.name == "application":
             continue
-        for subkind in rule.subkinds or (None,):
-            project, added = edit.add_object(project, application.id, rule.kind, subkind=subkind)
+        for subkind in (*kind.templates,) or (None,):
+            project, added = edit.add_object(project, application.id, kind.name, subkind=subkind)
             for child in ("method", "property", "action"):
-                if added.kind in RULES[child].parents and added.subkind not in ("function", "program"):
+                if added.kind in kinds()[child].placement.parents and added.subkind not in (
+                    "function",
+                    "program",
+                ):
                     project, _ = edit.add_object(project, added.id, child)
     return project
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from tappet.bench.build import order
 from tappet.lang.source import Source
-from tappet.server.build_worker import Compiler
+from tappet.server.builds.worker import Compiler
 
 _BLOCK = """FUNCTION_BLOCK FB_Unit{n}
 VAR_INPUT x : LREAL; END_VAR

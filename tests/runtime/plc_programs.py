@@ -7,11 +7,12 @@ from collections.abc import Awaitable, Callable, Sequence
 from functools import cache
 
 from tappet.codegen.build import BuildOptions, build_application
-from tappet.codegen.package import CodePackage, TaskSpec, WatchdogSpec
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task, Watchdog
 from tappet.lang.source import Source
 
 MS = 1_000_000
-MAIN = (TaskSpec("Main", interval_ns=10 * MS, programs=("PLC_PRG",)),)
+MAIN = (Task("Main", interval_ns=10 * MS, programs=("PLC_PRG",)),)
 
 TASK_FUNCTIONS = """
 {attribute 'tappet_external' := 'tappet_sleep_ns'}
@@ -65,7 +66,7 @@ END_FUNCTION_BLOCK
 
 def build(
     text: str,
-    tasks: Sequence[TaskSpec] = MAIN,
+    tasks: Sequence[Task] = MAIN,
     *,
     gvls: dict[str, str] | None = None,
     previous: CodePackage | None = None,
@@ -79,15 +80,13 @@ def build(
 
 
 @cache
-def _build(
-    text: str, tasks: tuple[TaskSpec, ...], gvls: tuple[tuple[str, str], ...], name: str
-) -> CodePackage:
+def _build(text: str, tasks: tuple[Task, ...], gvls: tuple[tuple[str, str], ...], name: str) -> CodePackage:
     return _compile(text, tasks, gvls, name, None)
 
 
 def _compile(
     text: str,
-    tasks: tuple[TaskSpec, ...],
+    tasks: tuple[Task, ...],
     gvls: tuple[tuple[str, str], ...],
     name: str,
     previous: CodePackage | None,
@@ -107,6 +106,6 @@ async def until(condition: Callable[[], Awaitable[bool]]) -> None:
     raise AssertionError("it did not happen")
 
 
-def watchdog(time_ms: int, sensitivity: int) -> WatchdogSpec:
+def watchdog(time_ms: int, sensitivity: int) -> Watchdog:
     """A watchdog as in the task dialog."""
-    return WatchdogSpec(time_ms * MS, sensitivity)
+    return Watchdog(time_ms * MS, sensitivity)

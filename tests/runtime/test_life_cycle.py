@@ -1,4 +1,4 @@
-"""States, resets and what survives what (gvl_dut_symbols.md PERS-01, PERS-02, EX-07)."""
+"""States, resets and what survives what (gvl_dut_symbols PERS-01, PERS-02; gvl_dut_symbols EX-07)."""
 
 from pathlib import Path
 
@@ -6,6 +6,7 @@ import pytest
 from plc_programs import build
 
 from tappet.runtime.access import PlcError
+from tappet.runtime.boot import store_boot
 from tappet.runtime.plc import Event, SoftPlc
 
 TEXT = """
@@ -101,6 +102,82 @@ def test_ex_07_renamed_or_retyped_variable_is_initialised_and_logged(plc: SoftPl
     plc.download(package(changed).to_bytes())
     assert get(plc, ("Persistent.iOther", "Persistent.bVarPers")) == [0, 0]
     assert any("PERSISTENT.IVARPERS1" in e.message for e in plc.log.since())
+
+
+BLOCK = """
+FUNCTION_BLOCK FB_Base
+VAR CONSTANT factors : ARRAY[0..1] OF INT := [{0}, 7]; END_VAR
+VAR first : INT; END_VAR
+first := factors[0];
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB_Count EXTENDS FB_Base
+VAR_INPUT CONSTANT given : INT; END_VAR
+VAR CONSTANT c : INT := {0}; name : STRING := 'v{0}'; bit : BIT := {0} = 2; END_VAR
+VAR n : INT; other : BIT; END_VAR
+SUPER^();
+n := n + 1;
+other := TRUE;
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR RETAIN kept : FB_Count := (given := {0}0); END_VAR
+VAR inside : FB_Count := (given := {0}1); END_VAR
+kept();
+inside();
+Store.lasting[1]();
+Store.lasting[2]();
+END_PROGRAM
+"""
+STORE = """
+VAR_GLOBAL PERSISTENT RETAIN
+    lasting : ARRAY[1..2] OF FB_Count := [(given := {0}4), (given := {0}5)];
+END_VAR
+"""
+
+
+def with_constants(number: int):
+    return build(BLOCK.format(number), gvls={"Store": STORE.format(number)})
+
+
+def shown(plc: SoftPlc, name: str) -> list[object]:
+    members = ("n", "other", "c", "factors[0]", "factors[1]", "name", "bit", "given")
+    return get(plc, tuple(f"{name}.{member}" for member in members))
+
+
+def test_constants_of_remanent_instances_are_those_of_the_download(plc: SoftPlc) -> None:
+    plc.download(with_constants(1).to_bytes())
+    plc.single_cycle()
+    assert shown(plc, "PLC_PRG.kept") == [1, True, 1, 1, 7, "v1", False, 10]
+    assert shown(plc, "Store.lasting[2]") == [1, True, 1, 1, 7, "v1", False, 15]
+    plc.download(with_constants(2).to_bytes())
+    assert shown(plc, "PLC_PRG.kept") == [0, False, 2, 2, 7, "v2", True, 20]
+    assert shown(plc, "Store.lasting[1]") == [1, True, 2, 2, 7, "v2", True, 24]
+    assert shown(plc, "Store.lasting[2]") == [1, True, 2, 2, 7, "v2", True, 25]
+    assert get(plc, ("Store.lasting[1].first",)) == [1]
+    plc.single_cycle()
+    assert get(plc, ("Store.lasting[1].first",)) == [2]
+    plc.reset("warm")
+    assert shown(plc, "PLC_PRG.kept") == [1, True, 2, 2, 7, "v2", True, 20]
+    assert shown(plc, "Store.lasting[1]") == [2, True, 2, 2, 7, "v2", True, 24]
+    plc.reset("cold")
+    assert shown(plc, "PLC_PRG.kept") == [0, False, 2, 2, 7, "v2", True, 20]
+    assert shown(plc, "Store.lasting[1]") == [2, True, 2, 2, 7, "v2", True, 24]
+
+
+def test_constants_of_remanent_instances_are_those_of_the_boot_application(tmp_path: Path) -> None:
+    first = SoftPlc(tmp_path)
+    first.download(with_constants(1).to_bytes())
+    first.single_cycle()
+    first.close()
+    store_boot(tmp_path, with_constants(2).to_bytes())
+    second = SoftPlc(tmp_path)
+    assert second.boot()
+    second.stop()
+    for name, given in (("PLC_PRG.kept", 20), ("Store.lasting[1]", 24), ("Store.lasting[2]", 25)):
+        n, *others = shown(second, name)
+        assert isinstance(n, int)
+        assert n >= 1
+        assert others == [True, 2, 2, 7, "v2", True, given]
+    second.close()
 
 
 def test_another_application_does_not_inherit(plc: SoftPlc) -> None:
@@ -224,7 +301,7 @@ def test_fb_exit_runs_before_a_download() -> None:
 
 
 def test_instances_can_be_left_out_of_fb_exit() -> None:
-    """LPRG-36, language_pragmas.md EX-10."""
+    """LPRG-36, language_pragmas EX-10."""
     text = """
     FUNCTION_BLOCK POU
     VAR_INPUT n : INT; END_VAR

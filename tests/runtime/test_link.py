@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.codegen.optimise import OptimiseOptions, compile_text
+from tappet.codegen.compile_options import OptimiseOptions
+from tappet.codegen.optimise import compile_text
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.link import LinkError, read_symbols
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from plc_programs import MS, build
 
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.runtime.access import PlcError
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError, check_change
@@ -196,7 +196,7 @@ def test_force_of_a_removed_variable_is_released_and_logged() -> None:
 
 
 def test_many_changes_in_real_time_lose_no_cycle() -> None:
-    task = TaskSpec("Main", interval_ns=1 * MS, programs=("PLC_PRG",))
+    task = Task("Main", interval_ns=1 * MS, programs=("PLC_PRG",))
     text = """
     PROGRAM PLC_PRG
     VAR n : LINT; last : LINT; jumps : DINT; END_VAR

@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 from plc_programs import MS, build, until
 
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.runtime.__main__ import read_token
 from tappet.runtime.client import RuntimeClient
+from tappet.runtime.operations.life_cycle import GetInfo, Start
+from tappet.runtime.operations.values import Read
 from tappet.runtime.process import Endpoint, RuntimeProcess, StartError, describe_exit
 
 TEXT = """
@@ -23,7 +25,7 @@ n := n + 1;
 hours := hours + 1;
 END_PROGRAM
 """
-TASKS = (TaskSpec("Main", interval_ns=2 * MS, programs=("PLC_PRG",)),)
+TASKS = (Task("Main", interval_ns=2 * MS, programs=("PLC_PRG",)),)
 LISTS = {"Persistent": "VAR_GLOBAL PERSISTENT RETAIN hours : LINT; END_VAR"}
 NAMES = ("PLC_PRG.count", "PLC_PRG.n", "Persistent.hours")
 OPTIONS = ("--no-realtime",)
@@ -31,7 +33,7 @@ OPTIONS = ("--no-realtime",)
 
 async def values(client: RuntimeClient) -> list[int]:
     symbols = await client.symbols()
-    data = await client.read([(symbols.resolve(n).offset, 8) for n in NAMES])
+    data = await client.call(Read([(symbols.resolve(n).offset, 8) for n in NAMES]))
     return [int.from_bytes(d, "little") for d in data]
 
 
@@ -54,7 +56,7 @@ async def test_killed_runtime_comes_back_with_its_application(tmp_path: Path) ->
         first = await ready.get()
         async with await connect(first) as client:
             await client.download(build(TEXT, TASKS, gvls=LISTS).to_bytes())
-            await client.start()
+            await client.call(Start())
             await until(lambda: counted(client, 100))
             before = await values(client)
         os.kill(first.pid, signal.SIGKILL)
@@ -63,7 +65,7 @@ async def test_killed_runtime_comes_back_with_its_application(tmp_path: Path) ->
         assert second.instance_id != first.instance_id
         assert reasons == ["the runtime process was ended by SIGKILL"]
         async with await connect(second) as client:
-            assert (await client.info()).state == "run"
+            assert (await client.call(GetInfo())).state == "run"
             after = await values(client)
             assert after[0] - after[1] >= before[0] - 1  # what was counted before the kill, less one cycle
             assert after[2] == after[0]
@@ -76,7 +78,7 @@ async def test_proper_end_saves_and_exits_with_zero(tmp_path: Path) -> None:
     process = await RuntimeProcess.start(tmp_path / "plc", options=OPTIONS, restart=False)
     async with await connect(process.endpoint) as client:
         await client.download(build(TEXT, TASKS, gvls=LISTS).to_bytes())
-        await client.start()
+        await client.call(Start())
         await until(lambda: counted(client, 20))
     await process.stop()
     assert process._process is not None

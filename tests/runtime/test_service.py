@@ -6,7 +6,7 @@ import struct
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
-import msgpack
+import msgspec
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -14,9 +14,15 @@ from plc_programs import MS, build, until
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from tappet.codegen.package import TaskSpec
-from tappet.runtime import protocol, service
+from tappet.iec.task import Task
+from tappet.runtime import protocol, service, subscriptions
 from tappet.runtime.client import ConnectionLost, Recorder, RuntimeClient, RuntimeEvent, RuntimeRefused
+from tappet.runtime.operations import registry
+from tappet.runtime.operations.life_cycle import GetInfo, Hello, Reset, Start, Stop
+from tappet.runtime.operations.recording import Record
+from tappet.runtime.operations.reports import GetException, ReadLog
+from tappet.runtime.operations.tasks import ListTasks, ResetStatistics
+from tappet.runtime.operations.values import Force, ListForces, Read, Unforce, Write
 from tappet.runtime.plc import SoftPlc
 from tappet.runtime.service import RuntimeService
 
@@ -29,7 +35,7 @@ copy := n;
 IF fail THEN pValue^ := 1; END_IF
 END_PROGRAM
 """
-FAST = (TaskSpec("Main", interval_ns=2 * MS, programs=("PLC_PRG",)),)
+FAST = (Task("Main", interval_ns=2 * MS, programs=("PLC_PRG",)),)
 
 
 @asynccontextmanager
@@ -48,7 +54,7 @@ async def serving(plc: SoftPlc | None = None) -> AsyncIterator[tuple[str, SoftPl
 async def running() -> AsyncIterator[tuple[RuntimeClient, SoftPlc, str]]:
     async with serving() as (url, plc), await RuntimeClient.connect(url, TOKEN) as client:
         await client.download(build(TEXT, FAST).to_bytes())
-        await client.start()
+        await client.call(Start())
         yield client, plc, url
 
 
@@ -56,15 +62,15 @@ async def test_life_cycle_over_the_wire() -> None:
     async with serving() as (url, _), await RuntimeClient.connect(url, TOKEN) as client:
         events: list[RuntimeEvent] = []
         client.on_event(events.append)
-        assert (await client.info()).state == "empty"
+        assert (await client.call(GetInfo())).state == "empty"
         info = await client.download(build(TEXT, FAST).to_bytes())
         assert (info.state, info.application, info.cycle_ns) == ("stop", "App", 2 * MS)
-        await client.start()
-        assert (await client.info()).state == "run"
-        await client.stop()
-        await client.reset("cold")
-        await client.reset("origin")
-        assert (await client.info()).application is None
+        await client.call(Start())
+        assert (await client.call(GetInfo())).state == "run"
+        await client.call(Stop())
+        await client.call(Reset("cold"))
+        await client.call(Reset("origin"))
+        assert (await client.call(GetInfo())).application is None
         assert [(e.kind, e.state) for e in events] == [
             ("application", "stop"), ("state", "run"), ("state", "stop"), ("state", "stop"),
             ("application", "empty"),
@@ -76,16 +82,16 @@ async def test_values_and_forces() -> None:
         symbols = await client.symbols()
         assert symbols is await client.symbols()
         w = symbols.resolve("PLC_PRG.w")
-        assert await client.write([(w.offset, b"\x00\x01", None)])
+        assert await client.call(Write([(w.offset, b"\x00\x01", None)]))
         bit = symbols.resolve("PLC_PRG.w.3")
-        assert await client.write([(bit.offset, b"\1", bit.bit)])
-        assert await client.read([(w.offset, 2)]) == [b"\x08\x01"]
-        await client.force([(w.offset, b"\xff\xff", None)])
-        (forced,) = await client.forces()
+        assert await client.call(Write([(bit.offset, b"\1", bit.bit)]))
+        assert await client.call(Read([(w.offset, 2)])) == [b"\x08\x01"]
+        await client.call(Force([(w.offset, b"\xff\xff", None)]))
+        (forced,) = await client.call(ListForces())
         assert (forced.path, forced.data, forced.before) == ("PLC_PRG.w", b"\xff\xff", b"\x08\x01")
-        assert await client.unforce([(w.offset, None)], restore=True) == 1
-        await client.write([(symbols.resolve("PLC_PRG.copy").offset, b"\0\0\0\0", None)])
-        assert await client.read([(w.offset, 2)]) == [b"\x08\x01"]
+        assert await client.call(Unforce([(w.offset, None)], restore=True)) == 1
+        await client.call(Write([(symbols.resolve("PLC_PRG.copy").offset, b"\0\0\0\0", None)]))
+        assert await client.call(Read([(w.offset, 2)])) == [b"\x08\x01"]
 
 
 async def test_recorder_frames_are_of_one_cycle() -> None:
@@ -110,30 +116,30 @@ async def test_exception_reaches_the_client() -> None:
         arrived = asyncio.Event()
         client.on_event(lambda e: arrived.set() if e.kind == "exception" else None)
         fail = (await client.symbols()).resolve("PLC_PRG.fail")
-        await client.write([(fail.offset, b"\1", None)])
+        await client.call(Write([(fail.offset, b"\1", None)]))
         await asyncio.wait_for(arrived.wait(), 10)
-        report = await client.exception()
+        report = await client.call(GetException())
         assert report is not None
         assert (report.name, report.pou, report.task) == ("NULL_REFERENCE", "PLC_PRG", "Main")
-        assert any(e.severity == "exception" for e in await client.log())
+        assert any(e.severity == "exception" for e in await client.call(ReadLog()))
         with pytest.raises(RuntimeRefused, match="reset it"):
-            await client.start()
-        await client.reset("warm")
-        await client.start()
-        assert await client.exception() is None
+            await client.call(Start())
+        await client.call(Reset("warm"))
+        await client.call(Start())
+        assert await client.call(GetException()) is None
 
 
 async def has_run(client: RuntimeClient, expected: bool) -> bool:
-    return bool((await client.tasks())[0].iec_cycles) is expected
+    return bool((await client.call(ListTasks()))[0].iec_cycles) is expected
 
 
 async def test_statistics() -> None:
     async with running() as (client, _, _):
         await until(lambda: has_run(client, True))
-        (task,) = await client.tasks()
+        (task,) = await client.call(ListTasks())
         assert (task.name, task.status, task.interval_ns) == ("Main", "valid", 2 * MS)
-        await client.stop()
-        await client.reset_statistics("Main")
+        await client.call(Stop())
+        await client.call(ResetStatistics("Main"))
         await until(lambda: has_run(client, False))
 
 
@@ -175,9 +181,37 @@ async def test_a_silent_client_is_disconnected(monkeypatch: pytest.MonkeyPatch) 
 
 async def test_requests_before_hello_are_refused() -> None:
     async with serving() as (url, _), connect(url) as socket:
-        await socket.send(protocol.pack({"id": 1, "op": "info"}))
+        await socket.send(protocol.pack_request(1, GetInfo()))
         with pytest.raises(ConnectionClosed):
             await asyncio.wait_for(socket.recv(), 10)
+
+
+async def test_a_client_of_another_version_hears_both_versions() -> None:
+    async with serving() as (url, _), connect(url) as socket:
+        await socket.send(msgspec.msgpack.encode({"v": 1, "id": 1, "op": "hello", "token": TOKEN}))
+        with pytest.raises(ConnectionClosed):
+            await asyncio.wait_for(socket.recv(), 10)
+        assert socket.close_code == protocol.CLOSE_HELLO
+        assert socket.close_reason == "expected hello: protocol version 1 is not 2"
+
+
+async def test_a_runtime_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    async with serving() as (url, _):
+        monkeypatch.setattr(protocol, "pack_request", lambda n, o: msgspec.msgpack.encode({"v": 3, "id": n}))
+        with pytest.raises(ConnectionLost, match="protocol version 3 is not 2"):
+            await RuntimeClient.connect(url, TOKEN)
+
+
+async def test_wrong_arguments_are_refused_by_operation_and_field() -> None:
+    async with running() as (client, _, _):
+        with pytest.raises(RuntimeRefused, match=r"read: 'places\[0\]\[1\]': expected 'int' >= 1") as caught:
+            await client.call(Read([(0, 0)]))
+        assert caught.value.code == "bad_request"
+        with pytest.raises(RuntimeRefused, match=r"reset: 'kind': invalid enum value 'hot'"):
+            await client.call(Reset("hot"))
+        with pytest.raises(RuntimeRefused, match="there is no task 'Slow'; there are Main") as caught:
+            await client.call(ResetStatistics("Slow"))
+        assert caught.value.code == "not_found"
 
 
 async def test_pages_of_a_browser_are_refused() -> None:
@@ -193,31 +227,27 @@ async def test_clients_over_the_limit_are_refused(monkeypatch: pytest.MonkeyPatc
         with pytest.raises(ConnectionLost):
             await RuntimeClient.connect(url, TOKEN)
         await clients[0].close()
-        for _ in range(100):
+
+        async def connected() -> bool:
             try:
                 clients[0] = await RuntimeClient.connect(url, TOKEN)
-                break
             except ConnectionLost:
-                await asyncio.sleep(0.01)
+                return False
+            return True
+
+        await until(connected)
         for client in clients:
             await client.close()
 
 
 async def hello(url: str):
     socket = await connect(url, max_size=None)
-    await socket.send(protocol.pack({"id": 0, "op": "hello", "token": TOKEN}))
+    await socket.send(protocol.pack_request(0, Hello(TOKEN)))
     await socket.recv()
     return socket
 
 
-OPERATIONS = [
-    "info", "start", "stop", "reset", "download_begin", "download_chunk", "download_commit", "symbols",
-    "read", "write", "force", "unforce", "forces", "record", "end_record", "tasks", "reset_statistics",
-    "exception", "log",
-]  # fmt: skip
-FIELDS = [
-    "places", "values", "keys", "items", "kind", "mode", "size", "data", "task", "recorder", "since",
-]  # fmt: skip
+FIELDS = sorted({name for kind in registry.known().values() for name in kind.__struct_fields__})
 scalars = (
     st.none()
     | st.booleans()
@@ -230,7 +260,7 @@ arguments = st.dictionaries(
     scalars | st.lists(st.lists(scalars, max_size=3), max_size=3),
     max_size=4,
 )
-messages = st.binary(max_size=60) | st.tuples(st.sampled_from(OPERATIONS), arguments)
+messages = st.binary(max_size=60) | st.tuples(st.sampled_from(sorted(registry.known())), arguments)
 
 
 @settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -245,18 +275,18 @@ def test_every_message_is_answered_or_the_connection_closed(batch: list[object])
             for number, message in enumerate(batch, 1):
                 data = message
                 if isinstance(message, tuple):
-                    data = protocol.pack({**message[1], "id": number, "op": message[0]})
+                    data = protocol.pack({"id": number, "op": message[0], "args": message[1]})
                 try:
                     await socket.send(data)
                     answered = False
                     while not answered:
                         reply = await asyncio.wait_for(socket.recv(), 20)
-                        answered = not protocol.is_frames(reply) and "id" in msgpack.unpackb(reply)
+                        answered = not protocol.is_frames(reply) and "id" in msgspec.msgpack.decode(reply)
                 except ConnectionClosed:
                     break
             await socket.close()
             async with await RuntimeClient.connect(url, TOKEN) as client:
-                assert (await client.info()).version
+                assert (await client.call(GetInfo())).version
 
     asyncio.run(scenario())
 
@@ -283,22 +313,22 @@ async def test_oversized_messages_end_the_connection() -> None:
 
 
 async def test_a_slow_client_gets_the_newest_frames(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(service, "PENDING_BYTES", 1 << 20)
+    monkeypatch.setattr(subscriptions, "PENDING_BYTES", 1 << 20)
     async with running() as (client, _, url):
         symbols = await client.symbols()
         socket = await hello(url)
         big = symbols.resolve("PLC_PRG.big")
         n = symbols.resolve("PLC_PRG.n")
-        items = [[n.offset, 4], [big.offset, big.size]]
-        await socket.send(protocol.pack({"id": 1, "op": "record", "items": items, "frames": 16}))
-        start = struct.unpack("<i", (await client.read([(n.offset, 4)]))[0])[0]
+        items = [(n.offset, 4), (big.offset, big.size)]
+        await socket.send(protocol.pack_request(1, Record(items, frames=16)))
+        start = struct.unpack("<i", (await client.call(Read([(n.offset, 4)])))[0])[0]
 
         async def filled() -> bool:
             """So many frames of 160 kB fit into no buffer between runtime and client."""
-            return struct.unpack("<i", (await client.read([(n.offset, 4)]))[0])[0] > start + 500
+            return struct.unpack("<i", (await client.call(Read([(n.offset, 4)])))[0])[0] > start + 500
 
         await until(filled)
-        before = struct.unpack("<i", (await client.read([(n.offset, 4)]))[0])[0]
+        before = struct.unpack("<i", (await client.call(Read([(n.offset, 4)])))[0])[0]
         numbers, dropped = [], 0
         while not numbers or numbers[-1] < before:
             reply = await asyncio.wait_for(socket.recv(), 20)
@@ -320,6 +350,6 @@ async def test_a_lost_runtime_ends_waiting_calls() -> None:
         recorder = await client.record([(0, 8)])
     await asyncio.wait_for(drain(recorder), 20)
     with pytest.raises(ConnectionLost):
-        await client.info()
+        await client.call(GetInfo())
     assert events[-1] == "lost"
     await client.close()

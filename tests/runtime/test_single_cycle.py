@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from plc_programs import MS, build
 
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.runtime.access import PlcError
 from tappet.runtime.plc import SoftPlc
 
@@ -15,8 +15,8 @@ SLOW = (
     "n := n + 1;\nn := n + 0 / (left + 1 - n);\nEND_PROGRAM\n"
 )
 TASKS = (
-    TaskSpec("FastTask", "cyclic", MS, 1, programs=("Fast",)),
-    TaskSpec("SlowTask", "cyclic", 40 * MS, 2, programs=("Slow",)),
+    Task("FastTask", "cyclic", MS, 1, programs=("Fast",)),
+    Task("SlowTask", "cyclic", 40 * MS, 2, programs=("Slow",)),
 )
 
 
@@ -69,7 +69,7 @@ def test_an_exception_in_it_is_one_of_the_application(plc: SoftPlc) -> None:
 
 def test_without_a_task_that_starts_by_itself() -> None:
     plc = SoftPlc(None)
-    event = TaskSpec("OnEvent", "event", 0, 1, event="Fast.go", programs=("Fast",))
+    event = Task("OnEvent", "event", 0, 1, event="Fast.go", programs=("Fast",))
     text = FAST.replace("n : DINT;", "n : DINT; go : BOOL;")
     plc.load(build(text, (event,)))
     try:

@@ -8,7 +8,7 @@ import pytest
 
 from tappet.cli.inputs import applications
 from tappet.codegen.build import BuildOptions, LibraryReference
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.runtime.unit_tests.results import Report, SuiteOutcome, TestOutcome
 from tappet.runtime.unit_tests.runner import run_tests
 
@@ -94,7 +94,7 @@ def test_the_libraries_of_a_twincat_project_are_there() -> None:
         LibraryReference("Tc3_Module, * (Beckhoff Automation GmbH)"),
         LibraryReference("TcUnit, * (www.tcunit.org)"),
     ]
-    task = TaskSpec("PlcTask", interval_ns=2_000_000, programs=("PRG_TEST",))
+    task = Task("PlcTask", interval_ns=2_000_000, programs=("PRG_TEST",))
     report = run_tests(application.sources, (task,), BuildOptions(libraries=tuple(references)))
     assert (report.problem, report.diagnostics) == (None, ())
     (suite,) = report.suites

@@ -34,7 +34,7 @@ def order_of(text: str, limits: TestLimits) -> bytes:
 @pytest.fixture(scope="module")
 def deadly() -> Report:
     (application,) = applications([FOLDER / "deadly.st"])
-    limits = TestLimits(cycle_s=1.0, memory_mib=128)
+    limits = TestLimits(cycle_s=20.0, memory_mib=128)
     return run_in_process(order(application.sources, application.tasks, application.options, limits=limits))
 
 

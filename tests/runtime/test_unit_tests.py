@@ -7,9 +7,8 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from typer.testing import CliRunner
+from tests.cli.invoke import invoke
 
-from tappet.cli import app
 from tappet.cli.inputs import applications
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
@@ -18,7 +17,7 @@ from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome
 from tappet.runtime.unit_tests.runner import TestLimits, run_tests
 
 FOLDER = Path(__file__).parent / "unit_tests"
-LIMITS = TestLimits(cycle_s=0.3, simulated_s=700.0)
+LIMITS = TestLimits(cycle_s=2.0, simulated_s=700.0)
 
 
 def run_file(name: str, test_filter: str = "") -> Report:
@@ -262,13 +261,12 @@ def test_the_command(tmp_path: Path) -> None:
         "TEST('good'); AssertTrue(TRUE, ''); TEST_FINISHED();\n"
         "TEST('bad'); AssertTrue(FALSE, 'wrong'); TEST_FINISHED();\nEND_FUNCTION_BLOCK\n"
     )
-    run = CliRunner()
-    shown = run.invoke(app, ["test", str(file), "--junit", str(xml)])
-    assert shown.exit_code == 1
-    assert "FAILED  bad" in shown.stdout
-    assert "2 tests: 1 passed, 1 failed" in shown.stdout
+    shown = invoke("test", file, "--junit", xml)
+    assert shown.code == 1
+    assert "FAILED  bad" in shown.output
+    assert "2 tests: 1 passed, 1 failed" in shown.output
     assert len(ET.parse(xml).findall(".//failure")) == 1
-    shown = run.invoke(app, ["test", str(file), "--filter", "good", "--format", "json"])
-    assert shown.exit_code == 0
-    assert [t["outcome"] for t in json.loads(shown.stdout)["suites"][0]["tests"]] == ["passed", "skipped"]
-    assert run.invoke(app, ["test", str(tmp_path / "nothing")]).exit_code != 0
+    shown = invoke("test", file, "--filter", "good", "--format", "json")
+    assert shown.code == 0
+    assert [t["outcome"] for t in json.loads(shown.output)["suites"][0]["tests"]] == ["passed", "skipped"]
+    assert invoke("test", tmp_path / "nothing").code == 2

@@ -3,7 +3,7 @@
 import pytest
 from plc_programs import MS, build
 
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.runtime.access import PlcError
 from tappet.runtime.local import LocalRuntime
 
@@ -37,7 +37,7 @@ def runtime():
 
 
 def test_ex_03_forces(runtime: LocalRuntime) -> None:
-    """views_watch.md EX-03: a force is there at the begin and at the end of each cycle."""
+    """views_watch EX-03: a force is there at the begin and at the end of each cycle."""
     runtime.run(cycles=40)
     runtime.force("PLC_PRG.i", 5)
     runtime.run(cycles=3)
@@ -129,7 +129,7 @@ def test_values_of_one_call_arrive_together_in_real_time() -> None:
     IF a <> b THEN torn := torn + 1; END_IF
     END_PROGRAM
     """
-    task = TaskSpec("Main", interval_ns=1 * MS, programs=("PLC_PRG",))
+    task = Task("Main", interval_ns=1 * MS, programs=("PLC_PRG",))
     with LocalRuntime(build(text, (task,)), virtual=False) as runtime:
         for number in range(200):
             runtime.write_all({"PLC_PRG.a": number, "PLC_PRG.b": number})
@@ -139,7 +139,7 @@ def test_values_of_one_call_arrive_together_in_real_time() -> None:
 
 def test_a_full_queue_says_which_task_does_not_run() -> None:
     text = "PROGRAM PLC_PRG VAR a : DINT; END_VAR END_PROGRAM"
-    task = TaskSpec("Slow", interval_ns=3_600_000 * MS, programs=("PLC_PRG",))
+    task = Task("Slow", interval_ns=3_600_000 * MS, programs=("PLC_PRG",))
     with LocalRuntime(build(text, (task,)), virtual=False) as runtime:
         ref = runtime.package.symbols.resolve("PLC_PRG.a")
         runtime.run(cycles=1)

@@ -1,4 +1,4 @@
-"""Watchdog rules TASK-30..TASK-35, with cycles of known length on virtual time (tasks.md EX-02, EX-03)."""
+"""Watchdog rules TASK-30..TASK-35, with cycles of known length on virtual time (tasks EX-02, EX-03)."""
 
 import contextlib
 
@@ -6,7 +6,7 @@ import pytest
 from plc_programs import MS, TASK_FUNCTIONS, build, watchdog
 
 from tappet.codegen.faults import Fault
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.runtime.local import ApplicationException, LocalRuntime
 from tappet.runtime.tasks import watchdog_threshold
 
@@ -31,9 +31,7 @@ END_PROGRAM
 
 def run(lengths: list[int], time_ms: int, sensitivity: int) -> int | None:
     """Number of the cycle in which the watchdog ends the task; None when it does not."""
-    task = TaskSpec(
-        "Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(time_ms, sensitivity)
-    )
+    task = Task("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(time_ms, sensitivity))
     with LocalRuntime(build(TEXT, (task,))) as runtime:
         for number, length in enumerate(lengths, 1):
             runtime.write(f"PLC_PRG.lengths[{number}]", length)
@@ -72,7 +70,7 @@ def test_consecutive_overruns_that_end_a_task() -> None:
 
 def test_single_overrun_ends_the_cycle_at_once() -> None:
     """TASK-35: the rest of the program does not run."""
-    task = TaskSpec("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(10, 1))
+    task = Task("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(10, 1))
     with LocalRuntime(build(TEXT, (task,))) as runtime:
         runtime.write("PLC_PRG.lengths[1]", 30)
         with pytest.raises(ApplicationException, match="30 ms, its limit is 10 ms"):
@@ -103,7 +101,7 @@ END_PROGRAM
 
 
 def test_ex_03_disabled_section_does_not_count() -> None:
-    task = TaskSpec("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(10, 1))
+    task = Task("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(10, 1))
     with LocalRuntime(build(EX_03, (task,))) as runtime:
         runtime.write("PLC_PRG.off", True)
         runtime.run(cycles=3)
@@ -114,10 +112,10 @@ def test_ex_03_disabled_section_does_not_count() -> None:
 
 def test_endless_loop_breaks_the_single_overrun_rule_in_real_time() -> None:
     text = "PROGRAM PLC_PRG VAR n : DINT; END_VAR\nWHILE TRUE DO n := n + 1; END_WHILE\nEND_PROGRAM"
-    task = TaskSpec("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(20, 2))
+    task = Task("Main", interval_ns=100 * MS, programs=("PLC_PRG",), watchdog=watchdog(20, 2))
     with LocalRuntime(build(text, (task,)), virtual=False) as runtime:
         with pytest.raises(ApplicationException) as caught:
-            runtime.run(time_ns=20_000 * MS)
+            runtime.run(time_ns=60_000 * MS)
         assert caught.value.report.code == Fault.WATCHDOG
         assert runtime.statistics()[0].iec_cycles == 1
         assert caught.value.report.line == 2

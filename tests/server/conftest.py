@@ -42,7 +42,7 @@ def runtime_id(app: FastAPI, admin: TestClient) -> str:
     answer = admin.post("/api/v1/runtimes", json=body)
     assert answer.status_code == 201, answer.text
     url = f"/api/v1/runtimes/{answer.json()['id']}"
-    end = time.monotonic() + 5
+    end = time.monotonic() + 60
     while not admin.get(url).json()["connected"]:
         assert time.monotonic() < end
         time.sleep(0.005)

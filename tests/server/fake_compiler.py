@@ -1,4 +1,7 @@
-"""A compiler process that does what its first source says: sleep, wait to be cancelled, die, fail, answer."""
+"""A compiler process that does what its first source says: sleep, wait to be cancelled, die, fail, answer.
+
+`sleep PATH` and `patient PATH` make the file when they have begun.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +9,17 @@ import os
 import signal
 import sys
 import time
+from pathlib import Path
 
-from tappet.server.build_worker import CANCEL, BuildCancelled, pack_frame, read_frame
+from tappet.server.builds.worker import CANCEL, BuildCancelled, pack_frame, read_frame
 
 
 def obey(number: int, frame: object) -> None:
     raise BuildCancelled
+
+
+def begun(text: str) -> None:
+    Path(text.split()[1]).touch()
 
 
 builds = 0
@@ -21,11 +29,13 @@ while (order := read_frame(sys.stdin.buffer)) is not None:
     if "die" in text:
         os._exit(3)
     if "sleep" in text:
-        time.sleep(60)
+        begun(text)
+        time.sleep(600)
     if "patient" in text:
         signal.signal(CANCEL, obey)
         try:
-            time.sleep(60)
+            begun(text)
+            time.sleep(600)
         except BuildCancelled:
             sys.stdout.buffer.write(pack_frame({"cancelled": True}))
             sys.stdout.buffer.flush()

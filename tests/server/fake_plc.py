@@ -9,14 +9,22 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tappet.codegen.package import CodePackage
-from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
-from tappet.runtime.client import ForcedValue, RuntimeEvent, RuntimeRefused
+from tappet.codegen.symbol_map import Root, SymbolMap
+from tappet.codegen.symbol_types import MemberInfo, TypeInfo
+from tappet.runtime import protocol
+from tappet.runtime.access import NoApplicationError, PlcError
+from tappet.runtime.client import RuntimeEvent, RuntimeRefused
 from tappet.runtime.faults import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
+from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.logbook import LogEntry
+from tappet.runtime.operations import registry
+from tappet.runtime.operations.declaration import Operation, Reply, SessionOperation
+from tappet.runtime.operations.symbols import GetSymbols
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.recorder import Frame
+from tappet.runtime.service import refusal_code
 from tappet.runtime.tasks import TaskStatistics
 
 IMAGE_SIZE = 256
@@ -48,7 +56,7 @@ def symbol_map() -> SymbolMap:
                 MemberInfo("nLevel", 6, 34),
                 MemberInfo("aValue", 7, 36),
                 MemberInfo("fbMotor", 8, 44),
-                MemberInfo("nLimit", 1, 48, flags="CONSTANT"),
+                MemberInfo("nLimit", 1, 48, flags=("CONSTANT",)),
                 MemberInfo("rOther", 2, 56, section="VAR_IN_OUT"),
             ),
         ),
@@ -60,7 +68,7 @@ def symbol_map() -> SymbolMap:
 
 @dataclass
 class FakePlc:
-    """State that outlives connections."""
+    """State that outlives connections, with the methods of a PLC that operations use."""
 
     down: bool = False
     state: str = "stop"
@@ -70,7 +78,7 @@ class FakePlc:
     code_id: str | None = "code1"
     data_id: str | None = "data1"
     instance_id: str = "instance1"
-    symbols: SymbolMap | None = field(default_factory=symbol_map)
+    symbol_map: SymbolMap | None = field(default_factory=symbol_map)
     image: bytearray = field(default_factory=lambda: bytearray(IMAGE_SIZE))
     forced: dict[tuple[int, int | None], bytes] = field(default_factory=dict)
     report: ExceptionReport | None = None
@@ -103,9 +111,9 @@ class FakePlc:
         self.clients.clear()
 
     def set(self, path: str, value: Any) -> None:
-        assert self.symbols is not None
-        ref = self.symbols.resolve(path)
-        data = self.symbols.encode(ref, value)
+        assert self.symbol_map is not None
+        ref = self.symbol_map.resolve(path)
+        data = self.symbol_map.encode(ref, value)
         self.image[ref.offset : ref.offset + len(data)] = data
 
     def run_cycle(self) -> None:
@@ -115,6 +123,123 @@ class FakePlc:
             self.past[self.cycle] = bytes(self.image)
         for recorder in self.recorders:
             recorder.sample()
+
+    # -- what operations call ----------------------------------------------------------------------------
+
+    def _need(self) -> SymbolMap:
+        if self.symbol_map is None:
+            raise NoApplicationError
+        return self.symbol_map
+
+    def info(self) -> RuntimeInfo:
+        return RuntimeInfo(
+            "0.1.0", self.instance_id, self.state, self.application, self.code_id, self.data_id, ("normal",)
+        )
+
+    def symbols_with_code(self) -> tuple[str, SymbolMap]:
+        symbols = self._need()
+        return str(self.code_id), symbols
+
+    def start(self) -> None:
+        self._need()
+        if self.state == "exception":
+            raise PlcError("the application is in the state exception; reset it before starting")
+        self.state = "run"
+        self.tell("state")
+
+    def stop(self) -> None:
+        self._need()
+        self.state = "stop"
+        self.tell("state")
+
+    def single_cycle(self) -> None:
+        self._need()
+        if self.state != "stop":
+            raise PlcError("a single cycle needs a stopped application")
+        self.cycles += 1
+
+    def reset(self, kind: str) -> None:
+        self._need()
+        self.image[:] = bytes(len(self.image))
+        self.state = "stop"
+        if kind == "origin":
+            self.state, self.application = "empty", None
+            self.code_id = self.data_id = self.symbol_map = None
+        self.tell("state")
+
+    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        return [bytes(self.image[offset : offset + size]) for offset, size in places]
+
+    def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
+        for value in values:
+            offset, bit = value.place.offset, value.place.bit
+            if bit is None:
+                self.image[offset : offset + len(value.data)] = value.data
+            elif value.data[0]:
+                self.image[offset] |= 1 << bit
+            else:
+                self.image[offset] &= ~(1 << bit)
+        return lambda: True
+
+    def force(self, values: Sequence[PlacedValue]) -> None:
+        self.write(values)
+        self.forced |= {(value.place.offset, value.place.bit): value.data for value in values}
+        self.tell("forces")
+
+    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
+        released = [self.forced.pop(key, None) for key in (list(self.forced) if keys is None else keys)]
+        self.tell("forces")
+        return sum(data is not None for data in released)
+
+    def forces(self) -> list[tuple[Force, str | None]]:
+        symbols = self._need()
+        places = [Place(offset, len(data), bit) for (offset, bit), data in self.forced.items()]
+        return [
+            (Force(PlacedValue(place, data), data), path_at(symbols, place))
+            for place, data in zip(places, self.forced.values(), strict=True)
+        ]
+
+    def flight_status(self) -> FlightStatus:
+        self._need()
+        cycles = sorted(self.past)
+        ends = (
+            (cycles[0], cycles[0] * 10_000_000, cycles[-1], cycles[-1] * 10_000_000) if cycles else [None] * 4
+        )
+        by = "exception" if self.state == "exception" else "request" if self.frozen else None
+        return FlightStatus(by is not None, by, len(cycles), *ends, 1, 1, 16 << 20, 48 * len(cycles))
+
+    def flight_history(self) -> list[tuple[int, int]]:
+        self._need()
+        return [(cycle, cycle * 10_000_000) for cycle in sorted(self.past)]
+
+    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+        if cycle not in self.past:
+            raise ValueError(f"cycle {cycle} is not kept")
+        return [self.past[cycle][offset : offset + size] for offset, size in places]
+
+    def flight_freeze(self, on: bool) -> FlightStatus:
+        self.frozen = on
+        return self.flight_status()
+
+    def tasks(self) -> list[TaskStatistics]:
+        times = (7, 8, 1500, 1400, 1000, 2000, *[1] * 4, 0, 0, 2048)
+        return [TaskStatistics("MainTask", "cyclic", 1, 10_000_000, "valid", *times)]
+
+    def reset_statistics(self, task: str | None) -> None:
+        self._need()
+
+    def exception(self) -> ExceptionReport | None:
+        return self.report
+
+    @property
+    def log(self) -> FakePlc:
+        return self
+
+    def since(self, number: int) -> list[LogEntry]:
+        at = 1_700_000_000_000_000_000
+        entries = [LogEntry(n, at, "info", "application", f"entry {n}") for n in (1, 2)]
+        entries.append(LogEntry(3, at, "exception", "application", "division by zero", "Library/F", 7))
+        return [entry for entry in entries if entry.number > number]
 
 
 @dataclass
@@ -142,6 +267,8 @@ class FakeRecorder:
 
 @dataclass
 class FakeClient:
+    """A connection whose messages are packed, checked and served like real ones, without a socket."""
+
     plc: FakePlc
     callbacks: list[Callable[[RuntimeEvent], None]] = field(default_factory=list)
 
@@ -149,87 +276,33 @@ class FakeClient:
         if self.plc.down:
             raise ConnectionResetError("gone")
 
-    async def info(self) -> RuntimeInfo:
+    async def call(self, operation: Operation[Reply]) -> Reply:
         self._alive()
-        p = self.plc
-        return RuntimeInfo("0.1.0", p.instance_id, p.state, p.application, p.code_id, p.data_id, ("normal",))
+        request = protocol.parse_request(protocol.pack_request(1, operation))
+        try:
+            order = protocol.parse_arguments(request, registry.known())
+            plain = not isinstance(order, SessionOperation)
+            reply = order.run(self.plc) if plain else await order.serve(self)  # type: ignore[arg-type]
+        except (PlcError, ValueError) as error:
+            raise RuntimeRefused(refusal_code(error), str(error)) from error
+        message = protocol.parse_message(protocol.pack_result(1, reply))
+        return protocol.parse_result(type(operation), message.result)
 
     async def symbols(self) -> SymbolMap:
-        self._alive()
-        if self.plc.symbols is None:
-            raise RuntimeRefused("refused", "no application is loaded")
-        return self.plc.symbols
+        return (await self.call(GetSymbols())).symbols
 
     async def download(self, package: bytes, mode: str = "download") -> RuntimeInfo:
         self._alive()
         parsed = CodePackage.from_bytes(package)
-        self.plc.downloads.append((package, mode))
-        self.plc.application = parsed.application
-        self.plc.code_id, self.plc.data_id, self.plc.symbols = parsed.code_id, parsed.data_id, parsed.symbols
-        self.plc.image = bytearray(parsed.initial_image.ljust(IMAGE_SIZE, b"\0"))
+        plc = self.plc
+        plc.downloads.append((package, mode))
+        plc.application, plc.symbol_map = parsed.application, parsed.symbols
+        plc.code_id, plc.data_id = parsed.code_id, parsed.data_id
+        plc.image = bytearray(parsed.initial_image.ljust(IMAGE_SIZE, b"\0"))
         if mode == "download":
-            self.plc.state = "stop"
-        self.plc.tell("application")
-        return await self.info()
-
-    async def start(self) -> None:
-        if self.plc.state == "exception":
-            raise RuntimeRefused(
-                "refused", "the application is in the state exception; reset it before starting"
-            )
-        self.plc.state = "run"
-        self.plc.tell("state")
-
-    async def stop(self) -> None:
-        self.plc.state = "stop"
-        self.plc.tell("state")
-
-    async def single_cycle(self) -> None:
-        if self.plc.state != "stop":
-            raise RuntimeRefused("refused", "a single cycle needs a stopped application")
-        self.plc.cycles += 1
-
-    async def reset(self, kind: str) -> None:
-        self.plc.image[:] = bytes(len(self.plc.image))
-        self.plc.state = "stop"
-        if kind == "origin":
-            self.plc.state, self.plc.application = "empty", None
-            self.plc.code_id = self.plc.data_id = self.plc.symbols = None
-        self.plc.tell("state")
-
-    async def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        self._alive()
-        return [bytes(self.plc.image[offset : offset + size]) for offset, size in places]
-
-    async def write(self, values: Sequence[tuple[int, bytes, int | None]]) -> bool:
-        self._alive()
-        for offset, data, bit in values:
-            if bit is None:
-                self.plc.image[offset : offset + len(data)] = data
-            elif data[0]:
-                self.plc.image[offset] |= 1 << bit
-            else:
-                self.plc.image[offset] &= ~(1 << bit)
-        return True
-
-    async def force(self, values: Sequence[tuple[int, bytes, int | None]]) -> None:
-        await self.write(values)
-        self.plc.forced |= {(offset, bit): data for offset, data, bit in values}
-        self.plc.tell("forces")
-
-    async def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
-        for place in list(self.plc.forced) if keys is None else keys:
-            self.plc.forced.pop(place, None)
-        self.plc.tell("forces")
-        return 1
-
-    async def forces(self) -> list[ForcedValue]:
-        self._alive()
-        symbols = self.plc.symbols or SymbolMap()
-        return [
-            ForcedValue(offset, bit, data, data, path_at(symbols, Place(offset, len(data), bit)))
-            for (offset, bit), data in self.plc.forced.items()
-        ]
+            plc.state = "stop"
+        plc.tell("application")
+        return plc.info()
 
     async def record(
         self, items: Sequence[tuple[int, int]], task: str | None, divider: int, min_interval_ns: int
@@ -240,65 +313,6 @@ class FakeClient:
         recorder = FakeRecorder(self.plc, items, min_interval_ns)
         self.plc.recorders.append(recorder)
         return recorder
-
-    async def flight_status(self) -> FlightStatus:
-        self._alive()
-        cycles = sorted(self.plc.past)
-        ends = (
-            (cycles[0], cycles[0] * 10_000_000, cycles[-1], cycles[-1] * 10_000_000) if cycles else [None] * 4
-        )
-        by = "exception" if self.plc.state == "exception" else "request" if self.plc.frozen else None
-        return FlightStatus(by is not None, by, len(cycles), *ends, 1, 1, 16 << 20, 48 * len(cycles))
-
-    async def flight_history(self) -> list[tuple[int, int]]:
-        self._alive()
-        return [(cycle, cycle * 10_000_000) for cycle in sorted(self.plc.past)]
-
-    async def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        self._alive()
-        if cycle not in self.plc.past:
-            raise RuntimeRefused("bad_request", f"cycle {cycle} is not kept")
-        return [self.plc.past[cycle][offset : offset + size] for offset, size in places]
-
-    async def flight_freeze(self, on: bool) -> FlightStatus:
-        self.plc.frozen = on
-        return await self.flight_status()
-
-    async def tasks(self) -> list[TaskStatistics]:
-        self._alive()
-        return [
-            TaskStatistics(
-                "MainTask",
-                "cyclic",
-                1,
-                10_000_000,
-                "valid",
-                7,
-                8,
-                1500,
-                1400,
-                1000,
-                2000,
-                *[1] * 4,
-                0,
-                0,
-                2048,
-            )
-        ]
-
-    async def reset_statistics(self, task: str) -> None:
-        self._alive()
-
-    async def exception(self) -> ExceptionReport | None:
-        return self.plc.report
-
-    async def log(self, since: int) -> list[LogEntry]:
-        entries = [
-            LogEntry(n, 1_700_000_000_000_000_000, "info", "application", f"entry {n}") for n in (1, 2)
-        ]
-        at = 1_700_000_000_000_000_000
-        entries.append(LogEntry(3, at, "exception", "application", "division by zero", "Library/F", 7))
-        return [entry for entry in entries if entry.number > since]
 
     def on_event(self, callback: Callable[[RuntimeEvent], None]) -> None:
         self.callbacks.append(callback)

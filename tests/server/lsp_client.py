@@ -7,8 +7,10 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from tappet.lang.services.documents import Program, Segment, Text, library_text
+from tappet.lang.services.documents import Program, Segment, SourceMap, Text, library_text
 from tappet.lang.source import Scope, Source
+from tappet.server.lsp.project_analysis import ProjectAnalysis
+from tappet.server.lsp.rpc import Outgoing
 from tappet.server.lsp.session import LanguageSession
 
 TON = """(* On delay *)
@@ -19,6 +21,11 @@ END_FUNCTION_BLOCK"""
 
 def uri(name: str, part: str) -> str:
     return f"tappet:/p1/{name}/{part}"
+
+
+def part(name: str, part: str, text: str, line: int) -> Segment:
+    width = len(text) - text.rfind("\n") - 1
+    return Segment(line, f"tappet:/p1/{name}", part, 0, text.count("\n") + 1, width)
 
 
 class FakeProject:
@@ -34,16 +41,15 @@ class FakeProject:
             implementation = unsaved.get(uri(name, "implementation"), implementation)
             head = declaration.split()[0].upper() if declaration.split() else "PROGRAM"
             body = declaration.count("\n") + 1
-            count = implementation.count("\n") + 1
             if head in ("PROGRAM", "FUNCTION", "FUNCTION_BLOCK"):
                 text = f"{declaration}\n{implementation}\nEND_{head}"
                 segments = (
-                    Segment(0, uri(name, "declaration"), 0, body),
-                    Segment(body, uri(name, "implementation"), 0, count),
+                    part(name, "declaration", declaration, 0),
+                    part(name, "implementation", implementation, body),
                 )
             else:
-                text, segments = declaration, (Segment(0, uri(name, "declaration"), 0, body),)
-            texts.append(Text(Source(name, text, name=name), segments))
+                text, segments = declaration, (part(name, "declaration", declaration, 0),)
+            texts.append(Text(Source(name, text, name=name), SourceMap(segments)))
         library = Source("Standard/TON", TON, scope=Scope.LIBRARY, library="Standard", namespace="Standard")
         return [Program("App", [*texts, library_text(library)])]
 
@@ -51,22 +57,26 @@ class FakeProject:
 class Client:
     """Speaks JSON-RPC with a session in the same event loop."""
 
-    def __init__(self, programs: Any, **options: Any) -> None:
+    def __init__(self, programs: Any = None, analysis: ProjectAnalysis | None = None, **options: Any) -> None:
         self.answers: dict[Any, asyncio.Future[dict[str, Any]]] = {}
         self.notified: list[tuple[str, Any]] = []
         self.errors: list[dict[str, Any]] = []
         self.heard = asyncio.Event()
+        self.shown: set[str] = set()
+        """Documents that are open."""
         self.next_id = 0
-        self.session = LanguageSession(programs, self._sent, debounce_s=0.0, **options)
+        self.analysis = analysis or ProjectAnalysis(programs, debounce_s=0.0)
+        self.session = LanguageSession(self.analysis, self._sent, **options)
 
     async def __aenter__(self) -> Client:
         return self
 
     async def __aexit__(self, *_: object) -> None:
         await self.session.close()
+        await self.analysis.close()
 
-    async def _sent(self, text: str) -> None:
-        message = json.loads(text)
+    async def _sent(self, outgoing: Outgoing) -> None:
+        message = json.loads(outgoing.text)
         assert message["jsonrpc"] == "2.0"
         if "method" in message:
             self.notified.append((message["method"], message["params"]))
@@ -101,6 +111,10 @@ class Client:
         return answer["error"]
 
     async def tell(self, method: str, params: Any) -> None:
+        if method == "textDocument/didOpen":
+            self.shown.add(params["textDocument"]["uri"])
+        elif method == "textDocument/didClose":
+            self.shown.discard(params["textDocument"]["uri"])
         await self.raw(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
 
     async def start(self, locale: str = "en") -> dict[str, Any]:
@@ -119,10 +133,13 @@ class Client:
         return {"textDocument": {"uri": document}, **({"position": position} if mark else {})}
 
     async def published(self, document: str) -> list[dict[str, Any]]:
-        """The next messages published for a document."""
+        """The next messages published for a document, of an open one those of the opened text: the stored one
+        may be told about while the document is being opened."""
         while True:
             for index, (method, params) in enumerate(self.notified):
-                if method == "textDocument/publishDiagnostics" and params["uri"] == document:
+                if method != "textDocument/publishDiagnostics" or params["uri"] != document:
+                    continue
+                if "version" in params or document not in self.shown:
                     del self.notified[: index + 1]
                     found: list[dict[str, Any]] = params["diagnostics"]
                     return found

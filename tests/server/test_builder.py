@@ -10,12 +10,13 @@ from typing import Any
 import pytest
 
 from tappet.codegen.generate import Generator
-from tappet.project.sources import Segment, SourceText
-from tappet.server.build_worker import CANCEL, Compiler
-from tappet.server.builder import Application, Builder
-from tappet.server.packages import KEEP, PackageStore
+from tappet.iec.places import Segment, SourceMap
+from tappet.project.source_text import SourceText
+from tappet.server.builds.builder import Application, Builder
+from tappet.server.builds.packages import KEEP, PackageStore
+from tappet.server.builds.source_places import SourcePlaces
+from tappet.server.builds.worker import CANCEL, Compiler
 from tappet.server.problems import Problem
-from tappet.server.source_places import SourcePlaces
 
 PLACES = SourcePlaces("p", {}, {})
 FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))
@@ -31,9 +32,9 @@ def application(text: str, id: str = "a") -> Application:
         None,
         None,
         0,
-        None,
+        (),
+        SourceMap((Segment(0, "o", "declaration"),)),
         "o",
-        (Segment(0, "o", "declaration"),),
     )
     return Application("p", id, "Application", (source,), (), (), {"o": "PLC_PRG", id: "Application"})
 
@@ -53,24 +54,31 @@ async def test_equal_texts_are_built_once(builder: Builder) -> None:
     assert (await builder.build(application("y"), ("base", b""))).report.code_id == "3"
 
 
-async def test_a_cancelled_build_ends_at_once_and_the_next_works(builder: Builder) -> None:
-    waiting = asyncio.create_task(builder.build(application("sleep"), None))
-    await asyncio.sleep(0.3)
+async def appearing(path: Path) -> None:
+    """Waits until the compiler process has made a file."""
+    async with asyncio.timeout(60):
+        while not path.exists():  # noqa: ASYNC110, ASYNC240 - another process makes it
+            await asyncio.sleep(0.01)
+
+
+async def test_a_cancelled_build_ends_at_once_and_the_next_works(builder: Builder, tmp_path: Path) -> None:
+    waiting = asyncio.create_task(builder.build(application(f"sleep {tmp_path / 'begun'}"), None))
+    await appearing(tmp_path / "begun")
     assert builder.cancel("p", "a")
     with pytest.raises(Problem) as caught:
-        await asyncio.wait_for(waiting, 10)
+        await asyncio.wait_for(waiting, 60)
     assert caught.value.kind == "build-cancelled"
     assert (await builder.build(application("x"), None)).report.ok
     assert not builder.cancel("p", "a")
 
 
-async def test_a_compiler_that_obeys_a_cancellation_lives_on(builder: Builder) -> None:
+async def test_a_compiler_that_obeys_a_cancellation_lives_on(builder: Builder, tmp_path: Path) -> None:
     assert (await builder.build(application("x"), None)).report.code_id == "1"
-    waiting = asyncio.create_task(builder.build(application("patient"), None))
-    await asyncio.sleep(0.3)
+    waiting = asyncio.create_task(builder.build(application(f"patient {tmp_path / 'begun'}"), None))
+    await appearing(tmp_path / "begun")
     assert builder.cancel("p", "a")
     with pytest.raises(Problem, match="cancelled"):
-        await asyncio.wait_for(waiting, 10)
+        await asyncio.wait_for(waiting, 60)
     assert (await builder.build(application("y"), None)).report.code_id == "3", "the same process has counted"
 
 
@@ -112,7 +120,7 @@ async def test_who_only_waits_may_leave(builder: Builder) -> None:
     """A browser that closes must not end the build that another waits for."""
     first = asyncio.create_task(builder.build(application("x"), None))
     second = asyncio.create_task(builder.build(application("x"), None))
-    await asyncio.sleep(0.01)
+    await asyncio.sleep(0)  # both have begun to wait
     first.cancel()
     assert (await second).report.ok
 

@@ -11,7 +11,8 @@ from server_clients import SOCKETS, browser
 from starlette.testclient import WebSocketDenialResponse
 from starlette.websockets import WebSocketDisconnect
 
-from tappet.server import project_events, sockets
+from tappet.server import sockets
+from tappet.server.events import service as project_events
 
 API = "/api/v1"
 

@@ -81,7 +81,7 @@ def test_who_uses_a_version_and_what_a_library_needs(admin: TestClient) -> None:
         {"name": "Util", "version": "*", "namespace": "", "parameters": values}
     ]
     assert (
-        "Tc2_Standard" in next(item for (name, _), item in listed.items() if name == "Standard")["stands_for"]
+        "Tc2_Standard" in next(item for (name, _), item in listed.items() if name == "Standard")["replaces"]
     )
 
     def uses(version: str) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ import pytest
 from lsp_client import Client, FakeProject, uri
 from lsp_project import BODY, HEAD, PROJECT, here, start
 
-from tappet.lang.analysis import redeclare
+from tappet.lang.analysis.edits import declaration_edits
 from tappet.lang.services.semantic_tokens import TOKEN_TYPES
 from tappet.server.lsp import rpc
 
@@ -94,7 +94,7 @@ async def test_stored_texts_of_others_count() -> None:
         await client.open(BODY, "g_x := 1;")
         assert [d["code"] for d in await client.published(BODY)] == ["E0201"]
         project.objects["GVL"] = ("VAR_GLOBAL g_x : INT; END_VAR", "")
-        client.session.stored_texts_changed()
+        client.analysis.stored_texts_changed()
         assert await client.published(BODY) == []
 
 
@@ -368,7 +368,7 @@ async def test_semantic_tokens_are_packed_in_utf_16() -> None:
 
 async def test_an_edited_text_is_told_of_before_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
     """An edit that concerns many texts: theirs are checked behind the messages of the edited one."""
-    monkeypatch.setattr(redeclare, "AT_ONCE", 0)
+    monkeypatch.setattr(declaration_edits, "AT_ONCE", 0)
     block = "FUNCTION_BLOCK FB_Count\nVAR_OUTPUT\n    {} : INT;\nEND_VAR"
     use = ("PROGRAM {}\nVAR f : FB_Count; n : INT; END_VAR", "n := f.a;")
     users = {name: (use[0].format(name), use[1]) for name in ("Use1", "Use2")}
@@ -380,8 +380,8 @@ async def test_an_edited_text_is_told_of_before_the_others(monkeypatch: pytest.M
         assert [d["code"] for d in await client.published(later)] == ["E0204"]
         for name, codes in (("a", []), ("b", ["E0201", "E0204"])):
             change = {"range": here(2, 4, 5), "text": name}
-            told = {"textDocument": {"uri": head, "version": 2}, "contentChanges": [change]}
+            changed = {"textDocument": {"uri": head, "version": 2}, "contentChanges": [change]}
             client.notified.clear()
-            await client.tell("textDocument/didChange", told)
+            await client.tell("textDocument/didChange", changed)
             assert [d["code"] for d in await client.published(first)] == codes[:1]
             assert [d["code"] for d in await client.published(later)] == codes[1:]

@@ -12,7 +12,7 @@ import pytest
 from lsp_client import Client
 
 from tappet.project import edit, folder
-from tappet.project.templates import new_project
+from tappet.project.new_project import new_project
 from tappet.server.lsp.folder_programs import FolderPrograms, canonical_uri, file_uri
 from tappet.server.lsp.stdio import FrameError, frame, read_message
 
@@ -146,7 +146,7 @@ async def test_frames_and_the_end() -> None:
 async def test_the_process_an_editor_starts(tmp_path: Path) -> None:
     write(tmp_path, {"p.st": "PROGRAM P\nVAR a : INT; END_VAR\na := 1 +;\nEND_PROGRAM"})
     process = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", "from tappet.cli import main; main()", "lsp", str(tmp_path), "--stdio",
+        sys.executable, "-m", "tappet", "lsp", str(tmp_path), "--stdio",
         stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
     assert process.stdin is not None

@@ -14,7 +14,7 @@ from lsp_client import Client
 from lsp_project import BODY, here, start
 
 from tappet.lang.services.documents import Program
-from tappet.server.lsp import rpc, session
+from tappet.server.lsp import project_analysis, rpc
 
 
 async def test_positions_behind_characters_of_two_units() -> None:
@@ -121,7 +121,7 @@ async def test_order_of_life() -> None:
         assert await client.ask("shutdown", None) is None
         assert (await client.refused("textDocument/hover", params))["code"] == rpc.NOT_INITIALIZED
         await client.tell("exit", None)
-        await asyncio.wait_for(client.session.exit.wait(), 5)
+        await asyncio.wait_for(client.session.exit.wait(), 60)
 
 
 async def test_a_fault_of_ours_is_an_answer_too(
@@ -137,9 +137,9 @@ async def test_a_fault_of_ours_is_an_answer_too(
         assert error["code"] == rpc.INTERNAL_ERROR
         assert "database" not in error["message"]
         assert "database is away" in caplog.text
-        client.session.stored_texts_changed()
+        client.analysis.stored_texts_changed()
         logged = asyncio.Event()
-        monkeypatch.setattr(session.log, "exception", lambda *_: logged.set())
+        monkeypatch.setattr(project_analysis.log, "exception", lambda *_: logged.set())
         await asyncio.wait_for(logged.wait(), 20)
         assert await client.refused("textDocument/hover", params)
 

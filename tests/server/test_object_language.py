@@ -31,7 +31,7 @@ def test_language_is_chosen_kept_and_compiled(admin: TestClient) -> None:
     assert saved.status_code == 200, saved.text
     stored = read_zip(io.BytesIO(admin.get(f"{project}/export").content))
     texts = {t.uri: t for t in application_sources(stored, stored.applications()[0].id)}
-    assert texts["Rows"].language == "IL"
+    assert [body.language for body in texts["Rows"].bodies] == ["IL"]
     assert "LD 1" in texts["Rows"].text
     refused = admin.post(f"{project}/objects", json={**order, "name": "Drawn", "language": "CFC"})
     assert refused.status_code == 422

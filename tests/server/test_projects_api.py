@@ -78,7 +78,6 @@ def test_the_tree(admin: TestClient, press: str) -> None:
         "name": "PLC_PRG",
         "index": 1,
         "revision": 1,
-        "badges": [],
         "excluded": False,
     }
     task = admin.get(f"{press}/objects/{found['MainTask']['id']}").json()

@@ -9,12 +9,12 @@ from collections.abc import Callable
 from fake_plc import FakePlc, division_by_zero
 from fastapi.testclient import TestClient
 
-from tappet.server.runtimes import PlcClient, RuntimeLink
+from tappet.server.runtimes.links import PlcClient, RuntimeLink
 
 URL = "/api/v1/runtimes"
 
 
-def until(condition: Callable[[], bool], seconds: float = 5.0) -> None:
+def until(condition: Callable[[], bool], seconds: float = 60.0) -> None:
     """Waits for what happens in the background."""
     end = time.monotonic() + seconds
     while not condition():

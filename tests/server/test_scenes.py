@@ -13,7 +13,7 @@ from server_clients import bare
 from tappet.project import folder
 from tappet.project.scene import ColorChoice, Element, Linear, Repetition, Scene, Threshold
 from tappet.server.example import find_example
-from tappet.server.scene_view import color, number, visible
+from tappet.server.scenes.view import color, number, visible
 from tappet.server.services import Services
 
 

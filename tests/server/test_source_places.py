@@ -6,13 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.project.sources import Segment, SourceText
-from tappet.server.source_places import SourcePlaces, shown_line
+from tappet.iec.places import Segment, SourceMap
+from tappet.project.source_text import SourceText
+from tappet.server.builds.source_places import SourcePlaces, shown_line
 
 
 def _source(uri: str, scope: str, object_id: str) -> SourceText:
     segments = (Segment(0, object_id, "declaration"), Segment(4, object_id, "implementation"))
-    return SourceText(uri, "", scope, None, None, None, None, 4, None, object_id, segments)
+    return SourceText(uri, "", scope, None, None, None, None, 4, (), SourceMap(segments), object_id)
 
 
 PLACES = SourcePlaces.of(
@@ -53,7 +54,7 @@ def test_the_table_reads_back() -> None:
 
 @given(
     st.binary(max_size=40)
-    | st.sampled_from([b"{}", b"[]", b'{"segments":{"a":[[1]]},"paths":{},"project_id":1}'])
+    | st.sampled_from([b"{}", b"[]", b'{"maps":{"a":[[1]]},"paths":{},"project_id":"p"}'])
 )
 def test_damaged_tables_are_value_errors(data: bytes) -> None:
     with pytest.raises(ValueError):  # noqa: PT011

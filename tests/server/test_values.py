@@ -9,7 +9,7 @@ from fastapi.testclient import TestClient
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.server.values import json_value, suggest, try_resolve
+from tappet.server.values.service import json_value, suggest, try_resolve
 
 BASE = "/api/v1/runtimes/"
 

@@ -11,7 +11,7 @@ from starlette.testclient import WebSocketDenialResponse
 
 from tappet.server.problems import Problem
 from tappet.server.services import Services
-from tappet.server.views import MOST_VIEWS, ViewRegistry
+from tappet.server.views.service import MOST_VIEWS, ViewRegistry
 
 PROTOCOL = f"viser-v{viser.__version__}"
 

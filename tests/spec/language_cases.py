@@ -14,8 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from linked_application import ApplicationFault, LoadedApplication
+
 from tappet.codegen.build import BuildOptions, BuildResult, LibraryReference, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
 from tappet.codegen.package import CodePackage, rearranged
 from tappet.codegen.symbol_map import SymbolError, VarRef
 from tappet.lang.source import Scope, Source

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import pytest
+from linked_application import ApplicationFault, LoadedApplication
 from tests.spec.language_cases import Outcome, guarded
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, build_application
-from tappet.codegen.jit import ApplicationFault, LoadedApplication
 from tappet.lang.source import Source
 
 SESSION = BuildSession()

@@ -2,7 +2,7 @@
 
 The baseline is a bare native sleep loop that runs in the same process, at the same time and in the same
 scheduling class, so both meet the same machine. Shown is what 99.9 % of the starts kept.
-Bar: DESIGN section 4.
+Bar: docs/architecture.md, section 4.
 """
 
 from __future__ import annotations
@@ -19,9 +19,11 @@ import llvmlite.binding as llvm
 
 from tappet.bench import build as build_bench
 from tappet.bench.report import Report, Row
-from tappet.codegen.build import build_application, build_system
-from tappet.codegen.optimise import OptimiseOptions, target_machine
-from tappet.codegen.package import TaskSpec
+from tappet.codegen.build import build_application
+from tappet.codegen.compile_options import OptimiseOptions
+from tappet.codegen.optimise import target_machine
+from tappet.codegen.system import build_system
+from tappet.iec.task import Task
 from tappet.lang.source import Scope, Source
 from tappet.runtime.local import LocalRuntime, Trace
 from tappet.runtime.threads import real_time_scheduling
@@ -86,7 +88,7 @@ def _build_for(seconds: float) -> None:
     while time.monotonic() < end:
         round_number += 1
         sources[3] = Source("FB_Unit4", sources[3].text + f"\n(* {round_number} *)", name="FB_Unit4")
-        build_application(sources, [TaskSpec("Task", programs=("Main",))])
+        build_application(sources, [Task("Task", programs=("Main",))])
 
 
 def _watch(trace: Trace, until: float) -> None:
@@ -121,7 +123,7 @@ def _measure(runtime: LocalRuntime, bare: BareLoop, *, loaded: bool, realtime: b
 
 def run() -> Report:
     """Both situations."""
-    task = TaskSpec("Task", interval_ns=PERIOD_NS, priority=0, programs=("Main",))
+    task = Task("Task", interval_ns=PERIOD_NS, priority=0, programs=("Main",))
     result = build_application([Source("Main", _PROGRAM, name="Main")], [task])
     if result.package is None:
         raise ValueError(result.diagnostics[0].message)

@@ -2,7 +2,7 @@
 
 Final values are compared, so a fast wrong answer does not count; the time of an empty call is taken off both.
 Both are timed in turns, and the fastest round of each is shown: what else the machine does only ever adds.
-What each workload is like, and how its C version is written: docs/benchmarks.md. Bar: DESIGN section 4.
+What each workload is like and how its C version is written: docs/benchmarks.md. Bar: architecture, 4.
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ from pathlib import Path
 from tappet.bench.native import CProgram, NativeLoop, gcc_version, scratch_directory
 from tappet.bench.report import Report, Row
 from tappet.codegen.build import build_application
-from tappet.codegen.jit import LoadedApplication
-from tappet.codegen.package import TaskSpec
+from tappet.iec.task import Task
 from tappet.lang.source import Source
+from tappet.runtime.flight import FlightSettings
+from tappet.runtime.local import LocalRuntime
 
 WORKLOADS = Path(__file__).resolve().parent / "workloads"
 ROUNDS = 25
@@ -35,18 +36,23 @@ def names() -> list[str]:
     return sorted(path.stem for path in WORKLOADS.glob("*.st"))
 
 
-def load(name: str) -> LoadedApplication:
-    """The compiled and started ST version of a workload; its program is `Main`."""
+def load(name: str) -> LocalRuntime:
+    """The ST version of a workload in the soft PLC, stopped; its program is `Main`."""
     path = WORKLOADS / f"{name}.st"
     source = Source(uri=path.name, text=path.read_text(encoding="utf-8"), name=name)
-    result = build_application([source], [TaskSpec("Task", programs=("Main",))])
+    result = build_application([source], [Task("Task", programs=("Main",))])
     if result.package is None:
         raise ValueError(
             "\n".join(f"{d.uri}:{d.span.line + 1}: {d.code} {d.message}" for d in result.diagnostics)
         )
-    application = LoadedApplication(result.package)
-    application.start()
-    return application
+    return LocalRuntime(result.package, flight=FlightSettings(memory=0), start=False)
+
+
+def cycle_of(runtime: LocalRuntime) -> int:
+    """Address of the function that runs one cycle."""
+    application = runtime.plc.application
+    assert application is not None
+    return application.code[runtime.package.tasks[0].symbol]
 
 
 def compare(name: str, cycles: int, directory: Path) -> tuple[float, float]:
@@ -54,7 +60,7 @@ def compare(name: str, cycles: int, directory: Path) -> tuple[float, float]:
     application = load(name)
     loop = NativeLoop()
     try:
-        loop.seconds(application.symbol_address(application.package.tasks[0].symbol), cycles)
+        loop.seconds(cycle_of(application), cycles)
         ours = float(str(application.read("Main.result")))
     finally:
         application.close()
@@ -70,7 +76,7 @@ def measure(name: str, directory: Path | None) -> Row:
     loop = NativeLoop()
     application = load(name)
     try:
-        ours_at = application.symbol_address(application.package.tasks[0].symbol)
+        ours_at = cycle_of(application)
         program = None
         if directory is not None:
             compare(name, 100, directory)

@@ -1,59 +1,74 @@
-"""The command line (DESIGN section 3): one file a group of commands; others script against it.
+"""The command line (docs/architecture.md, section 3): one file a group of commands; others script against it.
 
-May import every room. Exit code 0: good; 1: the project has errors; 2: wrong usage. Start with `main`.
+May import every room. Exit code 0: good; 1: the project has errors; 2: wrong usage. Start with `main`. What a
+command needs is imported when it runs, so that the version and the help of a command come at once.
 """
 
 from __future__ import annotations
 
+import gc
+import os
 import sys
-
-import typer
+from collections.abc import Sequence
 
 from tappet import __version__
-from tappet.cli import bench, check, deploy, library, lsp, projects, run, serve, unit_tests
-from tappet.cli.output import UsageError, complain
+from tappet.cli.commands import COMMANDS, Command, overview
+from tappet.cli.errors import UsageError, complain
 
-app = typer.Typer(
-    name="tappet",
-    help="Engineering IDE and soft PLC: edit, check, run and deploy IEC 61131-3 projects.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
-app.command("serve")(serve.serve)
-app.command("runtime", context_settings=serve.FORWARD)(serve.runtime)
-app.command("check")(check.check)
-app.command("run")(run.run)
-app.command("test")(unit_tests.run_unit_tests)
-app.command("import")(projects.import_project)
-app.command("export")(projects.export_project)
-app.add_typer(library.app, name="library")
-app.command("deploy")(deploy.deploy)
-app.command("lsp")(lsp.lsp)
-app.command("bench")(bench.bench)
+INTERRUPTED = 130
+"""Exit code after Ctrl+C: 128 and the number of SIGINT, as shells have it."""
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(f"tappet {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def _common(
-    version: bool = typer.Option(
-        False, "--version", callback=_version, is_eager=True, help="Show the version."
-    ),
-) -> None:
-    """Engineering IDE and soft PLC: edit, check, run and deploy IEC 61131-3 projects."""
-
-
-def main() -> None:
-    """Entry point of the console script."""
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs a command line, that of the process unless it is given; returns the exit code."""
+    if arguments is not None:
+        return _guarded(list(arguments))
+    gc.disable()  # modules and trees are no garbage; long-running commands enable it
     try:
-        app()
+        return _guarded(sys.argv[1:])
+    finally:
+        gc.freeze()  # the process ends: nothing is worth being looked at once more
+
+
+def _guarded(words: list[str]) -> int:
+    try:
+        return _run(words)
     except UsageError as error:
         complain(str(error))
-        sys.exit(2)
-    except BrokenPipeError:
-        sys.exit(0)
+        return 2
+    except BrokenPipeError:  # who reads has seen enough; the interpreter would complain when it ends
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return 0
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def _run(words: list[str]) -> int:
+    known = [command for command in COMMANDS if words[: len(command.words)] == list(command.words)]
+    if known:
+        return _execute(known[0], words[len(known[0].words) :])
+    if "--version" in words[:1]:
+        print(f"tappet {__version__}")
+        return 0
+    group = [words[0]] if words and any(command.words[0] == words[0] for command in COMMANDS) else []
+    rest = words[len(group) :]
+    if not rest or rest[0] in ("--help", "-h"):
+        print(overview(group))
+        return 0 if rest else 2
+    name = " ".join([*group, rest[0]])
+    there = ", ".join(
+        dict.fromkeys(c.words[len(group)] for c in COMMANDS if c.words[: len(group)] == (*group,))
+    )
+    raise UsageError(
+        f"there is no {'option' if rest[0].startswith('-') else 'command'} '{name}'; there is {there}"
+    )
+
+
+def _execute(command: Command, words: list[str]) -> int:
+    from tappet.cli.arguments import ArgumentParser
+
+    parser = ArgumentParser(f"tappet {' '.join(command.words)}", command.summary)
+    execute = command.load(parser)
+    if command.goes_on:
+        gc.enable()
+    return execute(parser.parse(words))

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from argparse import Namespace
+from importlib import import_module
 
-import typer
+from tappet.cli.arguments import ArgumentParser
+from tappet.cli.errors import UsageError
 
-from tappet.cli.output import FormatOption, OutputFormat, UsageError
+BENCHMARKS = ("scan", "jitter", "build", "editor", "start")
 
 
-def bench(
-    name: Annotated[
-        str | None, typer.Argument(help="scan, jitter, build or editor; all of them if left out")
-    ] = None,
-    output: FormatOption = OutputFormat.TEXT,
-) -> None:
-    """Measure scan speed, task jitter, build speed and the check in the editor as ratios to a baseline."""
-    from tappet.bench import build, editor, jitter, scan
+def bench_arguments(parser: ArgumentParser) -> None:
+    """Which one."""
+    known = f"{', '.join(BENCHMARKS[:-1])} or {BENCHMARKS[-1]}"
+    parser.add_argument("name", nargs="?", metavar="NAME", help=f"{known}; all of them if left out")
+    parser.format_option()
 
-    known = {"scan": scan.run, "jitter": jitter.run, "build": build.run, "editor": editor.run}
-    if name is not None and name not in known:
-        raise UsageError(f"there is no benchmark '{name}'; there are {', '.join(known)}")
-    for benchmark in [name] if name else list(known):
-        report = known[benchmark]()
-        typer.echo(report.json() if output is OutputFormat.JSON else report.text())
+
+def bench(given: Namespace) -> int:
+    """Runs one benchmark, or all."""
+    if given.name is not None and given.name not in BENCHMARKS:
+        raise UsageError(f"there is no benchmark '{given.name}'; there are {', '.join(BENCHMARKS)}")
+    for name in [given.name] if given.name else BENCHMARKS:
+        report = import_module(f"tappet.bench.{name}").run()
+        print(report.json() if given.format == "json" else report.text())
+    return 0

@@ -2,50 +2,49 @@
 
 from __future__ import annotations
 
+import sys
+from argparse import Namespace
 from dataclasses import replace
-from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from tappet.cli.inputs import applications
-from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
-from tappet.codegen.check import check_application, format_diagnostic
-from tappet.lang.coding_settings import StaticAnalysis
-from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.rules import chosen_codes
+from tappet.cli.arguments import ArgumentParser
+from tappet.cli.errors import UsageError
+from tappet.cli.output import show_json
 
 
-def check(
-    paths: Annotated[
-        list[Path], typer.Argument(metavar="PATH...", help="project folder, or .st files and folders of them")
-    ],
-    output: FormatOption = OutputFormat.TEXT,
-    application: Annotated[str | None, typer.Option(help="only this application of the project")] = None,
-    static: Annotated[
-        str | None,
-        typer.Option(
-            metavar="RULES",
-            help="coding rules to check, not those of the project: 'all', 'none', or codes such as S12,S1301",
-        ),
-    ] = None,
-) -> None:
-    """Check programs without running them: one `file:line:column: severity code: message` a finding."""
+def check_arguments(parser: ArgumentParser) -> None:
+    """What to check, by which rules."""
+    parser.programs()
+    parser.format_option()
+    parser.application_option("only this application of the project")
+    parser.add_argument(
+        "--static",
+        metavar="RULES",
+        help="coding rules to check, not those of the project: 'all', 'none', or codes such as S12,S1301",
+    )
+
+
+def check(given: Namespace) -> int:
+    """Shows the messages."""
+    from tappet.cli.inputs import applications
+    from tappet.codegen.check import check_application, format_diagnostic
+    from tappet.lang.coding_settings import StaticAnalysis
+    from tappet.lang.diagnostics import Diagnostic
+    from tappet.lang.rules import chosen_codes
+
     try:
-        rules = StaticAnalysis(chosen_codes(static or ""))
+        rules = None if given.static is None else StaticAnalysis(chosen_codes(given.static))
     except ValueError as error:
         raise UsageError(f"--static: {error}") from error
     found: list[Diagnostic] = []
-    for item in applications(paths, application):
-        found += check_application(
-            item.sources, item.tasks, item.options if static is None else replace(item.options, static=rules)
-        )
+    for item in applications(given.paths, given.application):
+        options = item.options if rules is None else replace(item.options, static=rules)
+        found += check_application(item.sources, item.tasks, options)
     errors = sum(diagnostic.severity == "error" for diagnostic in found)
     warnings = sum(diagnostic.severity == "warning" for diagnostic in found)
-    if output is OutputFormat.JSON:
+    if given.format == "json":
         show_json({"ok": errors == 0, "diagnostics": [diagnostic.record() for diagnostic in found]})
     else:
         for diagnostic in found:
-            typer.echo(format_diagnostic(diagnostic))
-        typer.echo(f"{errors} error(s), {warnings} warning(s)", err=bool(errors))
-    raise typer.Exit(1 if errors else 0)
+            print(format_diagnostic(diagnostic))
+        print(f"{errors} error(s), {warnings} warning(s)", file=sys.stderr if errors else sys.stdout)
+    return 1 if errors else 0

@@ -2,55 +2,75 @@
 
 from __future__ import annotations
 
-import asyncio
+import argparse
 import os
+import sys
+from argparse import Namespace
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING
 
-import typer
+from tappet.cli.arguments import ArgumentParser
+from tappet.cli.errors import UsageError
+from tappet.cli.output import show_json
 
-from tappet.cli.inputs import one_application
-from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
-from tappet.codegen.build import build_application
-from tappet.codegen.check import format_diagnostic
-from tappet.codegen.package import CodePackage
-from tappet.runtime.client import RuntimeClient, RuntimeRefused
+if TYPE_CHECKING:
+    from tappet.codegen.package import CodePackage
 
 TOKEN_VARIABLE = "TAPPET_RUNTIME_TOKEN"  # noqa: S105 - the name of the variable, not its value
 
 
-def deploy(
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="project folder or .st file")],
-    runtime: Annotated[
-        str, typer.Option(metavar="URL", help="address of the runtime, such as ws://127.0.0.1:11740")
-    ],
-    token_file: Annotated[
-        Path | None, typer.Option(help=f"file with the access token (else the variable {TOKEN_VARIABLE})")
-    ] = None,
-    application: Annotated[str | None, typer.Option(help="which application of the project")] = None,
-    start: Annotated[bool, typer.Option(help="start it after the download")] = True,
-    output: FormatOption = OutputFormat.TEXT,
-) -> None:
-    """Build an application, download it to a runtime and start it."""
-    token = _token(token_file)
-    chosen = one_application([path], application)
-    result = build_application(chosen.sources, chosen.tasks, chosen.options)
+def deploy_arguments(parser: ArgumentParser) -> None:
+    """What to build, and which runtime gets it."""
+    parser.add_argument("path", type=Path, metavar="PATH", help="project folder or .st file")
+    parser.add_argument(
+        "--runtime", metavar="URL", required=True, help="address of the runtime, such as ws://127.0.0.1:11740"
+    )
+    parser.path_option(
+        "--token-file",
+        metavar="FILE",
+        help=f"file with the access token (else the variable {TOKEN_VARIABLE})",
+    )
+    parser.application_option("which application of the project")
+    parser.add_argument(
+        "--start", action=argparse.BooleanOptionalAction, default=True, help="start it after the download"
+    )
+    parser.format_option()
+
+
+def deploy(given: Namespace) -> int:
+    """Builds, downloads and starts."""
+    import asyncio
+
+    from tappet.cli.inputs import one_application
+    from tappet.codegen.build import build_application
+    from tappet.codegen.check import format_diagnostic
+    from tappet.runtime.client import RuntimeRefused
+    from tappet.user_cache import cache_folder
+
+    token = _token(given.token_file)
+    chosen = one_application([given.path], given.application)
+    result = build_application(
+        chosen.sources, chosen.tasks, replace(chosen.options, cache=cache_folder("objects"))
+    )
     if result.package is None:
-        if output is OutputFormat.JSON:
+        if given.format == "json":
             show_json(
                 {"ok": False, "diagnostics": [diagnostic.record() for diagnostic in result.diagnostics]}
             )
-        for diagnostic in result.diagnostics if output is OutputFormat.TEXT else []:
-            typer.echo(format_diagnostic(diagnostic), err=True)
-        raise typer.Exit(1)
+        else:
+            for diagnostic in result.diagnostics:
+                print(format_diagnostic(diagnostic), file=sys.stderr)
+        return 1
     try:
-        state = asyncio.run(_deploy(runtime, token, result.package, start))
+        state = asyncio.run(_deploy(given.runtime, token, result.package, given.start))
     except (OSError, RuntimeRefused) as error:
-        raise UsageError(f"{runtime}: {error}") from error
-    if output is OutputFormat.JSON:
+        raise UsageError(f"{given.runtime}: {error}") from error
+    if given.format == "json":
         show_json({"ok": True, "application": chosen.name, "code_id": result.package.code_id, "state": state})
     else:
-        typer.echo(f"{chosen.name} on {runtime}: {state}")
+        print(f"{chosen.name} on {given.runtime}: {state}")
+    return 0
 
 
 def _token(token_file: Path | None) -> str:
@@ -66,8 +86,11 @@ def _token(token_file: Path | None) -> str:
 
 
 async def _deploy(url: str, token: str, package: CodePackage, start: bool) -> str:
+    from tappet.runtime.client import RuntimeClient
+    from tappet.runtime.operations.life_cycle import GetInfo, Start
+
     async with await RuntimeClient.connect(url, token) as client:
         await client.download(package.to_bytes())
         if start:
-            await client.start()
-        return (await client.info()).state
+            await client.call(Start())
+        return (await client.call(GetInfo())).state

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tappet import libraries
-from tappet.cli.output import UsageError
+from tappet.cli.errors import UsageError
 from tappet.codegen.build import BuildOptions, LibraryReference, as_source
-from tappet.codegen.package import TaskSpec, WatchdogSpec
+from tappet.iec.task import Task
 from tappet.lang import ast
-from tappet.lang.coding_settings import StaticAnalysis, static_analysis
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
-from tappet.project import folder
-from tappet.project import sources as project_sources
-from tappet.project.errors import ProjectError
-from tappet.project.folder.layout import PROJECT_FILE
-from tappet.project.model import Project
+from tappet.project.project_file import PROJECT_FILE, is_project
 from tappet.runtime.unit_tests.discovery import TEST_LIBRARY, has_suites
 
+if TYPE_CHECKING:
+    from tappet.lang.coding_settings import StaticAnalysis
+    from tappet.project.model import Project
+
 BARE_TASK_INTERVAL_NS = 10_000_000
-"""A PROGRAM of a bare .st file runs every 10 ms (DESIGN section 3)."""
+"""A PROGRAM of a bare .st file runs every 10 ms (docs/architecture.md, section 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,17 +31,15 @@ class ApplicationInput:
 
     name: str
     sources: tuple[Source, ...]
-    tasks: tuple[TaskSpec, ...]
+    tasks: tuple[Task, ...]
     options: BuildOptions
-
-
-def is_project(path: Path) -> bool:
-    """Whether the path is a project folder."""
-    return (path / PROJECT_FILE).is_file()
 
 
 def load_project(path: Path) -> Project:
     """The project in a folder; raises UsageError naming the file that cannot be read."""
+    from tappet.project import folder
+    from tappet.project.errors import ProjectError
+
     if not is_project(path):
         raise UsageError(f"{path} is no project folder: it has no {PROJECT_FILE}")
     try:
@@ -79,15 +77,18 @@ def one_application(paths: Sequence[Path], only: str | None = None) -> Applicati
 
 def project_applications(project: Project) -> list[ApplicationInput]:
     """Every application of a project with its libraries and tasks."""
+    from tappet.project import sources as project_sources
+
     return [
         ApplicationInput(
             application.name,
             tuple(as_source(text) for text in project_sources.application_sources(project, application.id)),
-            tuple(_task(task) for task in project_sources.tasks(project, application.id)),
+            tuple(project_sources.tasks(project, application.id)),
             BuildOptions(
                 application.name,
                 libraries=tuple(project_sources.libraries(project, application.id)),
                 static=_static(project, application.id),
+                once=True,
             ),
         )
         for application in project.applications()
@@ -95,21 +96,11 @@ def project_applications(project: Project) -> list[ApplicationInput]:
 
 
 def _static(project: Project, application_id: str) -> StaticAnalysis:
+    from tappet.lang.coding_settings import static_analysis
+    from tappet.project import sources as project_sources
+
     chosen = project_sources.static_analysis(project, application_id)
     return static_analysis(chosen.rules, chosen.prefixes, chosen.limits)
-
-
-def _task(task: project_sources.TaskDefinition) -> TaskSpec:
-    watchdog = task.watchdog
-    return TaskSpec(
-        name=task.name,
-        kind=task.kind,
-        interval_ns=task.interval_ns,
-        priority=task.priority,
-        event=task.event,
-        watchdog=WatchdogSpec(watchdog.time_ns, watchdog.sensitivity) if watchdog else None,
-        programs=task.programs,
-    )
 
 
 def _plain_files(paths: Sequence[Path]) -> ApplicationInput:
@@ -130,14 +121,12 @@ def _plain_files(paths: Sequence[Path]) -> ApplicationInput:
         for declaration in parse(source).unit.declarations
         if isinstance(declaration, ast.Pou) and declaration.kind == "PROGRAM"
     ]
-    tasks = (
-        (TaskSpec("Task", interval_ns=BARE_TASK_INTERVAL_NS, programs=tuple(programs)),) if programs else ()
-    )
+    tasks = (Task("Task", interval_ns=BARE_TASK_INTERVAL_NS, programs=tuple(programs)),) if programs else ()
     texts = [source.text for source in sources]
     # the test library keeps room for the results of many tests: only tests get it
     names = [n for n in libraries.names() if n != TEST_LIBRARY or has_suites(texts)]
     references = tuple(LibraryReference(libraries.as_called(name, texts)) for name in names)
-    options = BuildOptions(files[0].stem, libraries=references, free_addresses=False)
+    options = BuildOptions(files[0].stem, libraries=references, free_addresses=False, once=True)
     return ApplicationInput(files[0].stem, tuple(sources), tasks, options)
 
 

@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
+import sys
+from argparse import Namespace
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tappet import libraries
-from tappet.cli.inputs import load_project
-from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
-from tappet.codegen.build import BuildOptions
-from tappet.codegen.check import check_application, format_diagnostic
-from tappet.lang.source import Source
+from tappet.cli.arguments import ArgumentParser
+from tappet.cli.errors import UsageError
+from tappet.cli.output import show_json
 from tappet.libraries import archive
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.catalog import Item, Pin, items
-from tappet.project.errors import ProjectError
-from tappet.project.library_texts import library_requirements, library_texts, requirements
-
-app = typer.Typer(help="What the installed libraries offer.", no_args_is_help=True)
 
 
-@app.command("list")
-def list_libraries(output: FormatOption = OutputFormat.TEXT) -> None:
-    """The installed libraries in all their versions, newest first."""
+def list_libraries_arguments(parser: ArgumentParser) -> None:
+    """For whom."""
+    parser.format_option()
+
+
+def list_libraries(given: Namespace) -> int:
+    """Shows the libraries."""
     found = libraries.every_version()
-    if output is OutputFormat.JSON:
+    if given.format == "json":
         keys = ("name", "version", "namespace", "company", "description")
         show_json(
             [
@@ -37,51 +34,61 @@ def list_libraries(output: FormatOption = OutputFormat.TEXT) -> None:
                 for library in found
             ]
         )
-        return
+        return 0
     for library in found:
-        typer.echo(f"{library.name:16} {library.version:10} {library.description}")
+        print(f"{library.name:16} {library.version:10} {library.description}")
+    return 0
 
 
-@app.command("show")
-def show(
-    name: Annotated[
-        str,
-        typer.Argument(
-            metavar="NAME", help="a library such as Util or 'Util, 3.5.0.0', or one POU or type of any"
-        ),
-    ],
-    output: FormatOption = OutputFormat.TEXT,
-) -> None:
-    """Every POU and type of a library, or a single one, with pins, types and defaults."""
-    chosen = _find(name)
-    if output is OutputFormat.JSON:
+def show_arguments(parser: ArgumentParser) -> None:
+    """Which library or item."""
+    parser.add_argument(
+        "name", metavar="NAME", help="a library such as Util or 'Util, 3.5.0.0', or one POU or type of any"
+    )
+    parser.format_option()
+
+
+def show(given: Namespace) -> int:
+    """Shows the items."""
+    chosen = _find(given.name)
+    if given.format == "json":
         show_json([asdict(item) for item in chosen])
-        return
+        return 0
     for item in chosen:
-        typer.echo(_text(item))
+        print(_text(item))
+    return 0
 
 
-@app.command("save")
-def save(
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="project folder")],
-    to: Annotated[Path, typer.Option("--to", metavar=f"FILE{archive.SUFFIX}", help="library file to write")],
-    version: Annotated[str, typer.Option(help="such as 1.2.0.0")],
-    name: Annotated[str | None, typer.Option(help="name of the library; that of the project")] = None,
-    namespace: Annotated[str, typer.Option(help="prefix of its names; the name")] = "",
-    company: Annotated[str, typer.Option(help="who makes it")] = "",
-    description: Annotated[str | None, typer.Option(help="what it is for; that of the project")] = None,
-) -> None:
-    """Make a library of a project: everything but its programs, when it compiles."""
-    project = load_project(path)
+def save_arguments(parser: ArgumentParser) -> None:
+    """Which project, and how the library is called."""
+    parser.add_argument("path", type=Path, metavar="PATH", help="project folder")
+    parser.path_option("--to", metavar=f"FILE{archive.SUFFIX}", help="library file to write", required=True)
+    parser.add_argument("--version", required=True, help="such as 1.2.0.0")
+    parser.add_argument("--name", help="name of the library; that of the project")
+    parser.add_argument("--namespace", default="", help="prefix of its names; the name")
+    parser.add_argument("--company", default="", help="who makes it")
+    parser.add_argument("--description", help="what it is for; that of the project")
+
+
+def save(given: Namespace) -> int:
+    """Checks the project and writes the library."""
+    from tappet.cli.inputs import load_project
+    from tappet.codegen.build import BuildOptions
+    from tappet.codegen.check import check_application, format_diagnostic
+    from tappet.lang.source import Source
+    from tappet.project.errors import ProjectError
+    from tappet.project.library_texts import library_requirements, library_texts, requirements
+
+    project = load_project(given.path)
     try:
         texts = library_texts(project)
         needed = library_requirements(project)
         facts = archive.manifest(
-            name or project.name,
-            version,
-            namespace=namespace,
-            company=company,
-            description=project.description if description is None else description,
+            given.name or project.name,
+            given.version,
+            namespace=given.namespace,
+            company=given.company,
+            description=project.description if given.description is None else given.description,
             requires=requirements(needed),
         )
     except (ProjectError, LibraryFileError) as error:
@@ -93,39 +100,44 @@ def save(
         if diagnostic.severity == "error"
     ]
     for diagnostic in errors:
-        typer.echo(format_diagnostic(diagnostic), err=True)
+        print(format_diagnostic(diagnostic), file=sys.stderr)
     if errors:
-        raise typer.Exit(1)
-    to.write_bytes(archive.pack(facts, texts))
-    typer.echo(f"{facts['name']} {version}: {len(texts)} objects in {to}")
+        return 1
+    given.to.write_bytes(archive.pack(facts, texts))
+    print(f"{facts['name']} {given.version}: {len(texts)} objects in {given.to}")
+    return 0
 
 
-@app.command("install")
-def install(
-    path: Annotated[
-        Path,
-        typer.Argument(metavar="PATH", help=f"{archive.SUFFIX} file, or a folder with {archive.MANIFEST}"),
-    ],
-) -> None:
-    """Install a library beside those that are there; the same version is replaced."""
+def install_arguments(parser: ArgumentParser) -> None:
+    """Which library."""
+    help_ = f"{archive.SUFFIX} file, or a folder with {archive.MANIFEST}"
+    parser.add_argument("path", type=Path, metavar="PATH", help=help_)
+
+
+def install(given: Namespace) -> int:
+    """Installs it."""
     try:
-        found = archive.install(*archive.read(path))
+        found = archive.install(*archive.read(given.path))
     except LibraryFileError as error:
         raise UsageError(str(error)) from error
-    typer.echo(f"{found.name} {found.version} is installed in {found.folder}")
+    print(f"{found.name} {found.version} is installed in {found.folder}")
+    return 0
 
 
-@app.command("remove")
-def remove(
-    name: Annotated[str, typer.Argument(metavar="NAME")],
-    version: Annotated[str, typer.Argument(metavar="VERSION")],
-) -> None:
-    """Uninstall one version of a library."""
+def remove_arguments(parser: ArgumentParser) -> None:
+    """Which library in which version."""
+    parser.add_argument("name", metavar="NAME")
+    parser.add_argument("version", metavar="VERSION")
+
+
+def remove(given: Namespace) -> int:
+    """Removes it."""
     try:
-        archive.remove(name, version)
+        archive.remove(given.name, given.version)
     except (libraries.UnknownLibraryError, LibraryFileError) as error:
         raise UsageError(str(error)) from error
-    typer.echo(f"{name} {version} is removed")
+    print(f"{given.name} {given.version} is removed")
+    return 0
 
 
 def _find(name: str) -> list[Item]:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from tappet.cli.output import UsageError
+from tappet.cli.arguments import ArgumentParser
+from tappet.cli.errors import UsageError
 
 
-def lsp(
-    folder: Annotated[Path, typer.Argument(help="Folder of .st files, or a project folder.")] = Path(),
-    stdio: Annotated[
-        bool, typer.Option("--stdio", help="Talk on standard input and output (always).")
-    ] = True,
-) -> None:
-    """Language Server Protocol on standard input and output, for VS Code and other editors."""
+def lsp_arguments(parser: ArgumentParser) -> None:
+    """Which folder; how to talk."""
+    parser.add_argument(
+        "folder", nargs="?", type=Path, default=Path(), help="folder of .st files, or a project folder"
+    )
+    parser.add_argument("--stdio", action="store_true", help="talk on standard input and output (always)")
+
+
+def lsp(given: Namespace) -> int:
+    """Serves until the editor ends it."""
     from tappet.server.lsp.stdio import main
 
-    if not folder.is_dir():
-        raise UsageError(f"{folder} is no folder")
-    raise typer.Exit(main(folder))
+    if not given.folder.is_dir():
+        raise UsageError(f"{given.folder} is no folder")
+    return main(given.folder)

@@ -2,37 +2,42 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from tappet.cli.inputs import is_project, load_project
-from tappet.cli.output import FormatOption, OutputFormat, UsageError, show_json
-from tappet.libraries.missing import tell_missing
+from tappet.cli.arguments import ArgumentParser
+from tappet.cli.errors import UsageError
+from tappet.cli.inputs import load_project
+from tappet.cli.output import show_json
+from tappet.libraries.missing import report_missing
 from tappet.project import folder
 from tappet.project.errors import ProjectError
 from tappet.project.exchange import ARCHIVES, ImportReport, import_files, importable, is_importable
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.archive import unpack
 from tappet.project.model import Project
+from tappet.project.project_file import is_project
 
 
-def import_project(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="FILE...",
-            help="PLCopen XML, CODESYS .export, TwinCAT .sln, .tsproj, .plcproj or single .Tc* files, "
-            "CoDeSys .EXP, .st, folders of these, or the archive of a project",
-        ),
-    ],
-    to: Annotated[
-        Path, typer.Option("--to", metavar="DIR", help="new folder, or project folder to import into")
-    ],
-    output: FormatOption = OutputFormat.TEXT,
-) -> None:
-    """Import a project, or files of other systems, and report what came in, what was changed and what not."""
+def import_project_arguments(parser: ArgumentParser) -> None:
+    """What to read, where to put it."""
+    parser.add_argument(
+        "files",
+        type=Path,
+        nargs="+",
+        metavar="FILE",
+        help="PLCopen XML, CODESYS .export, TwinCAT .sln, .tsproj, .plcproj or single .Tc* files, "
+        "CoDeSys .EXP, .st, folders of these, or the archive of a project",
+    )
+    parser.path_option(
+        "--to", metavar="DIR", help="new folder, or project folder to import into", required=True
+    )
+    parser.format_option()
+
+
+def import_project(given: Namespace) -> int:
+    """Imports and shows the report."""
+    files, to = given.files, given.to
     for path in files:
         if not path.exists():
             raise UsageError(f"{path} does not exist")
@@ -46,8 +51,9 @@ def import_project(
         folder.save(project, to)
     except ProjectError as error:
         raise UsageError(str(error)) from error
-    tell_missing(project, report)
-    _show(project, report, to, output)
+    report_missing(project, report)
+    _show(project, report, to, given.format)
+    return 0
 
 
 def _name(files: list[Path]) -> str:
@@ -104,25 +110,27 @@ def _below(top: Path, base: Path, project: Path | None = None) -> dict[str, byte
     return found
 
 
-def _show(project: Project, report: ImportReport, to: Path, output: OutputFormat) -> None:
-    if output is OutputFormat.JSON:
+def _show(project: Project, report: ImportReport, to: Path, output: str) -> None:
+    if output == "json":
         show_json({"project": project.name, "objects": len(project.objects), **report.model_dump()})
         return
     for entry in report.noteworthy():
-        typer.echo(str(entry))
+        print(str(entry))
     said = f" ({report.summary()})" if report.entries else ""
-    typer.echo(f"{project.name}: {len(project.objects)} objects in {to}{said}")
+    print(f"{project.name}: {len(project.objects)} objects in {to}{said}")
 
 
-def export_project(
-    source: Annotated[Path, typer.Argument(metavar="DIR", help="project folder")],
-    to: Annotated[
-        Path, typer.Option("--to", metavar="FILE", help="FILE.xml: PLCopen XML; FILE.zip: archive")
-    ],
-) -> None:
-    """Write a project as PLCopen XML for other systems, or as an archive for the workbench."""
-    project = load_project(source)
+def export_project_arguments(parser: ArgumentParser) -> None:
+    """What to write, where to."""
+    parser.add_argument("source", type=Path, metavar="DIR", help="project folder")
+    parser.path_option("--to", metavar="FILE", help="FILE.xml: PLCopen XML; FILE.zip: archive", required=True)
+
+
+def export_project(given: Namespace) -> int:
+    """Writes the file."""
+    project, to = load_project(given.source), given.to
     if to.suffix.lower() not in (".xml", ".zip"):
         raise UsageError(f"{to}: the name should end in .xml (PLCopen XML) or .zip (archive of the folder)")
     to.write_bytes(write_plcopen(project) if to.suffix.lower() == ".xml" else folder.write_zip(project))
-    typer.echo(f"{project.name}: {len(project.objects)} objects in {to}")
+    print(f"{project.name}: {len(project.objects)} objects in {to}")
+    return 0

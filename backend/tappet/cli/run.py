@@ -2,83 +2,105 @@
 
 from __future__ import annotations
 
-import csv
+import gc
 import json
+import sys
+from argparse import Namespace
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+from tappet.cli.arguments import ArgumentParser, decimal, integer
+from tappet.cli.errors import UsageError, complain
+from tappet.cli.output import show_json
 
-from tappet.cli.inputs import one_application
-from tappet.cli.output import FormatOption, OutputFormat, UsageError, complain, show_json
-from tappet.codegen.build import build_application
-from tappet.codegen.check import format_diagnostic
-from tappet.codegen.package import CodePackage
-from tappet.codegen.symbol_map import SymbolError
-from tappet.project.durations import duration_ns
-from tappet.project.errors import InvalidTimeError
-from tappet.runtime.local import ApplicationException, LocalRuntime, Trace
-from tappet.runtime.tasks import TaskStatistics
+if TYPE_CHECKING:
+    from tappet.codegen.package import CodePackage
+    from tappet.runtime.local import ApplicationException, LocalRuntime, Trace
+    from tappet.runtime.tasks import TaskStatistics
 
 DEFAULT_CYCLES = 1
 
 
-def run(
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="project folder or .st file")],
-    cycles: Annotated[int | None, typer.Option(min=0, help="cycles of the fastest cyclic task")] = None,
-    time: Annotated[str | None, typer.Option(help="time to run, such as 500ms, 10s or T#1m30s")] = None,
-    virtual: Annotated[
-        bool, typer.Option("--virtual", help="virtual clock: deterministic, as fast as possible")
-    ] = False,
-    show: Annotated[
-        list[str] | None, typer.Option("--print", metavar="EXPR", help="print a value at the end")
-    ] = None,
-    assign: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="write before the first cycle")
-    ] = None,
-    trace: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="CSV of the printed values, a row a cycle")
-    ] = None,
-    stats: Annotated[bool, typer.Option("--stats", help="cycles and execution times of each task")] = False,
-    cycle_limit: Annotated[
-        float, typer.Option(min=0.01, help="seconds after which a cycle counts as stuck")
-    ] = 3.0,
-    application: Annotated[str | None, typer.Option(help="which application of the project")] = None,
-    output: FormatOption = OutputFormat.TEXT,
-) -> None:
-    """Run an application for some cycles or a time and print values."""
-    if cycles is not None and time is not None:
+def run_arguments(parser: ArgumentParser) -> None:
+    """What to run, for how long, and what to show."""
+    parser.add_argument("path", type=Path, metavar="PATH", help="project folder or .st file")
+    parser.add_argument(
+        "--cycles", type=integer(0), metavar="N", help="cycles of the fastest cyclic task (default: 1)"
+    )
+    parser.add_argument("--time", metavar="T", help="time to run, such as 500ms, 10s or T#1m30s")
+    parser.add_argument(
+        "--virtual", action="store_true", help="virtual clock: deterministic, as fast as possible"
+    )
+    parser.add_argument(
+        "--print", dest="show", action="append", default=[], metavar="EXPR", help="print a value at the end"
+    )
+    parser.add_argument(
+        "--set",
+        dest="assign",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="write before the first cycle",
+    )
+    parser.path_option("--trace", metavar="FILE", help="CSV of the printed values, a row a cycle")
+    parser.add_argument("--stats", action="store_true", help="cycles and execution times of each task")
+    parser.add_argument(
+        "--cycle-limit",
+        type=decimal(0.01),
+        default=3.0,
+        metavar="S",
+        help="seconds after which a cycle counts as stuck (default: %(default)s)",
+    )
+    parser.application_option("which application of the project")
+    parser.format_option()
+
+
+def run(given: Namespace) -> int:
+    """Builds, runs and shows."""
+    if given.cycles is not None and given.time is not None:
         raise UsageError("give either --cycles or --time")
-    if trace is not None and not show:
+    if given.trace is not None and not given.show:
         raise UsageError("--trace needs the variables to record: give them with --print")
-    time_ns = _duration(time) if time is not None else None
-    package = _build(path, application, output)
-    expressions = show or []
-    with LocalRuntime(package, virtual=virtual, start=False, cycle_limit_s=cycle_limit) as runtime:
+    time_ns = _duration(given.time) if given.time is not None else None
+    package = _build(given.path, given.application, given.format)
+    if package is None:
+        return 1
+    from tappet.codegen.symbol_map import SymbolError
+    from tappet.runtime.local import ApplicationException, LocalRuntime
+
+    gc.freeze()
+    gc.enable()
+    with LocalRuntime(
+        package, virtual=given.virtual, start=False, cycle_limit_s=given.cycle_limit
+    ) as runtime:
         try:
-            _assign(runtime, assign or [])
-            recorded = runtime.trace(expressions) if trace is not None else None
+            _assign(runtime, given.assign)
+            recorded = runtime.trace(given.show) if given.trace is not None else None
             if runtime.exception is not None:  # of an initialiser
                 raise ApplicationException(runtime.exception)
             runtime.start()
             if time_ns is not None:
                 runtime.run(time_ns=time_ns)
             else:
-                runtime.run(DEFAULT_CYCLES if cycles is None else cycles)
+                runtime.run(DEFAULT_CYCLES if given.cycles is None else given.cycles)
             failed = None
         except SymbolError as error:
             raise UsageError(str(error)) from error
         except ApplicationException as error:
             failed = error
-        values = _values(runtime, expressions)
-        if trace is not None and recorded is not None:
-            _write_trace(trace, recorded, expressions)
-        _show(values, runtime.statistics() if stats else None, failed, output)
-    raise typer.Exit(1 if failed else 0)
+        values = _values(runtime, given.show)
+        if recorded is not None:
+            _write_trace(given.trace, recorded, given.show)
+        _show(values, runtime.statistics() if given.stats else None, failed, given.format)
+    return 1 if failed else 0
 
 
 def _duration(text: str) -> int:
+    from tappet.project.durations import duration_ns
+    from tappet.project.errors import InvalidTimeError
+
     for candidate in (text, f"T#{text}"):
         try:
             return duration_ns(candidate)
@@ -87,24 +109,33 @@ def _duration(text: str) -> int:
     raise UsageError(f"--time {text}: {reason}")
 
 
-def _build(path: Path, application: str | None, output: OutputFormat) -> CodePackage:
+def _build(path: Path, application: str | None, output: str) -> CodePackage | None:
+    """The package; None after errors, which are shown."""
+    from tappet.cli.inputs import one_application
+    from tappet.codegen.build import build_application
+    from tappet.codegen.check import format_diagnostic
+    from tappet.user_cache import cache_folder
+
     chosen = one_application([path], application)
     if not chosen.tasks:
         raise UsageError(f"{path} has nothing to run: no task and no PROGRAM")
-    result = build_application(chosen.sources, chosen.tasks, chosen.options)
+    result = build_application(
+        chosen.sources, chosen.tasks, replace(chosen.options, cache=cache_folder("objects"))
+    )
     if result.package is None:
-        if output is OutputFormat.JSON:
+        if output == "json":
             show_json(
                 {"ok": False, "diagnostics": [diagnostic.record() for diagnostic in result.diagnostics]}
             )
         else:
             for diagnostic in result.diagnostics:
-                typer.echo(format_diagnostic(diagnostic), err=True)
-        raise typer.Exit(1)
+                print(format_diagnostic(diagnostic), file=sys.stderr)
     return result.package
 
 
 def _assign(runtime: LocalRuntime, assignments: Sequence[str]) -> None:
+    from tappet.codegen.symbol_map import SymbolError
+
     for text in assignments:
         name, equals, value = text.partition("=")
         if not equals:
@@ -118,6 +149,8 @@ def _assign(runtime: LocalRuntime, assignments: Sequence[str]) -> None:
 
 
 def _values(runtime: LocalRuntime, expressions: Sequence[str]) -> dict[str, str]:
+    from tappet.codegen.symbol_map import SymbolError
+
     try:
         return {expression: runtime.literal(expression) for expression in expressions}
     except SymbolError as error:
@@ -125,6 +158,8 @@ def _values(runtime: LocalRuntime, expressions: Sequence[str]) -> dict[str, str]
 
 
 def _write_trace(path: Path, trace: Trace, expressions: Sequence[str]) -> None:
+    import csv
+
     trace.collect()
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
@@ -142,18 +177,18 @@ def _show(
     values: dict[str, str],
     statistics: list[TaskStatistics] | None,
     failed: ApplicationException | None,
-    output: OutputFormat,
+    output: str,
 ) -> None:
-    if output is OutputFormat.JSON:
+    if output == "json":
         body: dict[str, Any] = {"values": values, "exception": str(failed) if failed else None}
         if statistics is not None:
             body["tasks"] = [_statistics_json(task) for task in statistics]
         show_json(body)
         return
     for expression, literal in values.items():
-        typer.echo(f"{expression} = {literal}")
+        print(f"{expression} = {literal}")
     for task in statistics or []:
-        typer.echo(
+        print(
             f"task {task.name}: cycles {task.iec_cycles}, mean {task.average_ns} ns, "
             f"min {task.min_ns} ns, max {task.max_ns} ns"
         )

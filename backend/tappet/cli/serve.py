@@ -2,61 +2,89 @@
 
 from __future__ import annotations
 
+import argparse
 import os
+from argparse import Namespace
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-FORWARD = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
-"""Context settings of a command that hands its arguments on unread."""
+from tappet.cli.arguments import ArgumentParser, integer
 
 
-def serve(
-    host: Annotated[str, typer.Option(help="address to listen on; beyond this machine only if told")] = (
-        "127.0.0.1"
-    ),
-    port: Annotated[int, typer.Option(min=0, max=65535, help="port; 0 takes a free one")] = 8080,
-    data: Annotated[Path, typer.Option(metavar="DIR", help="folder of everything that is stored")] = Path(
-        "data"
-    ),
-    example: Annotated[
-        str | None, typer.Option(metavar="NAME", help="load an example project and run it")
-    ] = None,
-    local_link: Annotated[
-        bool, typer.Option("--local-link", help="print a one-time link that logs in on this machine")
-    ] = False,
-    https: Annotated[
-        bool, typer.Option("--https", help="browsers come by https, through a proxy that ends it")
-    ] = False,
-    allowed_host: Annotated[
-        list[str] | None, typer.Option(metavar="NAME", help="name the server is reached by; repeatable")
-    ] = None,
-    public_origin: Annotated[
-        list[str] | None, typer.Option(metavar="URL", help="origin of pages besides its own; repeatable")
-    ] = None,
-    runtime: Annotated[bool, typer.Option(help="start a soft PLC on this machine")] = True,
-) -> None:
-    """Serve the IDE, with a local soft PLC. SQLite in DIR, or the database of the variable DATABASE_URL."""
+def serve_arguments(parser: ArgumentParser) -> None:
+    """Where to listen, where to store, what to start."""
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        help="address to listen on; beyond this machine only if told (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--port",
+        type=integer(0, 65535),
+        default=8080,
+        help="port; 0 takes a free one (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--data",
+        type=Path,
+        default=Path("data"),
+        metavar="DIR",
+        help="folder of everything that is stored (default: %(default)s)",
+    )
+    parser.add_argument("--example", metavar="NAME", help="load an example project and run it")
+    parser.add_argument(
+        "--local-link", action="store_true", help="print a one-time link that logs in on this machine"
+    )
+    parser.add_argument(
+        "--https", action="store_true", help="browsers come by https, through a proxy that ends it"
+    )
+    parser.add_argument(
+        "--allowed-host",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="name the server is reached by; repeatable",
+    )
+    parser.add_argument(
+        "--public-origin",
+        action="append",
+        default=[],
+        metavar="URL",
+        help="origin of pages besides its own; repeatable",
+    )
+    parser.add_argument(
+        "--runtime",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="start a soft PLC on this machine",
+    )
+
+
+def serve(given: Namespace) -> int:
+    """Serves until it is ended."""
     from tappet.server.serve import ServeOptions
     from tappet.server.serve import serve as run
     from tappet.server.settings import ServerSettings
 
     settings = ServerSettings(
-        data_dir=data,
+        data_dir=given.data,
         database_url=os.environ.get("DATABASE_URL") or None,
-        host=host,
-        port=port,
-        https=https,
-        allowed_hosts=tuple(allowed_host or ()),
-        public_origins=tuple(public_origin or ()),
-        local_runtime=runtime,
+        host=given.host,
+        port=given.port,
+        https=given.https,
+        allowed_hosts=tuple(given.allowed_host),
+        public_origins=tuple(given.public_origin),
+        local_runtime=given.runtime,
     )
-    raise typer.Exit(run(ServeOptions(settings, example, local_link)))
+    return run(ServeOptions(settings, given.example, given.local_link))
 
 
-def runtime(context: typer.Context) -> None:
-    """Run a soft PLC alone; --help lists its options."""
+def runtime_arguments(parser: ArgumentParser) -> None:
+    """The process of a soft PLC reads its arguments itself."""
+    parser.forwards = True
+
+
+def runtime(given: Namespace) -> int:
+    """Runs until it is ended."""
     from tappet.runtime.__main__ import main
 
-    raise typer.Exit(main(context.args))
+    return main(given.words)

@@ -1,38 +1,42 @@
 """From source texts to a code package: parse, analyse, lower, lay out, emit, optimise.
 
-`build_application` is the driver for applications, `build_system` for ST that is part of the product and
-linked by itself, `layout_of` gives Python the offsets of ST structures.
+`build_application` is the driver for applications; ST that is part of the product is built by `system`.
 """
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol
 
-from tappet import libraries as installed
 from tappet.codegen.generate import Generated, GenerateOptions, Generator
 from tappet.codegen.identity import program_digest, text_digest
 from tappet.codegen.layout import ImageTooLargeError
-from tappet.codegen.optimise import ObjectCache
+from tappet.codegen.object_cache import ObjectCache
 from tappet.codegen.package import CodePackage, TaskSpec
-from tappet.codegen.system import SystemBuild, SystemBuildError, build_system, layout_of
 from tappet.codegen.tasks import default_tasks, task_specs
+from tappet.core.edits.edit import Edit
+from tappet.core.internal_error import At, InternalError, reason_of
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
-from tappet.core.relower import Edit
+from tappet.iec.task import Task
+from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
-from tappet.lang.analysis.tasks import Task, check_tasks
+from tappet.lang.analysis.tasks import check_tasks
 from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
-from tappet.lang.conditional import ParseOptions, parse_sources
-from tappet.lang.diagnostics import Diagnostic, report
+from tappet.lang.conditional import ParseOptions
+from tappet.lang.deep_trees import deep_recursion
+from tappet.lang.diagnostics import Diagnostic, report, with_elements
 from tappet.lang.parser import ParseResult
-from tappet.lang.room_for_trees import room_for_trees
-from tappet.lang.source import NOWHERE, Scope, Source, Span
+from tappet.lang.source import NOWHERE, BodyText, Scope, Source, SourceMap, Span
+from tappet.libraries import resolve
 from tappet.project.library_reference import LibraryReference
+
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +64,8 @@ class BuildOptions:
     """Incomplete addresses that VAR_CONFIG does not name get a free place; False: an error (LDEC-94)."""
     static: StaticAnalysis = NO_RULES
     """The optional coding rules that are checked."""
+    once: bool = False
+    """The process builds this application no more: library texts that it cannot reach are left out."""
 
 
 @dataclass(slots=True)
@@ -106,7 +112,9 @@ class SourceLike(Protocol):
     @property
     def body_line(self) -> int: ...
     @property
-    def language(self) -> str | None: ...
+    def bodies(self) -> tuple[BodyText, ...]: ...
+    @property
+    def map(self) -> SourceMap: ...
 
 
 class BuildSession:
@@ -116,7 +124,9 @@ class BuildSession:
     """
 
     def __init__(self) -> None:
+        self.texts: tuple[Source, ...] = ()
         self.parsed: dict[Source, ParseResult] = {}
+        """Trees of the texts but for those of shared libraries."""
         self.objects: dict[Path | None, ObjectCache] = {}
         self.analysis: Analysis | None = None
         self.generated: Generated | None = None
@@ -124,15 +134,18 @@ class BuildSession:
         """What is new since `generated`."""
         self.digests: dict[Source, bytes] = {}
 
-    def analyse(self, parsed: Sequence[ParseResult], options: AnalysisOptions) -> Analysis:
+    def analyse(
+        self, parsed: Sequence[ParseResult], options: AnalysisOptions, libraries: LibrarySnapshot | None
+    ) -> Analysis:
         """The program, analysed as a whole or only in the bodies that were edited."""
         self.settle()
-        analysis = analyse([p.unit for p in parsed], options, self.analysis)
+        own = [result.unit for result in own_results(parsed, libraries)]
+        analysis = analyse(own, options, self.analysis, libraries=libraries)
         self.analysis = analysis
         made, bodies = analysis.redeclared, analysis.changed
         if made is not None:
             self.edit.texts |= made.texts
-            self.edit.things |= made.things
+            self.edit.entities |= made.entities
             bodies = made.bodies
         if bodies is None:
             self.generated, self.edit = None, Edit()
@@ -143,26 +156,27 @@ class BuildSession:
     def settle(self) -> None:
         """Do what the next build needs done before it: best when nobody waits."""
         if self.generated is not None:
-            with room_for_trees():
+            with deep_recursion():
                 self.generated.settle()
 
     def digest(self, settings: object) -> bytes:
         """Digest of the program that was parsed last, and of `settings`."""
-        self.digests = {text: self.digests.get(text) or text_digest(text) for text in self.parsed}
+        self.digests = {text: self.digests.get(text) or text_digest(text) for text in self.texts}
         return program_digest(self.digests.values(), settings)
 
     def cache(self, folder: Path | None) -> ObjectCache:
         """Objects in memory, and in `folder` unless it is None."""
         if folder not in self.objects:
             self.objects = {folder: ObjectCache(folder)}
-            self.objects[folder].trim()
         return self.objects[folder]
 
-    def parse_all(self, sources: Sequence[Source], options: ParseOptions) -> list[ParseResult]:
-        """Trees of all texts; forgets texts that are gone."""
-        results = parse_sources(sources, options, plain=self.parsed)
-        self.parsed = dict(zip(sources, results, strict=True))
-        return results
+    def read(
+        self, sources: Sequence[Source], options: AnalysisOptions, parse_options: ParseOptions
+    ) -> tuple[list[ParseResult], LibrarySnapshot | None]:
+        """Trees of all texts, and the libraries among them; forgets texts that are gone."""
+        results, libraries = read_program(sources, options, parse_options, self.parsed)
+        self.parsed = {result.unit.source: result for result in own_results(results, libraries)}
+        return results, libraries
 
 
 def as_source(text: Source | SourceLike) -> Source:
@@ -178,7 +192,8 @@ def as_source(text: Source | SourceLike) -> Source:
         text.library,
         text.namespace,
         text.body_line,
-        text.language,
+        text.bodies,
+        map=text.map,
     )
 
 
@@ -195,8 +210,16 @@ def build_application(
     change over without stopping.
     """
     options = options or BuildOptions()
-    with room_for_trees():
-        return _Build(options, previous, session or BuildSession()).run(list(sources), list(tasks))
+    texts, task_list = [as_source(text) for text in sources], list(tasks)
+    with deep_recursion():
+        result = _Build(options, previous, session or BuildSession()).run(texts, task_list)
+        if options.once and any(d.severity == "error" for d in result.diagnostics):
+            options = replace(options, once=False)  # messages propose names of all libraries
+            result = _Build(options, previous, BuildSession()).run(texts, task_list)
+    result.diagnostics[:] = with_elements(result.diagnostics, texts)
+    if result.package is not None:
+        result.package.source_maps = {text.uri: text.map for text in texts if text.map is not None}
+    return result
 
 
 class _Build:
@@ -217,13 +240,19 @@ class _Build:
             spent = time.perf_counter() - start
             self.result.timings[stage] = self.result.timings.get(stage, 0.0) + spent
 
-    def run(self, given: list[Source | SourceLike], task_list: list[Task]) -> BuildResult:
+    def run(self, given: list[Source], task_list: list[Task]) -> BuildResult:
         result, options = self.result, self.options
-        sources = [as_source(s) for s in given] + self.library_sources()
+        installed = self.library_sources()
+        sources = given + installed
+        if options.once:
+            from tappet.libraries.named import named_texts
+
+            with self.timed("parse"):
+                reached = given + named_texts(installed, given)
+        else:
+            reached = sources
         with self.timed("parse"):
             names = [task.name for task in task_list]
-            parsed = self.session.parse_all(sources, ParseOptions(dict(options.defines), names))
-        with self.timed("analyse"):
             settings = AnalysisOptions(
                 system=options.system,
                 byte_addressing=options.byte_addressing,
@@ -231,7 +260,11 @@ class _Build:
                 free_addresses=options.free_addresses,
                 static=options.static,
             )
-            analysis = self.session.analyse(parsed, settings)
+            parse_options = ParseOptions(dict(options.defines), names)
+            parsed, libraries = self.session.read(reached, settings, parse_options)
+            self.session.texts = tuple(sources)
+        with self.timed("analyse"):
+            analysis = self.session.analyse(parsed, settings, libraries)
         result.analysis = analysis
         result.diagnostics += [d for p in parsed for d in p.diagnostics]
         result.diagnostics += analysis.diagnostics
@@ -247,11 +280,23 @@ class _Build:
             result.diagnostics.append(report("E0901", error.uri, span, message=error.message))
         except ImageTooLargeError as error:
             result.diagnostics.append(report("E0901", "", NOWHERE, message=str(error)))
+        except InternalError as error:
+            self.failed(error)
+        except Exception as error:
+            self.failed(InternalError("code generation", At(options.application), reason_of(error)), error)
         return result
+
+    def failed(self, error: InternalError, cause: Exception | None = None) -> None:
+        """A defect of the compiler ends in a message with a place; who mends it finds the rest in the log."""
+        _log.error("internal error of the compiler: %s", error, exc_info=cause or error)
+        at = error.at
+        span = Span(at.line - 1, 0, at.line - 1, 0) if at.line else NOWHERE
+        facts = {"name": at.name, "stage": error.stage, "reason": error.reason}
+        self.result.diagnostics.append(report("E0905", at.uri, span, **facts))
 
     def library_sources(self) -> list[Source]:
         """Texts of the libraries in use, of those they need and of the conversion library."""
-        found, problems = installed.resolve([*self.options.libraries, LibraryReference(CONVERSION_LIBRARY)])
+        found, problems = resolve([*self.options.libraries, LibraryReference(CONVERSION_LIBRARY)])
         self.result.diagnostics += problems
         return [source for library in found for source in library.sources]
 
@@ -268,7 +313,8 @@ class _Build:
         )
         cache = session.cache(options.cache)
         with self.timed("package"):
-            program = session.digest((options.level, options.byte_addressing, options.defines))
+            known_by = (options.level, options.byte_addressing, options.defines)
+            program = b"" if options.check_only else session.digest(known_by)
         generator = Generator(settings, program, self.previous, cache, self.timed, result.diagnostics)
         last, session.generated = session.generated, None
         done = None
@@ -293,9 +339,5 @@ __all__ = [
     "BuildResult",
     "BuildSession",
     "LibraryReference",
-    "SystemBuild",
-    "SystemBuildError",
     "build_application",
-    "build_system",
-    "layout_of",
 ]

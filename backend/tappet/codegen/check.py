@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from tappet.codegen.build import BuildOptions, BuildSession, SourceLike, build_application
-from tappet.lang.analysis.tasks import Task
+from tappet.iec.task import Task
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 
@@ -18,7 +18,7 @@ def check_application(
     session: BuildSession | None = None,
 ) -> list[Diagnostic]:
     """All messages, in order of texts and places; errors, warnings and notes."""
-    settings = replace(options or BuildOptions(), check_only=True)
+    settings = replace(options or BuildOptions(), check_only=True, cache=None)
     texts = list(sources)
     result = build_application(texts, tasks, settings, session=session)
     order = {text.uri: number for number, text in enumerate(texts)}

@@ -15,7 +15,8 @@ from concurrent.futures import Future
 from dataclasses import asdict
 from queue import SimpleQueue
 
-from tappet.codegen.optimise import LlvmError, ObjectCache, OptimiseOptions
+from tappet.codegen.compile_options import LlvmError, OptimiseOptions
+from tappet.codegen.object_cache import ObjectCache
 
 MAX_WORKERS = 8
 """More processes than this gain nothing for applications of usual size."""
@@ -94,7 +95,7 @@ def _compile(process: subprocess.Popen[bytes], text: str, options: OptimiseOptio
     if len(answer) != size:
         raise EOFError("half an answer")
     if status == b"\1":
-        raise LlvmError(answer.decode())
+        raise LlvmError(answer.decode(), text)
     return answer
 
 

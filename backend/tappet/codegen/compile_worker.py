@@ -10,7 +10,8 @@ import json
 import sys
 from typing import BinaryIO
 
-from tappet.codegen.optimise import LlvmError, OptimiseOptions, compile_text
+from tappet.codegen.compile_options import LlvmError, OptimiseOptions
+from tappet.codegen.optimise import compile_text
 
 
 def serve(source: BinaryIO, sink: BinaryIO) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, Final, Literal
 
 from tappet.codegen.symbol_map import SymbolMap, VarRef
@@ -16,9 +17,9 @@ FLAG: Final = "DISPLAY_"
 _NUMBERS = frozenset({"int", "uint", "bits"})
 
 
-def own_mode(flags: str) -> Mode | None:
+def own_mode(flags: Iterable[str]) -> Mode | None:
     """The number format that the flags of a symbol fix."""
-    for flag in flags.split():
+    for flag in flags:
         if flag.startswith(FLAG):
             return MODES.get(flag.removeprefix(FLAG).lower())
     return None

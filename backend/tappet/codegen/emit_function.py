@@ -9,6 +9,7 @@ from tappet.codegen.emit_expression import ExpressionEmitter, is_simple
 from tappet.codegen.emit_place import COLD, WRITTEN, ModuleState
 from tappet.codegen.emit_text import constant, function_symbol, llvm_type, memory_type
 from tappet.core import ir
+from tappet.core.internal_error import function_at, working_on
 
 _ATTRIBUTES = {"": "#0", "cold": "#4", "never": "#5", "always": "#6", "twice": "#7"}
 _KEPT = 'call void asm sideeffect "", "r,~{{memory}}"(ptr {})'
@@ -25,6 +26,10 @@ class FunctionEmitter(ExpressionEmitter):
 
     def text(self, linkage: str) -> list[str]:
         """All lines of the definition."""
+        with working_on("code generation", lambda: function_at(self.function, self.line)):
+            return self._text(linkage)
+
+    def _text(self, linkage: str) -> list[str]:
         function = self.function
         if function.result_local is not None:
             self.local(function.result_local)
@@ -217,7 +222,7 @@ class FunctionEmitter(ExpressionEmitter):
         """A counter that only the loop changes: the increment of the hot path provably does not overflow.
 
         When the next value would pass `stop` the loop ends; only there the step may wrap, and a wrapped
-        counter that is inside the limits again goes on as the language says (LST-29).
+        counter that is inside the limits again continues as the language says (LST-29).
         """
         t = llvm_type(s.type)
         head, body, latch = self.new_label(), self.new_label(), self.new_label()
@@ -277,10 +282,9 @@ class FunctionEmitter(ExpressionEmitter):
             test = self.value(f"icmp {signed}{'le' if s.step >= 0 else 'ge'} {t} {counter}, {stop}")
         else:
             step = self.expr(s.step)
-            up = self.value(f"icmp {signed}le {t} {counter}, {stop}")
-            test = up
-            if s.type.signed:
-                down = self.value(f"icmp sge {t} {counter}, {stop}")
+            test = up = self.value(f"icmp {signed}le {t} {counter}, {stop}")
+            if s.step.type.signed:
+                down = self.value(f"icmp {signed}ge {t} {counter}, {stop}")
                 rising = self.value(f"icmp sge {t} {step}, 0")
                 test = self.value(f"select i1 {rising}, i1 {up}, i1 {down}")
         self.branch(test, body, done)

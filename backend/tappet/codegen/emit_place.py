@@ -103,6 +103,8 @@ class PlaceEmitter(ABC):
         self.promoted: list[ir.Promoted] = []
         self.subprogram = state.debug.subprogram(function)
         self.locations: dict[int, str] = {}
+        self.line = function.line
+        """Line of what is being emitted."""
         self.location = self.location_of(function.line)
         self.scopes = AliasScopes(state.metadata, function.subscripted)
 
@@ -141,6 +143,7 @@ class PlaceEmitter(ABC):
 
     def location_of(self, line: int) -> str:
         """Debug location suffix of a line."""
+        self.line = line
         text = self.locations.get(line)
         if text is None:
             text = f", !dbg !{self.state.debug.location(self.subprogram, line)}"
@@ -150,12 +153,12 @@ class PlaceEmitter(ABC):
     # -- faults --------------------------------------------------------------------------------------
 
     def fault_if(self, condition: str, code: int, args: list[str]) -> None:
-        """Go on unless `condition`; else raise a fault in a cold block. `args` are i64 operands."""
-        label, go_on = self.new_label(), self.new_label()
+        """Continue unless `condition`; else raise a fault in a cold block. `args` are i64 operands."""
+        label, proceed = self.new_label(), self.new_label()
         self.cold.append(Fallback(label, code, args, self.location, tuple(self.promoted)))
-        self.branch(condition, label, go_on, COLD)
-        self.out.append(f"{go_on}:")
-        self.block = go_on
+        self.branch(condition, label, proceed, COLD)
+        self.out.append(f"{proceed}:")
+        self.block = proceed
         self.terminated = False
 
     def write_cold(self) -> None:

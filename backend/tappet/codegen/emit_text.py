@@ -9,7 +9,7 @@ import struct
 from tappet.core import ir
 
 _PLAIN = re.compile(rb"[ !#-\[\]-~]*")
-"""Bytes that stand for themselves in names and constants."""
+"""Bytes that need no escape in names and constants."""
 _TYPES = {"bool": "i1", "f32": "float", "f64": "double", "ptr": "ptr", "void": "void"}
 _TYPES |= {f"{s}{n}": f"i{n}" for s in "iu" for n in (8, 16, 32, 64)}
 

@@ -7,16 +7,17 @@ from collections.abc import Callable, Set
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from msgspec import structs
 
 from tappet.codegen import layout as image_layout
-from tappet.codegen.compile_pool import Compilation, is_warm
-from tappet.codegen.emit_module import EmitOptions, emit_module, same_code
+from tappet.codegen.compile_options import LlvmError, OptimiseOptions
 from tappet.codegen.identity import code_id
+from tappet.codegen.llvm_place import place_in
+from tappet.codegen.object_cache import ObjectCache
 from tappet.codegen.online import code_change, plan_online_change
-from tappet.codegen.online_code import add_online_change
-from tappet.codegen.optimise import ObjectCache, OptimiseOptions
-from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, OnlineChange, TaskSpec
-from tappet.codegen.partition import SMALL, Part, partition, refreshed
+from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, Facts, OnlineChange, TaskSpec
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbols_build import (
     Remanence,
@@ -27,16 +28,20 @@ from tappet.codegen.symbols_build import (
 )
 from tappet.codegen.tasks import event_place
 from tappet.codegen.watched import watched_values
-from tappet.core import passes
-from tappet.core.effects import EffectsTable
-from tappet.core.grounds import Grounds
-from tappet.core.lower import Lowered, Task, lower
+from tappet.core.edits.edit import Edit
+from tappet.core.internal_error import At, InternalError
+from tappet.core.lower import Lowered, lower, task_symbol
 from tappet.core.program import AREA_PREFIX
-from tappet.core.relower import Edit, Relowering
+from tappet.iec.task import Task
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.symbols import GvlSymbol, PouSymbol
+
+if TYPE_CHECKING:
+    from tappet.codegen.partition import Part
+    from tappet.core.edits.dependencies import Dependencies
+    from tappet.core.effects import EffectsTable
 
 Timed = Callable[[str], AbstractContextManager[None]]
 
@@ -85,17 +90,19 @@ class Generated:
     """Names of the objects in the cache."""
     objects: list[bytes]
     package: CodePackage
-    grounds: Grounds | None = None
+    dependencies: Dependencies | None = None
     """Made by `settle`."""
 
-    def settle(self) -> Grounds:
-        """Note what the code rests on, before another analysis changes what declarations stand for."""
+    def settle(self) -> Dependencies:
+        """Note what the code depends on, before another analysis changes what declarations denote."""
+        from tappet.core.edits.dependencies import Dependencies
+
         program = self.lowered.program
         assert program is not None
-        if self.grounds is None:
-            self.grounds = Grounds(program)
-        self.grounds.complete()
-        return self.grounds
+        if self.dependencies is None:
+            self.dependencies = Dependencies(program)
+        self.dependencies.complete()
+        return self.dependencies
 
 
 @dataclass(slots=True)
@@ -120,11 +127,14 @@ class Generator:
         previous = self.previous
         with self.timed("lower"):
             known = previous.type_ids if previous is not None else None
-            lowered = lower(analysis, [Task(s.name, s.programs) for s in specs], known)
+            lowered = lower(analysis, [Task(s.name, programs=s.programs) for s in specs], known)
         with self.timed("layout"):
             laid = self.lay_out(lowered, analysis, specs, self.diagnostics, check_only)
             if laid is None:
                 return None
+        from tappet.codegen.partition import partition
+        from tappet.core import passes
+
         with self.timed("passes"):
             effects = passes.run(lowered.module)
         parts = partition(lowered.module)
@@ -146,7 +156,7 @@ class Generator:
             image_size=laid.placed.size,
             data_objects=laid.placed.objects,
             initial_image=laid.image,
-            tasks=[replace(s, symbol=Task(s.name, ()).symbol) for s in laid.tasks],
+            tasks=[structs.replace(s, symbol=task_symbol(s.name)) for s in laid.tasks],
             symbols=laid.symbols,
             retain=remanence.retain,
             persistent=remanence.persistent,
@@ -154,12 +164,12 @@ class Generator:
             exports=[f.name for f in lowered.module.functions.values() if f.exported],
             type_ids=dict(lowered.type_ids),
             online_change=laid.change,
-            runtime={
-                "byte_addressing": self.options.byte_addressing,
-                "signatures": laid.signatures,
-                "created": self.created(lowered),
-                "watched": watched_values(lowered, laid.placed.objects),
-            },
+            facts=Facts(
+                byte_addressing=self.options.byte_addressing,
+                signatures=laid.signatures,
+                created=self.created(lowered),
+                watched=watched_values(lowered, laid.placed.objects),
+            ),
         )
         package.code_id = code_id(package, self.program)
         return package
@@ -174,17 +184,17 @@ class Generator:
         messages: list[Diagnostic],
         check_only: bool = False,
         known: Laid | None = None,
-        things: Set[int] = frozenset(),
+        entities: Set[int] = frozenset(),
         filled: Set[str] = frozenset(),
     ) -> Laid | None:
         """Places of all data and how to get there from the running application; None after errors.
 
-        `known`: what was laid out before, of which only the types in `things`, given by id(), and the data
+        `known`: what was laid out before, of which only the types in `entities`, given by id(), and the data
         objects with symbols in `filled` are new.
         """
         previous = self.previous
         types = known.types if known is not None else image_layout.Signatures()
-        types.forget(things)
+        types.forget(entities)
         signatures = self.sign(lowered, types, known, filled)
         placed = self.place(lowered, signatures)
         symbols, table = build_symbol_map(
@@ -193,19 +203,21 @@ class Generator:
             self.options.byte_addressing,
             analysis.configured,
             known.table if known is not None else None,
-            things,
+            entities,
             filled,
         )
         events = [event_place(spec, symbols, messages) for spec in specs]
         if check_only or any(d.severity == "error" for d in messages):
             return None
         remanence = remanent_variables(lowered.data, placed.objects, types, table)
+        image = self.image(lowered, placed, table)
         change = None
         if previous is not None:
-            change = plan_online_change(previous, symbols, placed)
+            from tappet.codegen.online_code import add_online_change
+
+            change = plan_online_change(previous, symbols, placed, image)
             add_online_change(lowered, previous, change, placed.objects, symbols)
-            change = replace(change, refused=self.refusal(lowered))
-        image = self.image(lowered, placed, table)
+            change = structs.replace(change, refused=self.refusal(lowered))
         return Laid(placed, signatures, symbols, events, remanence, change, image, types, table)
 
     def sign(
@@ -237,7 +249,7 @@ class Generator:
         ]
         if self.previous is None:
             return image_layout.place(wanted)
-        known = self.previous.runtime.get("signatures", {})
+        known = self.previous.facts.signatures
         return image_layout.place(wanted, self.previous.data_objects, known)
 
     def area_sizes(self, lowered: Lowered) -> dict[str, int]:
@@ -260,7 +272,7 @@ class Generator:
         analysis = lowered.program.analysis
         known = {pou.qualified_name.upper(): pou.instance for pou in analysis.pous}
         types: dict[str, t.Type | None] = {**known, **analysis.types}
-        for name, before in self.previous.runtime.get("created", {}).items():
+        for name, before in self.previous.facts.created.items():
             type_ = types.get(name)
             if type_ is not None and _signature(type_) != before:
                 return f"'{type_}' is created with __NEW and its declaration has changed: download it"
@@ -285,15 +297,19 @@ class Generator:
 
         Raises LoweringError and ImageTooLargeError.
         """
+        from tappet.codegen.emit_module import same_code
+        from tappet.codegen.partition import SMALL, refreshed
+        from tappet.core.edits.relower import Relowering
+
         lowered, program, previous = last.lowered, last.lowered.program, self.previous
         assert program is not None
         if previous is not None and not previous.type_ids.items() <= program.type_ids.items():
             return None
-        grounds = last.settle()
+        dependencies = last.settle()
         data, caught = dict(lowered.module.data), lowered.module.catches_faults
         with self.timed("lower"):
             lowered.module.functions.pop(ONLINE_CHANGE_SYMBOL, None)
-            work = Relowering(lowered, last.effects, grounds)
+            work = Relowering(lowered, last.effects, dependencies)
             if edit.texts and not work.declarations(analysis, edit):
                 return None
             work.bodies(edit.bodies.values())
@@ -305,7 +321,9 @@ class Generator:
         moved = edit.texts or any(data[symbol][0] != size for symbol, size in areas.items())
         if moved or (previous is not None and previous.data_id != laid.placed.data_id):
             with self.timed("layout"):
-                found = self.lay_out(lowered, analysis, last.specs, [], False, laid, edit.things, work.filled)
+                found = self.lay_out(
+                    lowered, analysis, last.specs, [], False, laid, edit.entities, work.filled
+                )
             if found is None:
                 return None
             laid = found
@@ -332,8 +350,10 @@ class Generator:
             return None
         change = code_change(previous, laid.symbols)
         if change.initialise:
+            from tappet.codegen.online_code import add_online_change
+
             add_online_change(lowered, previous, change, laid.placed.objects, laid.symbols)
-        return replace(change, refused=self.refusal(lowered))
+        return structs.replace(change, refused=self.refusal(lowered))
 
     # -- objects -------------------------------------------------------------------------------------
 
@@ -341,6 +361,19 @@ class Generator:
         self, lowered: Lowered, parts: list[Part], dirty: list[int], keys: list[str], objects: list[bytes]
     ) -> tuple[list[str], list[bytes]]:
         """Objects of all parts with their keys; only those of `dirty` are not known."""
+        try:
+            return self._compile(lowered, parts, dirty, keys, objects)
+        except LlvmError as error:
+            at = place_in(error.text, str(error)) or At(self.options.application)
+            reason = " ".join(str(error).splitlines()[:2])
+            raise InternalError("machine code", at, reason) from error
+
+    def _compile(
+        self, lowered: Lowered, parts: list[Part], dirty: list[int], keys: list[str], objects: list[bytes]
+    ) -> tuple[list[str], list[bytes]]:
+        from tappet.codegen.compile_pool import Compilation, is_warm
+        from tappet.codegen.emit_module import EmitOptions, emit_module
+
         options = OptimiseOptions(level=self.options.level)
         emit_options = EmitOptions(triple=options.triple)
         self.cache.hits = len(parts) - len(dirty)

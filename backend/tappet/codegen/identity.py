@@ -9,10 +9,11 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 from tappet import __version__
 from tappet.codegen.package import CodePackage
-from tappet.lang.source import Source
+from tappet.lang.source import Scope, Source
 
 _PARTS = re.compile(
     r"""
@@ -26,12 +27,22 @@ _PARTS = re.compile(
 
 def text_digest(source: Source) -> bytes:
     """Digest of what a text tells the compiler: comments left out, line by line."""
+    return _library_digest(source) if source.scope is Scope.LIBRARY else _digest(source)
+
+
+@lru_cache(maxsize=8192)
+def _library_digest(source: Source) -> bytes:
+    """Libraries are the same for all builds of a process."""
+    return _digest(source)
+
+
+def _digest(source: Source) -> bytes:
     text = _PARTS.sub(lambda m: m["kept"] or "\n" * m[0].count("\n"), source.text)
     if "*)" in text:  # nested comments: count all of it
         text = source.text
     place = (source.uri, source.scope, source.owner, source.name, source.library, source.namespace)
     given = [(item.name, item.value) for item in source.given]  # where the values stand is no difference
-    head = repr((*place, source.uses, source.private, source.body_line, source.language, given))
+    head = repr((*place, source.uses, source.private, source.body_line, source.bodies, given))
     return hashlib.blake2b(f"{head}\n{text}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
 
 

@@ -102,9 +102,9 @@ class Signatures:
         self.known: dict[int, str] = {}
         self.keep: dict[int, t.Type] = {}
 
-    def forget(self, things: Set[int]) -> None:
+    def forget(self, entities: Set[int]) -> None:
         """Types given by id() are laid out differently now."""
-        for key in self.known.keys() & things:
+        for key in self.known.keys() & entities:
             del self.known[key]
             del self.keep[key]
 

@@ -1,10 +1,12 @@
-"""Plans an online change: which bytes move from the running image, which start anew."""
+"""Plans an online change: which bytes move from the running image, which are reinitialised."""
 
 from __future__ import annotations
 
 from tappet.codegen.layout import Layout
+from tappet.codegen.online_constants import ChangedConstants, without
 from tappet.codegen.package import CodePackage, OnlineChange
-from tappet.codegen.symbol_map import MemberInfo, SymbolMap, TypeInfo
+from tappet.codegen.symbol_map import SymbolMap
+from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 
 NO_COPY = "NO_COPY"
 """Flag of a variable that an online change does not copy (LPRG-35)."""
@@ -12,8 +14,10 @@ INIT = "INIT_ON_CHANGE"
 """Flag of a variable that every online change initialises (LPRG-28)."""
 
 
-def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> OnlineChange:
-    """Moves and initialised ranges of the data objects that are new or changed."""
+def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, image: bytes) -> OnlineChange:
+    """Moves and initialised ranges of the data objects that are new or changed, and of changed constants;
+    `image` has the new initial values.
+    """
     plan = _Plan(old.symbols, symbols)
     for symbol, place in placed.objects.items():
         if symbol in placed.kept:
@@ -42,6 +46,9 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout) -> 
     for symbol in old.data_objects:
         if symbol not in placed.objects:
             plan.reasons.append(f"{symbol.rpartition('tappet.data.')[2]} was removed")
+    constants = ChangedConstants(old.symbols, old.initial_image, symbols, image).find()
+    plan.moves = without(plan.moves, constants)
+    plan.fresh += constants
     moves, fresh, reasons = tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)
     return OnlineChange(old.code_id, old.data_id, moves, fresh, reasons, bits=tuple(plan.bits))
 
@@ -73,7 +80,7 @@ def _marked(symbols: SymbolMap, type_: TypeInfo, at: int) -> list[tuple[int, int
     return found
 
 
-def _starts_anew(member: MemberInfo) -> bool:
+def _is_reinitialised(member: MemberInfo) -> bool:
     """Whether a variable is initialised where its object moves (LPRG-28, LPRG-35)."""
     return NO_COPY in member.flags or INIT in member.flags
 
@@ -95,7 +102,7 @@ class _Plan:
         known = {m.name.upper(): m for m in old.members}
         for member in new.members:
             before = known.get(member.name.upper())
-            if before is None or member.absolute or before.absolute or _starts_anew(member):
+            if before is None or member.absolute or before.absolute or _is_reinitialised(member):
                 continue
             if member.bit is not None and before.bit is not None:
                 self.bits.append((old_at + before.offset, before.bit, new_at + member.offset, member.bit))
@@ -171,7 +178,7 @@ class _Plan:
         return all(
             a.name.upper() == b.name.upper()
             and (a.offset, a.bit, a.absolute) == (b.offset, b.bit, b.absolute)
-            and not _starts_anew(b)
+            and not _is_reinitialised(b)
             and self.equal(a.type, b.type)
             for a, b in zip(old.members, new.members, strict=True)
         )

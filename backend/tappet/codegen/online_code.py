@@ -8,13 +8,14 @@ from bisect import bisect_right
 from collections.abc import Iterator, Mapping
 
 from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, DataObject, OnlineChange
-from tappet.codegen.symbol_map import SymbolMap, TypeInfo
+from tappet.codegen.symbol_map import SymbolMap
 from tappet.core import calls, initial, ir, places, templates
 from tappet.core.body import Body
-from tappet.core.life_cycle import contains_instance_with, init_methods, life_cycle_methods
+from tappet.core.life_cycle import holding, init_methods, life_cycle_methods
 from tappet.core.lower import Lowered, complete_bodies, instances
 from tappet.core.program import Program
 from tappet.lang import types as t
+from tappet.lang.parts import Holding
 
 _GONE = 0xFFFF_FFFF
 
@@ -164,7 +165,7 @@ def _initialise_moved(
 
 def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh: Fresh) -> None:
     """FB_Reinit of all instances inside an object that were copied, inner ones first (LDEC-104, LDEC-107)."""
-    if not contains_instance_with(type_, "FB_REINIT", b.program.holding):
+    if not holding(b.program, "FB_REINIT").holds(type_):
         return
     if isinstance(type_, t.Array):
         for element, first in _elements(b, place, at, type_.count, type_.element.size, fresh):
@@ -196,7 +197,7 @@ def _relocate(
     ranges = relocation_ranges(old, change, objects)
     if not ranges:
         return
-    offsets = [o for root in symbols.roots.values() for o in pointers_in(symbols, root.type, root.offset)]
+    offsets = list(pointers(symbols))
     target = program.library_function("RELOCATE")
     if not offsets or target is None:
         return
@@ -244,33 +245,25 @@ def relocation_ranges(
     return [r for r in found if r[0] != r[2]]
 
 
-def pointers_in(symbols: SymbolMap, type_index: int, offset: int) -> Iterator[int]:
-    """Offsets of all pointers, references and interfaces inside a variable."""
-    info = symbols.types[type_index]
-    if not _has_pointers(symbols, info, {}):
+_POINTERS = ("pointer", "reference", "interface")
+
+
+def pointers(symbols: SymbolMap) -> Iterator[int]:
+    """Offsets of all pointers, references and interfaces of an application."""
+    holding = Holding[int](
+        lambda number: symbols.types[number].kind in _POINTERS,
+        lambda number: (part for part, _ in symbols.parts(number)),
+        key=int,
+    )
+    for root in symbols.roots.values():
+        yield from _pointers(symbols, holding, root.type, root.offset)
+
+
+def _pointers(symbols: SymbolMap, holding: Holding[int], number: int, offset: int) -> Iterator[int]:
+    if not holding.holds(number):
         return
-    if info.kind in ("pointer", "reference", "interface"):
+    if symbols.types[number].kind in _POINTERS:
         yield offset
-    elif info.kind == "array" and info.elem is not None:
-        size = symbols.types[info.elem].size
-        for number in range(info.size // size if size else 0):
-            yield from pointers_in(symbols, info.elem, offset + number * size)
     else:
-        for member in info.members:
-            if not member.absolute:
-                yield from pointers_in(symbols, member.type, offset + member.offset)
-
-
-def _has_pointers(symbols: SymbolMap, info: TypeInfo, seen: dict[int, bool]) -> bool:
-    if info.kind in ("pointer", "reference", "interface"):
-        return True
-    if info.kind == "array" and info.elem is not None:
-        return _has_pointers(symbols, symbols.types[info.elem], seen)
-    for member in info.members:
-        known = seen.get(member.type)
-        if known is None:
-            seen[member.type] = False
-            known = seen[member.type] = _has_pointers(symbols, symbols.types[member.type], seen)
-        if known:
-            return True
-    return False
+        for part, at in symbols.parts(number):
+            yield from _pointers(symbols, holding, part, offset + at)

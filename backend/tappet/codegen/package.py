@@ -1,20 +1,24 @@
 """The code package: everything a runtime needs to load one application.
 
-Serialised with msgpack behind a magic and a version; `from_bytes` checks foreign bytes and names
-the faulty field.
+Serialised with msgspec (MessagePack) behind a magic and a version; the types below are the format.
+`from_bytes` checks foreign bytes and names the faulty field.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
-import msgpack
+import msgspec
+from msgspec import Meta, Struct, field
 
 from tappet.codegen.symbol_map import SymbolMap
+from tappet.codegen.symbol_types import Bit
+from tappet.iec.places import SourceMap
+from tappet.iec.task import Watchdog
 
 MAGIC = b"TAPPET-PKG"
-VERSION = 1
+VERSION = 2
 MAX_IMAGE = 1 << 30
 """Largest accepted memory image in bytes; the image has to lie below 2 GiB."""
 MAX_PACKAGE = 1 << 30
@@ -31,63 +35,54 @@ COPY_EXIT_PREFIX = "tappet.copy_exit."
 bInCopyCode TRUE; call it before an online change moves or removes the object (LDEC-105, LDEC-106)."""
 
 
+TaskKind = Literal["cyclic", "freewheeling", "event", "status"]
+Natural = Annotated[int, Meta(ge=0)]
+
+
 class PackageError(ValueError):
     """The bytes are no valid package of this version."""
 
 
-@dataclass(frozen=True, slots=True)
-class WatchdogSpec:
-    """Watchdog of a task: fires when `time_ns` is exceeded `sensitivity` times in a row (TASK rules)."""
-
-    time_ns: int
-    sensitivity: int = 1
-
-
-@dataclass(frozen=True, slots=True)
-class TaskSpec:
-    """One task of the application."""
+class TaskSpec(Struct, frozen=True):
+    """One task of the application as it lies in the package: with the places that the build gives it."""
 
     name: str
-    kind: str = "cyclic"
-    """cyclic, freewheeling, event or status."""
+    kind: TaskKind = "cyclic"
     interval_ns: int = 10_000_000
     """Period of a cyclic task; 0 for the other kinds."""
-    priority: int = 1
+    priority: Annotated[int, Meta(ge=0, le=31)] = 1
     """0 (highest) to 31."""
     event: str | None = None
     """Path of the BOOL variable of an event or status task."""
-    event_offset: int | None = None
+    event_offset: Natural | None = None
     """Place of that variable in the image, filled by the build."""
-    event_bit: int | None = None
+    event_bit: Bit | None = None
     """Bit of it when it is a bit address, else None: the whole byte."""
-    watchdog: WatchdogSpec | None = None
+    watchdog: Watchdog | None = None
     programs: tuple[str, ...] = ()
     """Programs in calling order."""
     symbol: str = ""
     """Exported function that runs one cycle of the programs, filled by the build."""
 
 
-@dataclass(frozen=True, slots=True)
-class DataObject:
+class DataObject(Struct, frozen=True, array_like=True):
     """Place of a data object in the image."""
 
-    offset: int
-    size: int
+    offset: Natural
+    size: Natural
 
 
-@dataclass(frozen=True, slots=True)
-class RemanentRange:
+class RemanentRange(Struct, frozen=True, array_like=True):
     """One RETAIN or PERSISTENT variable; identified by path and type, not by offset."""
 
     path: str
-    offset: int
-    size: int
+    offset: Natural
+    size: Natural
     type_signature: str
     """Changes whenever the layout or the meaning of the bytes changes."""
 
 
-@dataclass(frozen=True, slots=True)
-class OnlineChange:
+class OnlineChange(Struct, frozen=True):
     """How to get from the running application to this one without stopping it.
 
     Order: link, call what `left_behind` names in the old code, put the image of `rearranged` into place, call
@@ -96,20 +91,35 @@ class OnlineChange:
 
     base_code_id: str
     base_data_id: str
-    moves: tuple[tuple[int, int, int], ...] = ()
+    moves: tuple[tuple[Natural, Natural, Natural], ...] = ()
     """(old offset, new offset, size); unchanged data objects stay where they are and are not listed."""
-    initialise: tuple[tuple[int, int], ...] = ()
+    initialise: tuple[tuple[Natural, Natural], ...] = ()
     """(offset, size) in the new image that get their bytes from `initial_image`."""
     reasons: tuple[str, ...] = ()
     """What changed, one line each, for the user."""
     refused: str = ""
     """Why the running application cannot become this one; '' when it can."""
-    bits: tuple[tuple[int, int, int, int], ...] = ()
+    bits: tuple[tuple[Natural, Bit, Natural, Bit], ...] = ()
     """(old offset, old bit, new offset, new bit) of BIT members whose structure changed."""
 
 
-@dataclass(slots=True)
-class CodePackage:
+class Facts(Struct):
+    """What the runtime and the next build want to know besides."""
+
+    byte_addressing: bool = False
+    signatures: dict[str, str] = field(default_factory=dict)
+    """Layout of each data object: an equal one may keep its place."""
+    created: dict[str, str] = field(default_factory=dict)
+    """Layout of what __NEW makes."""
+    watched: list[tuple[Natural, Natural, Natural]] = field(default_factory=list)
+    """Offset, size and asking byte of values that are monitored by a call."""
+    update_io_in_stop: bool = True
+    """PLC-02."""
+    outputs_in_stop: Literal["keep", "default"] = "keep"
+    """PLC-03."""
+
+
+class CodePackage(Struct, repr_omit_defaults=True):
     """A linked-ready application."""
 
     application: str
@@ -118,16 +128,16 @@ class CodePackage:
     data_id: str
     """Hash of the layout: equal means the same data image."""
     triple: str
-    objects: list[bytes] = field(repr=False)
+    objects: list[bytes]
     """ELF relocatable objects importing `tappet.data.*`, `tappet.area.*`, `tappet_fault`, `tappet_now_ns`,
     libc and libm."""
-    image_size: int
+    image_size: Annotated[int, Meta(ge=0, le=MAX_IMAGE)]
     data_objects: dict[str, DataObject]
     """By external symbol (`tappet.data.PLC_PRG`, `tappet.area.I`)."""
-    initial_image: bytes = field(repr=False)
+    initial_image: bytes
     """Constant initial values of the whole image; as long as `image_size`."""
     tasks: list[TaskSpec]
-    symbols: SymbolMap = field(repr=False)
+    symbols: SymbolMap
     retain: list[RemanentRange] = field(default_factory=list)
     persistent: list[RemanentRange] = field(default_factory=list)
     exports: list[str] = field(default_factory=list)
@@ -135,135 +145,80 @@ class CodePackage:
     type_ids: dict[str, int] = field(default_factory=dict)
     """Number of each function block type as stored in its instances; kept over online changes."""
     online_change: OnlineChange | None = None
-    no_init: list[tuple[int, int]] = field(default_factory=list)
+    no_init: list[tuple[Natural, Natural]] = field(default_factory=list)
     """(offset, size) of variables that keep their value at every reset (attribute no_init)."""
-    runtime: dict[str, Any] = field(default_factory=dict)
-    """Further facts for the runtime (sizes for reports, addressing mode)."""
+    facts: Facts = field(default_factory=Facts)
+    source_maps: dict[str, SourceMap] = field(default_factory=dict)
+    """What the lines of the texts show, by uri: from the line of a fault to an object or a drawn element."""
 
     def to_bytes(self) -> bytes:
         """Serialise; the inverse of `from_bytes`."""
-        body = {
-            "application": self.application,
-            "code_id": self.code_id,
-            "data_id": self.data_id,
-            "triple": self.triple,
-            "objects": self.objects,
-            "image_size": self.image_size,
-            "data_objects": {name: [d.offset, d.size] for name, d in self.data_objects.items()},
-            "initial_image": _pack_image(self.initial_image),
-            "tasks": [_task_to_list(t) for t in self.tasks],
-            "symbols": self.symbols.to_table(),
-            "retain": [[r.path, r.offset, r.size, r.type_signature] for r in self.retain],
-            "persistent": [[r.path, r.offset, r.size, r.type_signature] for r in self.persistent],
-            "exports": self.exports,
-            "type_ids": self.type_ids,
-            "online_change": _online_to_list(self.online_change),
-            "no_init": [list(r) for r in self.no_init],
-            "runtime": self.runtime,
-        }
-        packed: bytes = msgpack.packb(body, use_bin_type=True)
-        return MAGIC + bytes([VERSION]) + packed
+        packed = msgspec.structs.replace(self, initial_image=_pack_image(self.initial_image))
+        return MAGIC + bytes([VERSION]) + msgspec.msgpack.encode(packed)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> CodePackage:
         """Read a package; raises PackageError naming the field that is wrong."""
-        body = _unpack(data)
-        image_size = _typed(body, "image_size", int)
-        if not 0 <= image_size <= MAX_IMAGE:
-            raise PackageError(f"image_size {image_size} is outside 0..{MAX_IMAGE}")
-        objects = _typed(body, "objects", list)
-        if not all(isinstance(o, bytes) and o[:4] == b"\x7fELF" for o in objects):
-            raise PackageError("objects: every entry must be an ELF object")
-        try:
-            package = cls(
-                application=_typed(body, "application", str),
-                code_id=_typed(body, "code_id", str),
-                data_id=_typed(body, "data_id", str),
-                triple=_typed(body, "triple", str),
-                objects=objects,
-                image_size=image_size,
-                data_objects={
-                    str(name): DataObject(int(place[0]), int(place[1]))
-                    for name, place in _typed(body, "data_objects", dict).items()
-                },
-                initial_image=_unpack_image(_typed(body, "initial_image", list), image_size),
-                tasks=[_task_from_list(t) for t in _typed(body, "tasks", list)],
-                symbols=SymbolMap.from_table(_typed(body, "symbols", dict)),
-                retain=[_range_from_list(r) for r in _typed(body, "retain", list)],
-                persistent=[_range_from_list(r) for r in _typed(body, "persistent", list)],
-                exports=[str(e) for e in _typed(body, "exports", list)],
-                type_ids={str(k): int(v) for k, v in _typed(body, "type_ids", dict).items()},
-                online_change=_online_from_list(body.get("online_change")),
-                no_init=[(int(r[0]), int(r[1])) for r in _typed(body, "no_init", list)],
-                runtime=_typed(body, "runtime", dict),
+        head = len(MAGIC) + 1
+        if len(data) > MAX_PACKAGE:
+            raise PackageError(f"package of {len(data)} bytes is larger than {MAX_PACKAGE}")
+        if data[: len(MAGIC)] != MAGIC or len(data) < head:
+            raise PackageError("not a Tappet code package")
+        if data[len(MAGIC)] != VERSION:
+            raise PackageError(
+                f"package version {data[len(MAGIC)]} is not {VERSION}; rebuild the application"
             )
-        except PackageError:
-            raise
-        except (TypeError, ValueError, OverflowError, IndexError, KeyError, AttributeError) as error:
-            raise PackageError(f"malformed package: {error}") from error
-        _check_ranges(package)
+        try:
+            package = _DECODER.decode(memoryview(data)[head:])
+            package.initial_image = _unpack_image(package.initial_image, package.image_size)
+        except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
+            raise PackageError(f"damaged package: {error}") from error
+        _check(package)
         return package
 
 
-def _typed(body: dict[str, Any], key: str, kind: type) -> Any:
-    if key not in body:
-        raise PackageError(f"field {key} is missing")
-    value = body[key]
-    if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-        raise PackageError(f"field {key} must be {kind.__name__}, not {type(value).__name__}")
-    return value
+_DECODER = msgspec.msgpack.Decoder(CodePackage)
+_IMAGE = msgspec.msgpack.Decoder(list[tuple[Natural, bytes]])
 
 
-def _unpack(data: bytes) -> dict[str, Any]:
-    head = len(MAGIC) + 1
-    if len(data) > MAX_PACKAGE:
-        raise PackageError(f"package of {len(data)} bytes is larger than {MAX_PACKAGE}")
-    if data[: len(MAGIC)] != MAGIC or len(data) < head:
-        raise PackageError("not a Tappet code package")
-    if data[len(MAGIC)] != VERSION:
-        raise PackageError(f"package version {data[len(MAGIC)]} is not {VERSION}; rebuild the application")
-    try:
-        body = msgpack.unpackb(data[head:], raw=False)
-    except (ValueError, TypeError, msgpack.UnpackException) as error:
-        raise PackageError(f"damaged package: {error}") from error
-    if not isinstance(body, dict):
-        raise PackageError("damaged package: no map at top level")
-    return body
+def _check(package: CodePackage) -> None:
+    """What the types do not say: everything lies inside the image. Raises PackageError."""
+    if not all(code[:4] == b"\x7fELF" for code in package.objects):
+        raise PackageError("objects: every entry must be an ELF object")
+    for what, offset, size in _places(package):
+        if offset + size > package.image_size:
+            raise PackageError(
+                f"{what} at {offset}, {size} bytes, lies outside the image of {package.image_size} bytes"
+            )
 
 
-def _check_ranges(package: CodePackage) -> None:
-    size = package.image_size
+def _places(package: CodePackage) -> Iterator[tuple[str, int, int]]:
+    """What it is, offset and size of everything that has to lie inside the image."""
     for name, place in package.data_objects.items():
-        if place.offset < 0 or place.size < 0 or place.offset + place.size > size:
-            raise PackageError(f"data object {name} lies outside the image of {size} bytes")
-    for kind in (package.retain, package.persistent):
-        for r in kind:
-            if r.offset < 0 or r.size < 0 or r.offset + r.size > size:
-                raise PackageError(f"remanent variable {r.path} lies outside the image of {size} bytes")
-    for offset, length in package.no_init:
-        if offset < 0 or length < 0 or offset + length > size:
-            raise PackageError(f"no_init range {offset}+{length} lies outside the image of {size} bytes")
+        yield f"data object {name}", place.offset, place.size
+    for remanent in (*package.retain, *package.persistent):
+        yield f"remanent variable {remanent.path}", remanent.offset, remanent.size
+    for offset, size in package.no_init:
+        yield "no_init: a range", offset, size
     for task in package.tasks:
-        if not 0 <= task.priority <= 31:
-            raise PackageError(f"task {task.name}: priority {task.priority} is outside 0..31")
-        if task.event_offset is not None and not 0 <= task.event_offset < size:
-            raise PackageError(f"task {task.name}: event variable lies outside the image")
+        if task.event_offset is not None:
+            yield f"task {task.name}: the event variable", task.event_offset, 1
+    for offset, size, asking in package.facts.watched:
+        yield "a watched value", offset, size
+        yield "the asking byte of a watched value", asking, 1
     change = package.online_change
     if change is not None:
-        for _, new, length in change.moves:
-            if new < 0 or length < 0 or new + length > size:
-                raise PackageError(f"move to {new}+{length} lies outside the image of {size} bytes")
-        for _, old_bit, offset, new_bit in change.bits:
-            if not (0 <= offset < size and 0 <= old_bit < 8 and 0 <= new_bit < 8):
-                raise PackageError(f"bit {offset}.{new_bit} lies outside the image of {size} bytes")
-        for offset, length in change.initialise:
-            if offset < 0 or length < 0 or offset + length > size:
-                raise PackageError(f"initialise {offset}+{length} lies outside the image of {size} bytes")
+        for _, offset, size in change.moves:
+            yield "online change: what moves", offset, size
+        for offset, size in change.initialise:
+            yield "online change: what is initialised", offset, size
+        for _, _, offset, _ in change.bits:
+            yield "online change: a bit", offset, 1
 
 
-def _pack_image(image: bytes) -> list[Any]:
-    """Image as [offset, bytes, offset, bytes ...] without long runs of zeros."""
-    parts: list[Any] = []
+def _pack_image(image: bytes) -> bytes:
+    """Image as (offset, bytes) pairs without long runs of zeros."""
+    parts: list[tuple[int, bytes]] = []
     page = 256
     run_start: int | None = None
     for at in range(0, len(image), page):
@@ -271,79 +226,20 @@ def _pack_image(image: bytes) -> list[Any]:
         if used and run_start is None:
             run_start = at
         elif not used and run_start is not None:
-            parts += [run_start, image[run_start:at]]
+            parts.append((run_start, image[run_start:at]))
             run_start = None
     if run_start is not None:
-        parts += [run_start, image[run_start:]]
-    return parts
+        parts.append((run_start, image[run_start:]))
+    return msgspec.msgpack.encode(parts)
 
 
-def _unpack_image(parts: list[Any], size: int) -> bytes:
+def _unpack_image(packed: bytes, size: int) -> bytes:
     image = bytearray(size)
-    for at, chunk in zip(parts[::2], parts[1::2], strict=True):
-        if not isinstance(at, int) or not isinstance(chunk, bytes) or at < 0 or at + len(chunk) > size:
+    for at, chunk in _IMAGE.decode(packed):
+        if at + len(chunk) > size:
             raise PackageError(f"initial_image does not fit the image of {size} bytes")
         image[at : at + len(chunk)] = chunk
     return bytes(image)
-
-
-def _task_to_list(task: TaskSpec) -> list[Any]:
-    watchdog = [task.watchdog.time_ns, task.watchdog.sensitivity] if task.watchdog else None
-    return [
-        task.name, task.kind, task.interval_ns, task.priority, task.event, task.event_offset, task.event_bit,
-        watchdog, list(task.programs), task.symbol,
-    ]  # fmt: skip
-
-
-def _task_from_list(row: list[Any]) -> TaskSpec:
-    name, kind, interval, priority, event, offset, bit, watchdog, programs, symbol = row
-    if kind not in ("cyclic", "freewheeling", "event", "status"):
-        raise PackageError(f"task {name}: unknown kind {kind!r}")
-    return TaskSpec(
-        str(name), kind, int(interval), int(priority),
-        None if event is None else str(event), _optional_int(offset), _optional_int(bit),
-        WatchdogSpec(int(watchdog[0]), int(watchdog[1])) if watchdog else None,
-        tuple(str(p) for p in programs), str(symbol),
-    )  # fmt: skip
-
-
-def _optional_int(value: Any) -> int | None:
-    return None if value is None else int(value)
-
-
-def _range_from_list(row: list[Any]) -> RemanentRange:
-    path, offset, size, signature = row
-    return RemanentRange(str(path), int(offset), int(size), str(signature))
-
-
-def _online_to_list(change: OnlineChange | None) -> list[Any] | None:
-    if change is None:
-        return None
-    return [
-        change.base_code_id,
-        change.base_data_id,
-        [list(m) for m in change.moves],
-        [list(r) for r in change.initialise],
-        list(change.reasons),
-        change.refused,
-        [list(b) for b in change.bits],
-    ]
-
-
-def _online_from_list(row: list[Any] | None) -> OnlineChange | None:
-    if row is None:
-        return None
-    base_code, base_data, moves, initialise, reasons, *more = row
-    refused, bits = more if len(more) == 2 else ("".join(str(r) for r in more), ())
-    return OnlineChange(
-        str(base_code),
-        str(base_data),
-        tuple((int(a), int(b), int(c)) for a, b, c in moves),
-        tuple((int(a), int(b)) for a, b in initialise),
-        tuple(str(r) for r in reasons),
-        str(refused),
-        tuple((int(a), int(b), int(c), int(d)) for a, b, c, d in bits),
-    )
 
 
 def rearranged(package: CodePackage, before: bytes) -> bytearray:

@@ -29,7 +29,7 @@ def exported(symbols: SymbolMap) -> dict[str, str]:
     found: dict[str, str] = {}
     for root in symbols.roots.values():
         for member in symbols.types[root.type].members:
-            for flag in member.flags.split():
+            for flag in member.flags:
                 right = flag.removeprefix(FLAG).lower()
                 if flag.startswith(FLAG) and right != "none":
                     found[f"{root.name}.{member.name}"] = right

@@ -6,95 +6,19 @@ Plain data without the compiler: a runtime or a browser-side tool needs nothing 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterator
+
+from msgspec import Struct, field
 
 from tappet.codegen import values
+from tappet.codegen.symbol_types import Bit, MemberInfo, TypeIndex, TypeInfo
 
 
 class SymbolError(ValueError):
     """The path names nothing in this application; the message says which part."""
 
 
-@dataclass(frozen=True, slots=True)
-class MemberInfo:
-    """One member of a structure, function block, program or variable list."""
-
-    name: str
-    type: int
-    """Index into `SymbolMap.types`."""
-    offset: int
-    section: str = "VAR"
-    """VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT (a pointer) ..."""
-    flags: str = ""
-    """Space separated of CONSTANT, RETAIN, PERSISTENT, HIDDEN, DISPLAY_HEX (`display`),
-    SYMBOL_READ (`symbol_export`)."""
-    bit: int | None = None
-    """Bit of a BIT member or of a variable at a bit address."""
-    absolute: bool = False
-    """`offset` counts from the start of the image (variables at addresses, VAR_STAT)."""
-
-
-@dataclass(frozen=True, slots=True)
-class TypeInfo:
-    """One type; `elem` and `base` are indices into `SymbolMap.types`."""
-
-    name: str
-    kind: str
-    """bool bits int uint real time ltime date tod dt ldate ltod ldt string wstring enum array struct union
-    fb program gvl pointer reference interface."""
-    size: int
-    elem: int | None = None
-    """Array element, or target of a pointer or reference."""
-    bounds: tuple[tuple[int, int], ...] = ()
-    members: tuple[MemberInfo, ...] = ()
-    values: tuple[tuple[str, int], ...] = ()
-    """Names and numbers of an enumeration."""
-    base: str = ""
-    """Kind of the integer below an enumeration (`int` or `uint` or `bits`)."""
-    length: int = 0
-    """Characters of a string."""
-    range: tuple[int, int] | None = None
-    """Bounds of a subrange."""
-
-    @property
-    def leaf(self) -> bool:
-        """Whether a value of this type has no parts to open."""
-        return self.kind not in ("array", "struct", "union", "fb", "program", "gvl")
-
-    def to_row(self) -> list[Any]:
-        """Compact JSON-able form."""
-        return [
-            self.name, self.kind, self.size, self.elem, [list(b) for b in self.bounds],
-            [[m.name, m.type, m.offset, m.section, m.flags, m.bit, m.absolute] for m in self.members],
-            [list(v) for v in self.values], self.base, self.length, list(self.range) if self.range else None,
-        ]  # fmt: skip
-
-    @classmethod
-    def from_row(cls, row: list[Any]) -> TypeInfo:
-        """Inverse of `to_row`; raises ValueError on a malformed row."""
-        name, kind, size, elem, bounds, members, enum_values, base, length, limits = row
-        if not isinstance(size, int) or size < 0:
-            raise ValueError(f"type {name}: size {size!r}")
-        return cls(
-            name=str(name),
-            kind=str(kind),
-            size=size,
-            elem=elem,
-            bounds=tuple((int(low), int(high)) for low, high in bounds),
-            members=tuple(
-                MemberInfo(str(n), int(t), int(at), str(section), str(flags), bit, bool(absolute))
-                for n, t, at, section, flags, bit, absolute in members
-            ),
-            values=tuple((str(n), int(v)) for n, v in enum_values),
-            base=str(base),
-            length=int(length),
-            range=(int(limits[0]), int(limits[1])) if limits else None,
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class VarRef:
+class VarRef(Struct, frozen=True):
     """Where a variable lies in the image and what it is."""
 
     path: str
@@ -105,12 +29,11 @@ class VarRef:
     size: int
     """Bytes to read; 1 for a bit."""
     type: TypeInfo
-    flags: str = ""
+    flags: tuple[str, ...] = ()
     section: str = "VAR"
 
 
-@dataclass(frozen=True, slots=True)
-class Child:
+class Child(Struct, frozen=True):
     """One entry below a path, for browsing."""
 
     name: str
@@ -119,18 +42,17 @@ class Child:
     kind: str
     leaf: bool
     section: str = "VAR"
-    flags: str = ""
+    flags: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Root:
+class Root(Struct, frozen=True, array_like=True):
     """A program or variable list."""
 
     name: str
     kind: str
     """program or gvl."""
     offset: int
-    type: int
+    type: TypeIndex
 
 
 _TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_]\w*)|(?P<number>-?\d+)|(?P<mark>[.\[\],]))")
@@ -159,8 +81,7 @@ def address_place(size: int, number: int, bit: int | None, byte_addressing: bool
     return (number if byte_addressing else number * size), None
 
 
-@dataclass(slots=True)
-class SymbolMap:
+class SymbolMap(Struct):
     """All variables of an application."""
 
     types: list[TypeInfo] = field(default_factory=list)
@@ -171,8 +92,16 @@ class SymbolMap:
     areas: dict[str, tuple[int, int]] = field(default_factory=dict)
     """I, Q, M to (offset, size) in the image."""
     byte_addressing: bool = False
-    mapped: dict[str, tuple[str, int, int | None]] = field(default_factory=dict)
+    mapped: dict[str, tuple[str, int, Bit | None]] = field(default_factory=dict)
     """Upper-case path of a variable with an incomplete address to area, byte and bit (LDEC-93)."""
+
+    def __post_init__(self) -> None:
+        """Foreign tables are checked here: ValueError when a type is referred to that is not there."""
+        used = [m.type for t in self.types for m in t.members]
+        used += [t.elem for t in self.types if t.elem is not None]
+        used += [root.type for root in self.roots.values()]
+        if max(used, default=-1) >= len(self.types):
+            raise ValueError(f"type index {max(used)} is out of range: there are {len(self.types)} types")
 
     # -- look-up -------------------------------------------------------------------------------------
 
@@ -180,7 +109,7 @@ class SymbolMap:
         """The variable at `path` (case-insensitive); raises SymbolError naming the part that is wrong.
 
         Understands `PRG.a.b[1, 2].c`, unqualified global variables, `.3` bits and %IX / %QW / %MD addresses.
-        Pointers and references are values here: their targets are not static. A variable `AT %I*` stands for
+        Pointers and references are values here: their targets are not static. A variable `AT %I*` denotes
         its place in the input area, from where every cycle copies it.
         """
         text = path.strip()
@@ -206,6 +135,18 @@ class SymbolMap:
             return self._elements(ref)
         return self._members(ref.path, ref.type)
 
+    def parts(self, number: int) -> Iterator[tuple[int, int]]:
+        """Types and offsets of the members or elements that lie inside a variable of a type."""
+        info = self.types[number]
+        if info.kind == "array" and info.elem is not None:
+            size = self.types[info.elem].size
+            for at in range(0, info.size if size else 0, size or 1):
+                yield info.elem, at
+        elif not info.leaf:
+            for member in info.members:
+                if not member.absolute:
+                    yield member.type, member.offset
+
     def decode(self, ref: VarRef, data: bytes) -> values.Value:
         """Python value of the raw bytes of `ref` (see `values.decode`)."""
         return values.decode(self.types, ref.type, data, ref.bit)
@@ -217,42 +158,6 @@ class SymbolMap:
     def format_literal(self, ref: VarRef, value: values.Value) -> str:
         """`value` as IEC literal: TRUE, T#1s500ms, 'abc', an enumeration name ..."""
         return values.format_literal(self.types, ref.type, value)
-
-    # -- table ---------------------------------------------------------------------------------------
-
-    def to_table(self) -> dict[str, Any]:
-        """Compact JSON-able form."""
-        return {
-            "types": [t.to_row() for t in self.types],
-            "roots": [[r.name, r.kind, r.offset, r.type] for r in self.roots.values()],
-            "globals": self.globals,
-            "areas": {k: list(v) for k, v in self.areas.items()},
-            "byte_addressing": self.byte_addressing,
-            "mapped": {k: list(v) for k, v in self.mapped.items()},
-        }
-
-    @classmethod
-    def from_table(cls, table: dict[str, Any]) -> SymbolMap:
-        """Inverse of `to_table`; raises ValueError on malformed tables."""
-        try:
-            types = [TypeInfo.from_row(row) for row in table["types"]]
-            roots = {str(n).upper(): Root(str(n), str(k), int(o), int(t)) for n, k, o, t in table["roots"]}
-            result = cls(
-                types,
-                roots,
-                {str(k): str(v) for k, v in table["globals"].items()},
-                {str(k): (int(v[0]), int(v[1])) for k, v in table["areas"].items()},
-                bool(table["byte_addressing"]),
-                {str(k): _mapped_place(v) for k, v in table.get("mapped", {}).items()},
-            )
-        except (KeyError, TypeError, IndexError, AttributeError) as error:
-            raise ValueError(f"malformed symbol table: {error!r}") from error
-        count = len(types)
-        used = [m.type for t in types for m in t.members] + [t.elem for t in types if t.elem is not None]
-        used += [r.type for r in roots.values()]
-        if any(not isinstance(u, int) or not 0 <= u < count for u in used):
-            raise ValueError("malformed symbol table: type index out of range")
-        return result
 
     # -- details -------------------------------------------------------------------------------------
 
@@ -285,7 +190,7 @@ class SymbolMap:
 
     def _child(self, name: str, path: str, type_index: int, member: MemberInfo | None = None) -> Child:
         info = self.types[type_index]
-        section, flags = (member.section, member.flags) if member else ("VAR", "")
+        section, flags = (member.section, member.flags) if member else ("VAR", ())
         return Child(name, path, info.name, info.kind, info.leaf, section, flags)
 
     def _elements(self, ref: VarRef) -> list[Child]:
@@ -296,11 +201,6 @@ class SymbolMap:
             indices = [(*done, i) for done in indices for i in range(low, high + 1)][:10_000]
         texts = (", ".join(map(str, index)) for index in indices)
         return [self._child(f"[{t}]", f"{ref.path}[{t}]", ref.type.elem) for t in texts]
-
-
-def _mapped_place(row: list[Any]) -> tuple[str, int, int | None]:
-    area, offset, bit = row
-    return str(area), int(offset), None if bit is None else int(bit)
 
 
 def _tokenize(text: str) -> list[str]:
@@ -344,7 +244,7 @@ class _Walk:
                 self.index()
             else:
                 raise SymbolError(f"'{self.text}': expected '.' or '[' after '{self.path}'")
-        flags = self.member.flags if self.member else ""
+        flags = self.member.flags if self.member else ()
         section = self.member.section if self.member else "VAR"
         size = 1 if self.bit is not None else self.info.size
         return VarRef(self.path, self.offset, self.bit, size, self.info, flags, section)

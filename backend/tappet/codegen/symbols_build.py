@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+from msgspec.structs import replace
 
 from tappet.codegen.display import FLAG as DISPLAY_FLAG
 from tappet.codegen.display import MODES
@@ -12,15 +14,16 @@ from tappet.codegen.online import INIT, NO_COPY
 from tappet.codegen.package import DataObject, RemanentRange
 from tappet.codegen.symbol_export import FLAG as SYMBOL_FLAG
 from tappet.codegen.symbol_export import right_of
-from tappet.codegen.symbol_map import MemberInfo, Root, SymbolMap, TypeInfo
+from tappet.codegen.symbol_map import Root, SymbolMap
+from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 from tappet.core.lower import DataObject as ProgramData
 from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
 from tappet.core.templates import VFTABLE
 from tappet.core.watched_properties import is_watchable
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.monitored import CALLED, SHOWN
 from tappet.lang.analysis.result import ConfiguredAddress
+from tappet.lang.parts import Part, stored, types_holding, variables_of, walk
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Kind
 
@@ -28,6 +31,7 @@ _KINDS = {
     "BOOL": "bool", "TIME": "time", "LTIME": "ltime", "DATE": "date", "TIME_OF_DAY": "tod",
     "DATE_AND_TIME": "dt", "LDATE": "ldate", "LTIME_OF_DAY": "ltod", "LDATE_AND_TIME": "ldt",
 }  # fmt: skip
+REMANENT = frozenset({"RETAIN", "PERSISTENT"})
 _FAMILIES = {Kind.BITS: "bits", Kind.SIGNED: "int", Kind.UNSIGNED: "uint", Kind.REAL: "real"}
 
 
@@ -50,9 +54,9 @@ class TypeTable:
         """What the entries of `types` describe, those of variable lists apart."""
         self.lists: dict[str, int] = {}
         """Entries of variable lists, by the name of the root."""
-        self.remanent: dict[int, bool] = {}
-        self.with_path: dict[int, bool] = {}
-        """Whether types, by id(), hold remanent variables, or texts that get the path of their instance."""
+        self.remanent = types_holding(_holds_remanent)
+        self.with_path = types_holding(_holds_path)
+        """Which types hold remanent variables, or texts that get the path of their instance."""
         self.limit = 0
 
     @property
@@ -60,16 +64,15 @@ class TypeTable:
         """Whether too many entries may be out of use."""
         return len(self.types) > self.limit
 
-    def forget(self, things: Set[int]) -> None:
+    def forget(self, entities: Set[int]) -> None:
         """Types given by id() look different now."""
-        for known in (self.remanent, self.with_path):
-            for key in known.keys() & things:
-                del known[key]
+        self.remanent.forget(entities)
+        self.with_path.forget(entities)
         for number, type_ in list(self.described.items()):
             inner = type_
             while isinstance(inner, t.Array):
                 inner = inner.element
-            if id(inner) in things:
+            if id(inner) in entities:
                 self.types[number] = self._describe(type_)
 
     def number(self, type_: t.Type) -> int:
@@ -142,12 +145,13 @@ class TypeTable:
         if out_of_sight or m.name.upper() == VFTABLE:
             flags.add("HIDDEN")
         name = m.name
-        if m.decl is not None and m.decl.attributes:
-            name = attribute_value(m.decl.attributes, SHOWN) or name
-            if attribute_value(m.decl.attributes, CALLED) is not None and not is_watchable(m.type):
-                name = m.name
+        monitored = m.decl.monitored if m.decl is not None else None
+        if monitored is not None:
+            if monitored.request is None or is_watchable(m.type):
+                name = monitored.property_name
+            else:
                 flags.add("HIDDEN")
-        return MemberInfo(name, self.number(type_), m.offset, m.section, " ".join(sorted(flags)), m.bit)
+        return MemberInfo(name, self.number(type_), m.offset, m.section, tuple(sorted(flags)), m.bit)
 
 
 def hidden(decl: ast.VarDecl | None) -> bool:
@@ -188,8 +192,8 @@ def _exported(owner: GvlSymbol | PouSymbol, members: tuple[MemberInfo, ...]) -> 
         return members
     return tuple(
         m
-        if SYMBOL_FLAG in m.flags
-        else replace(m, flags=" ".join(sorted([*m.flags.split(), f"{SYMBOL_FLAG}{right.upper()}"])))
+        if any(flag.startswith(SYMBOL_FLAG) for flag in m.flags)
+        else replace(m, flags=tuple(sorted([*m.flags, f"{SYMBOL_FLAG}{right.upper()}"])))
         for m in members
     )
 
@@ -200,12 +204,12 @@ def build_symbol_map(
     byte_addressing: bool,
     configured: Iterable[ConfiguredAddress] = (),
     known: TypeTable | None = None,
-    things: Set[int] = frozenset(),
+    entities: Set[int] = frozenset(),
     filled: Set[str] = frozenset(),
 ) -> tuple[SymbolMap, TypeTable]:
     """Symbol map of placed data objects, and of the variables that are copied from and to an address.
 
-    `known`: the table of the build before, of which only the types in `things`, given by id(), and the data
+    `known`: the table of the build before, of which only the types in `entities`, given by id(), and the data
     objects with symbols in `filled` look different now.
     """
     areas = {
@@ -216,7 +220,7 @@ def build_symbol_map(
     statics = _statics(data, objects)
     if known is not None and (known.areas, known.statics) == (areas, statics) and not known.is_full:
         table = known
-        table.forget(things)
+        table.forget(entities)
     else:
         known, table = None, TypeTable(areas, statics)
     symbols = SymbolMap([], byte_addressing=byte_addressing)
@@ -283,10 +287,9 @@ _NO_TYPE = TypeInfo("", "gvl", 0)
 def _list_members(table: TypeTable, gvl: GvlSymbol) -> Iterator[MemberInfo]:
     for member in gvl.members.values():
         if _home(member) is Storage.GLOBAL and member.type is not None:
-            flags = set(member.flags) | marks(member.decl)
-            text = " ".join(sorted(flags))
+            flags = tuple(sorted(member.flags | marks(member.decl)))
             number = table.number(member.type)
-            yield MemberInfo(member.name, number, member.offset, member.section, text, member.bit)
+            yield MemberInfo(member.name, number, member.offset, member.section, flags, member.bit)
 
 
 def _home(variable: VarSymbol) -> Storage:
@@ -306,7 +309,7 @@ def shared(table: TypeTable, owner: GvlSymbol | PouSymbol) -> Iterator[MemberInf
         elif isinstance(owner, PouSymbol):
             offset = table.statics.get(id(variable))
         if variable.type is not None and offset is not None:
-            flags = " ".join(sorted(set(variable.flags) | marks(variable.decl)))
+            flags = tuple(sorted(variable.flags | marks(variable.decl)))
             number = table.number(variable.type)
             yield MemberInfo(variable.name, number, offset, variable.section, flags, variable.bit, True)
 
@@ -328,118 +331,54 @@ def remanent_variables(
 ) -> Remanence:
     """RETAIN and PERSISTENT variables over nested instances, by path (LDEC-70..LDEC-76)."""
     found = Remanence([], [], [])
-    walk = _RemanentWalk(found, signatures, table.remanent)
+
+    def visit(part: Part) -> bool:
+        if part.decl is not None and _not_initialised(part.decl):
+            found.no_init.append((part.offset, part.type.size))
+        if part.flags & REMANENT:
+            target = found.persistent if "PERSISTENT" in part.flags else found.retain
+            size, signature = part.type.size, signatures.of(part.type)
+            target.append(RemanentRange(part.path, part.offset, size, signature))
+            return False
+        return table.remanent.holds(part.type)
+
     for item in data:
-        base = objects[item.symbol].offset
-        if isinstance(item.owner, GvlSymbol):
-            for variable in item.owner.members.values():
-                if variable.storage is Storage.GLOBAL and variable.type is not None:
-                    path = f"{item.owner.name}.{variable.name}"
-                    offset = base + variable.offset
-                    walk.variable(path, offset, variable.type, variable.flags, variable.decl)
-        elif item.owner.instance is not None:
-            walk.members(item.owner.name, base, item.owner.instance)
+        for part in variables_of(item.owner, item.owner.name, objects[item.symbol].offset):
+            walk(part, visit)
     return found
 
 
-class _RemanentWalk:
-    """Descends into instances that are not remanent as a whole."""
-
-    def __init__(self, found: Remanence, signatures: Signatures, interesting: dict[int, bool]) -> None:
-        self.found = found
-        self.signatures = signatures
-        self.interesting = interesting
-
-    def members(self, path: str, offset: int, type_: t.FunctionBlock | t.Struct) -> None:
-        for member in type_.members.values():
-            if member.section == "VAR_IN_OUT":
-                continue
-            self.variable(
-                f"{path}.{member.name}", offset + member.offset, member.type, member.flags, member.decl
-            )
-
-    def variable(
-        self, path: str, offset: int, type_: t.Type, flags: frozenset[str], decl: ast.VarDecl | None
-    ) -> None:
-        if decl is not None and _not_initialised(decl):
-            self.found.no_init.append((offset, type_.size))
-        if "PERSISTENT" in flags or "RETAIN" in flags:
-            target = self.found.persistent if "PERSISTENT" in flags else self.found.retain
-            target.append(RemanentRange(path, offset, type_.size, self.signatures.of(type_)))
-            return
-        if not self.has_remanent(type_):
-            return
-        if isinstance(type_, t.FunctionBlock | t.Struct):
-            self.members(path, offset, type_)
-        elif isinstance(type_, t.Array):
-            for number, index in enumerate(_indices(type_)):
-                self.variable(
-                    f"{path}[{index}]", offset + number * type_.element.size, type_.element, frozenset(), None
-                )
-
-    def has_remanent(self, type_: t.Type) -> bool:
-        """Whether a type contains remanent members."""
-        if isinstance(type_, t.Array):
-            return self.has_remanent(type_.element)
-        if not isinstance(type_, t.FunctionBlock | t.Struct):
-            return False
-        known = self.interesting.get(id(type_))
-        if known is None:
-            self.interesting[id(type_)] = False
-            known = any(
-                m.flags & {"RETAIN", "PERSISTENT"}
-                or (m.decl is not None and _not_initialised(m.decl))
-                or (m.section != "VAR_IN_OUT" and self.has_remanent(m.type))
-                for m in type_.members.values()
-            )
-            self.interesting[id(type_)] = known
-        return known
+def _holds_remanent(type_: t.Type) -> bool:
+    return any(
+        member.flags & REMANENT or (member.decl is not None and _not_initialised(member.decl))
+        for member in stored(type_)
+    )
 
 
 def instance_paths(
     data: list[ProgramData], objects: Mapping[str, DataObject], prefix: str, table: TypeTable
 ) -> Iterator[tuple[int, t.String, str]]:
     """Offset, type and text of every STRING with attribute instance-path or init_namespace."""
-    known = table.with_path
+    found: list[tuple[int, t.String, str]] = []
 
-    def wants(type_: t.Type) -> bool:
-        if isinstance(type_, t.Array):
-            return wants(type_.element)
-        if not isinstance(type_, t.FunctionBlock):
-            return False
-        found = known.get(id(type_))
-        if found is None:
-            known[id(type_)] = False
-            found = known[id(type_)] = any(
-                _path_attribute(m) or (m.section != "VAR_IN_OUT" and wants(m.type))
-                for m in type_.members.values()
-            )
-        return found
-
-    def walk(path: str, offset: int, type_: t.Type) -> Iterator[tuple[int, t.String, str]]:
-        if not wants(type_):
-            return
-        if isinstance(type_, t.Array):
-            for number, index in enumerate(_indices(type_)):
-                yield from walk(f"{path}[{index}]", offset + number * type_.element.size, type_.element)
-        elif isinstance(type_, t.FunctionBlock):
-            for member in type_.members.values():
+    def visit(part: Part) -> bool:
+        if isinstance(part.type, t.FunctionBlock):
+            for member in stored(part.type):
                 name = _path_attribute(member)
                 if name is not None and isinstance(member.type, t.String):
-                    shown = path if name == "instance-path" else path.removeprefix(f"{prefix}.")
-                    yield offset + member.offset, member.type, shown
-                elif member.section != "VAR_IN_OUT":
-                    yield from walk(f"{path}.{member.name}", offset + member.offset, member.type)
+                    shown = part.path if name == "instance-path" else part.path.removeprefix(f"{prefix}.")
+                    found.append((part.offset + member.offset, member.type, shown))
+        return table.with_path.holds(part.type)
 
     for item in data:
-        base = objects[item.symbol].offset
         root = f"{prefix}.{item.owner.name}"
-        if isinstance(item.owner, GvlSymbol):
-            for variable in item.owner.members.values():
-                if variable.type is not None and variable.storage is Storage.GLOBAL:
-                    yield from walk(f"{root}.{variable.name}", base + variable.offset, variable.type)
-        elif item.owner.instance is not None:
-            yield from walk(root, base, item.owner.instance)
+        for part in variables_of(item.owner, root, objects[item.symbol].offset):
+            walk(part, visit)
+    yield from found
+
+
+def _holds_path(type_: t.Type) -> bool:
+    return isinstance(type_, t.FunctionBlock) and any(_path_attribute(m) for m in stored(type_))
 
 
 def _path_attribute(member: t.Member) -> str | None:

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from tappet import libraries as installed
+from tappet.codegen.compile_options import OptimiseOptions
 from tappet.codegen.emit_module import EmitOptions, emit_module
-from tappet.codegen.optimise import ObjectCache, OptimiseOptions
+from tappet.codegen.object_cache import ObjectCache
 from tappet.core import passes
 from tappet.core.lower import lower
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError

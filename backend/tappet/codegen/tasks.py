@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
-from tappet.codegen.package import TaskSpec, WatchdogSpec
+from msgspec.structs import replace
+
+from tappet.codegen.package import TaskKind, TaskSpec
 from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.iec.task import Task
 from tappet.lang.analysis.result import Analysis
-from tappet.lang.analysis.tasks import Task, Watchdog
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.source import NOWHERE, Scope, Source
 
 DEFAULT_INTERVAL_NS = 10_000_000
 """Cycle of the one task of an application without configuration."""
+
+_KINDS: dict[str, TaskKind] = {
+    "cyclic": "cyclic", "freewheeling": "freewheeling", "event": "event", "status": "status",
+    "external": "event",
+}  # fmt: skip
 
 
 def task_specs(tasks: Sequence[Task]) -> list[TaskSpec]:
@@ -21,19 +27,15 @@ def task_specs(tasks: Sequence[Task]) -> list[TaskSpec]:
     return [
         TaskSpec(
             task.name,
-            "event" if task.kind == "external" else task.kind,
+            _KINDS[task.kind],
             task.interval_ns if task.kind == "cyclic" else 0,
             task.priority,
             task.event,
-            watchdog=_watchdog(task.watchdog),
+            watchdog=task.watchdog,
             programs=tuple(task.programs),
         )
         for task in tasks
     ]
-
-
-def _watchdog(definition: Watchdog | None) -> WatchdogSpec | None:
-    return None if definition is None else WatchdogSpec(definition.time_ns, definition.sensitivity)
 
 
 def default_tasks(analysis: Analysis, sources: Sequence[Source], main_program: str) -> list[TaskSpec]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from tappet.codegen.literals import format_string, format_time, parse_string, parse_time
 
 if TYPE_CHECKING:
-    from tappet.codegen.symbol_map import TypeInfo
+    from tappet.codegen.symbol_types import TypeInfo
 
 Value = bool | int | float | str | list["Value"] | dict[str, "Value"] | None
 """bool, int (also times, dates and enumerations, in the unit of their type), float, str, list, dict."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from tappet.codegen.package import DataObject
-from tappet.core.lower import Lowered, instances
-from tappet.core.watched_properties import holds_watched, monitors_by_call, watched_members
+from tappet.core.lower import Lowered
+from tappet.core.watched_properties import monitors_by_call, watched, watched_members
 from tappet.lang import types as t
+from tappet.lang.parts import Part, variables_of, walk
 
 MOST = 100_000
 """Instances of properties in the list of a package; those behind them are not served."""
@@ -19,27 +20,15 @@ def watched_values(lowered: Lowered, objects: Mapping[str, DataObject]) -> list[
     if not monitors_by_call(lowered.program.analysis.pous):
         return []
     found: list[tuple[int, int, int]] = []
+    holding = watched(lowered.program)
+
+    def visit(part: Part) -> bool:
+        if isinstance(part.type, t.FunctionBlock):
+            for value, asking in watched_members(part.type):
+                found.append((part.offset + value.offset, value.type.size, part.offset + asking.offset))
+        return holding.holds(part.type)
+
     for item in lowered.data:
-        base = objects[item.symbol].offset
-        instance = getattr(item.owner, "instance", None)
-        if isinstance(instance, t.FunctionBlock):
-            found += _values(base, instance)
-        else:
-            for offset, type_ in instances(item.owner):
-                found += _values(base + offset, type_)
+        for part in variables_of(item.owner, "", objects[item.symbol].offset):
+            walk(part, visit)
     return sorted(found)[:MOST]
-
-
-def _values(at: int, type_: t.Type) -> Iterator[tuple[int, int, int]]:
-    if not holds_watched(type_, set()):
-        return
-    if isinstance(type_, t.Array):
-        for number in range(type_.count):
-            yield from _values(at + number * type_.element.size, type_.element)
-    elif isinstance(type_, t.FunctionBlock | t.Struct):
-        if isinstance(type_, t.FunctionBlock):
-            for value, asking in watched_members(type_):
-                yield at + value.offset, value.type.size, at + asking.offset
-        for member in type_.members.values():
-            if member.section != "VAR_IN_OUT":
-                yield from _values(at + member.offset, member.type)

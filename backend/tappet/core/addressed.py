@@ -3,24 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Protocol
 
 from tappet.core import assign, ir
 from tappet.core.body import INITIALISERS, Body
 from tappet.core.program import AREA_PREFIX, DATA_PREFIX, Program
 from tappet.core.scalars import scalar_of
+from tappet.iec.task import Task
 from tappet.lang import ast
 from tappet.lang.analysis.result import AGREED, ConfiguredAddress
 from tappet.lang.symbols import Storage, VarSymbol
-
-
-class Task(Protocol):
-    """What is asked of a task."""
-
-    @property
-    def programs(self) -> Sequence[str]:
-        """Programs it calls."""
-
 
 # -- initial values ---------------------------------------------------------------------------------
 

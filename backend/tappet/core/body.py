@@ -16,7 +16,7 @@ from tappet.lang.source import Scope, Source
 from tappet.lang.symbols import PouSymbol, VarSymbol
 
 if TYPE_CHECKING:
-    from tappet.core.guarded import Guard
+    from tappet.core.guard import Guard
 
 VALUES: dict[type, Callable[..., ir.Expr]] = {}
 """Lowering of an expression to a scalar value, by node class."""
@@ -38,6 +38,8 @@ class Body:
     def __init__(self, program: Program, function: ir.Function, source: Source | None) -> None:
         self.program = program
         self.function = function
+        self.last_line = 0
+        """Line of the statement that is being lowered."""
         self.source = source
         self.pou: PouSymbol | None = None
         self.block: t.FunctionBlock | None = None
@@ -89,7 +91,8 @@ class Body:
     def line(self, node: ast.Node) -> None:
         """The following code belongs to the line of `node`."""
         self.function.weight += 1
-        self.out.append(ir.Line(node.span[0] + 1))
+        self.last_line = node.span[0] + 1
+        self.out.append(ir.Line(self.last_line))
 
     # -- expressions ---------------------------------------------------------------------------------
 
@@ -118,7 +121,7 @@ class Body:
         return convert(self.value(e), scalar)
 
     def place(self, e: ast.Expr) -> ir.Place:
-        """Where the object that `e` stands for lies; references stand for the object referred to."""
+        """Where the object that `e` denotes lies; references denote the object referred to."""
         return PLACES[e.__class__](self, e)
 
     def target(self, e: ast.Expr) -> ir.Place:

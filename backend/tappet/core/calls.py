@@ -68,6 +68,9 @@ def call_value(b: Body, e: ast.Call) -> ir.Expr:
     if isinstance(target.return_type, t.Reference):
         assert e.type is not None
         return ir.Load(require_scalar(e.type), call_place(b, e))
+    if target.return_type is None:
+        zero = require_scalar(e.type)
+        return ir.Sequence(zero, prepare(b, e).statements(), ir.Const(zero, 0))
     return as_value(b, prepare(b, e))
 
 
@@ -113,7 +116,10 @@ def as_place(b: Body, prepared: Prepared) -> ir.Place:
 def call_statement(b: Body, e: ast.Call) -> None:
     """A call for its effects."""
     if e.expansion is not None:
-        b.emit(ir.Evaluate(b.value(e.expansion)))
+        if scalar_of(e.expansion.type) is not None:
+            b.emit(ir.Evaluate(b.value(e.expansion)))
+        elif not e.expansion.is_constant:
+            b.emit(ir.Evaluate(places.address_of(b.place(e.expansion))))
         return
     target = e.target
     if isinstance(target, BuiltinSymbol):
@@ -344,7 +350,7 @@ def _aggregate_argument(b: Body, type_: t.Type, value: ast.Expr | None, disturbe
 
 
 def _any_argument(b: Body, value: ast.Expr) -> ir.Expr:
-    """The structure that stands for a value of any type: class, address, size."""
+    """The structure that describes a value of any type: class, address, size."""
     type_ = value.type
     assert type_ is not None
     fill: list[ir.Stmt] = []
@@ -356,7 +362,7 @@ def _any_argument(b: Body, value: ast.Expr) -> ir.Expr:
         place = ir.Place(b.space(type_.size, type_.align))
         with b.block_of() as fill:
             assign.copy_value(b, place, type_, value)
-    record = b.space(any_type.SIZE, 8)
+    record = b.space(any_type.ANY_TYPES["ANY"].size, 8)
     kind = ir.Const(ir.I32, any_type.class_of(type_))
     fill += [
         ir.Store(ir.Place(record, any_type.CLASS_OFFSET), kind),
@@ -372,8 +378,11 @@ def _is_bit(e: ast.Expr) -> bool:
 
 def in_out_address(b: Body, before: list[ir.Stmt], parameter: VarSymbol, value: ast.Expr) -> ir.Expr:
     """Address of the variable handed to a VAR_IN_OUT; a descriptor for ARRAY[*]."""
-    if not places.is_place(value):
-        # constants and computed strings for VAR_IN_OUT CONSTANT
+    if not places.is_place(value) or _is_shorter(value, parameter.type):
+        # constants, computed strings and shorter ones for VAR_IN_OUT CONSTANT
+        if isinstance(value.constant, str | bytes) and not _is_shorter(value, parameter.type):
+            assert isinstance(value.type, t.String)
+            return places.address_of(assign.constant_string(b, value.constant, value.type.wide))
         type_ = parameter.type
         assert type_ is not None
         local = b.local(f"{parameter.name}.in", type_)
@@ -391,6 +400,12 @@ def in_out_address(b: Body, before: list[ir.Stmt], parameter: VarSymbol, value: 
             return address
         return _descriptor(b, before, address, value.type)
     return address
+
+
+def _is_shorter(value: ast.Expr, wanted: t.Type | None) -> bool:
+    """Whether a string has less memory than the parameter: who reads as much would read beyond its end."""
+    own = value.type
+    return isinstance(own, t.String) and isinstance(wanted, t.String) and own.length < wanted.length
 
 
 def _descriptor(b: Body, before: list[ir.Stmt], address: ir.Expr, type_: t.Array) -> ir.Expr:

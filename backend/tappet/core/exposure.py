@@ -8,7 +8,7 @@ from tappet.core import ir
 
 
 class Exposure:
-    """What the addresses taken so far expose; to be made anew when there are more."""
+    """What the addresses taken so far expose; to be made again when there are more."""
 
     def __init__(self, module: ir.Module) -> None:
         self.module = module

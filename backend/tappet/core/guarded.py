@@ -9,32 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from functools import partial
 
 from tappet.core import ir
 from tappet.core.body import Body
+from tappet.core.guard import Guard
 
 BUFFER_SIZE = 512
 """Bytes of a jmp_buf, more than any C library needs."""
 RECORD_SIZE = 640
 """Bytes of what the runtime knows of a fault, at least (FAULT_RECORD)."""
-
-
-@dataclass(slots=True)
-class Guard:
-    """A guarded part that is being lowered."""
-
-    buffer: ir.Local
-    before: ir.Local
-    """The guard that was in force."""
-    labels: frozenset[str] = frozenset()
-    """Labels inside: a jump to them does not leave it."""
-    final: str = ""
-    """Label of the code that follows in any case; empty without."""
-    pending: ir.Local | None = None
-    """How that code goes on: 0 behind itself, else a number of `exits`."""
-    exits: list[Callable[[], None]] = field(default_factory=list)
 
 
 def externals(b: Body) -> None:
@@ -90,7 +74,7 @@ def guarded(
 
 
 def pass_on(b: Body, guard: Guard, fault: ir.Local) -> None:
-    """A handler that lets the fault go on to the next guard, after `__FINALLY`, which may catch faults of its
+    """A handler that passes the fault on to the next guard, after `__FINALLY`, which may catch faults of its
     own meanwhile."""
     read = ir.Load(ir.I32, ir.Place(fault))
     record = ir.Convert(ir.U64, ir.Address(ir.PTR, ir.Place(b.space(RECORD_SIZE, 8))))

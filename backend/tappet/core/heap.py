@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from tappet.core import initial, ir, places
 from tappet.core.body import Body
-from tappet.core.life_cycle import contains_instance_with
+from tappet.core.life_cycle import holding
 from tappet.core.scalars import NULL, convert, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
@@ -42,7 +42,7 @@ def new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     if isinstance(made_of, t.FunctionBlock | t.Struct):
         b.program.created[str(made_of).upper()] = made_of
     if scalar_of(type_) is None:
-        made = operands[0] if isinstance(operands[0], ast.Call) else None
+        made = operands[0] if isinstance(operands[0], ast.Call) and not isinstance(type_, t.String) else None
         with b.block_of() as fill:
             if several:
                 _initialise_elements(b, read, type_, count, made)
@@ -77,20 +77,27 @@ def _for_each(b: Body, counter: ir.Local, count: ir.Expr, body: list[ir.Stmt]) -
 
 
 def delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
-    """FB_Exit of all instances in the memory; then it is given back, and the pointer is 0."""
+    """FB_Exit of all instances in the memory; then it is given back, and a variable is set to 0."""
     operand = e.args[0].value
     assert operand is not None
     assert isinstance(operand.type, t.Pointer)
-    place = places.freeze(b, b.place(operand), b.out)
-    b.touch(place)
+    place = None
+    pointer = b.temp(ir.PTR)
+    read = ir.Load(ir.PTR, ir.Place(pointer))
+    if isinstance(operand, ast.This):
+        b.emit(ir.Store(ir.Place(pointer), b.value(operand)))
+    else:
+        place = places.freeze(b, b.place(operand), b.out)
+        b.touch(place)
+        b.emit(ir.Store(ir.Place(pointer), ir.Load(ir.PTR, place)))
     b.program.module.externals.setdefault("tappet_release", ir.External("tappet_release", [ir.PTR]))
-    read = ir.Load(ir.PTR, place)
     base = operand.type.base
     with b.block_of() as then:
-        if base is not None and contains_instance_with(base, "FB_EXIT", b.program.holding):
+        if base is not None and holding(b.program, "FB_EXIT").holds(base):
             _destruct_elements(b, read, base)
         b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
-        b.emit(ir.Store(place, NULL))
+        if place is not None:
+            b.emit(ir.Store(place, NULL))
     b.emit(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), then, []))
 
 

@@ -9,7 +9,7 @@ from tappet.core import assign, calls, ir, places
 from tappet.core.body import INITIALISERS, Body
 from tappet.core.life_cycle import (
     after_init_methods,
-    contains_instance_with,
+    holding,
     init_methods,
     life_cycle_methods,
 )
@@ -17,6 +17,7 @@ from tappet.core.program import Program
 from tappet.core.templates import Step, Template, initialiser_of
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.parts import stored
 from tappet.lang.symbols import PouSymbol, VarSymbol
 
 _UNROLL = 4
@@ -156,17 +157,24 @@ def _call_all(b: Body, place: ir.Place, methods: list[PouSymbol], in_copy: bool 
 
 def destruct_all(b: Body, place: ir.Place, type_: t.Type, in_copy: bool = False) -> None:
     """Call FB_Exit of all instances inside an object of any type."""
-    if not contains_instance_with(type_, "FB_EXIT", b.program.holding):
+    if not holding(b.program, "FB_EXIT").holds(type_):
         return
     if isinstance(type_, t.FunctionBlock):
         destruct(b, place, type_, in_copy)
-    if isinstance(type_, t.FunctionBlock | t.Struct):
-        for member in type_.members.values():
-            if member.section != "VAR_IN_OUT" and not without_exit(member.decl):
-                destruct_all(b, places.at(place, member.offset), member.type, in_copy)
-    elif isinstance(type_, t.Array):
+    for inner, part, decl in each_part(b, place, type_):
+        if not without_exit(decl):
+            destruct_all(b, inner, part, in_copy)
+
+
+def each_part(
+    b: Body, place: ir.Place, type_: t.Type
+) -> Iterator[tuple[ir.Place, t.Type, ast.VarDecl | None]]:
+    """The members or elements of an object; what is emitted for the one element is done for all."""
+    for member in stored(type_):
+        yield places.at(place, member.offset), member.type, member.decl
+    if isinstance(type_, t.Array):
         with each_element(b, place, type_.count, type_.element.size) as element:
-            destruct_all(b, element, type_.element, in_copy)
+            yield element, type_.element, None
 
 
 def without_exit(decl: ast.VarDecl | None) -> bool:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from tappet.core.program import attribute_value
+from tappet.core.program import Program, attribute_value
 from tappet.lang import types as t
+from tappet.lang.parts import Holding
 from tappet.lang.symbols import PouSymbol
 
 
@@ -24,24 +25,11 @@ def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
     return found
 
 
-def contains_instance_with(type_: t.Type, name: str, known: dict[tuple[str, int], bool]) -> bool:
-    """Whether an object of a type is or contains an instance with FB_EXIT or FB_REINIT, whichever is named.
-
-    `known` keeps answers.
-    """
-    if isinstance(type_, t.Array):
-        return contains_instance_with(type_.element, name, known)
-    if not isinstance(type_, t.FunctionBlock | t.Struct):
-        return False
-    found = known.get((name, id(type_)))
-    if found is None:
-        known[name, id(type_)] = False
-        found = isinstance(type_, t.FunctionBlock) and bool(life_cycle_methods(type_, name))
-        inside = (m.type for m in type_.members.values() if m.section != "VAR_IN_OUT")
-        found = known[name, id(type_)] = found or any(
-            contains_instance_with(inner, name, known) for inner in inside
-        )
-    return found
+def holding(program: Program, name: str) -> Holding[t.Type]:
+    """Which types are or contain an instance with FB_EXIT or FB_REINIT, whichever is named."""
+    return program.holds(
+        name, lambda type_: isinstance(type_, t.FunctionBlock) and bool(life_cycle_methods(type_, name))
+    )
 
 
 def after_init_methods(type_: t.FunctionBlock) -> list[PouSymbol]:

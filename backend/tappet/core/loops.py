@@ -205,7 +205,10 @@ def _note_place(found: _Survey, node: ir.Expr | ir.Stmt, name: str, place: ir.Pl
 
 
 def mark_fixed_counters(function: ir.Function) -> None:
-    """Set `For.fixed` where the body leaves the counter alone; only for counters in locals."""
+    """Set `For.fixed` where only the loop changes the counter and `stop` does not look at it.
+
+    Only for counters in locals. A `stop` that reads the counter must be evaluated behind the step.
+    """
     addressed: set[ir.Local] = set()
     loops: list[ir.For] = []
 
@@ -222,8 +225,8 @@ def mark_fixed_counters(function: ir.Function) -> None:
     visit(function.body, note)
     for loop in loops:
         base = loop.counter.base
-        if isinstance(base, ir.Local) and base not in addressed and not _writes(loop.body, base):
-            loop.fixed = True
+        if isinstance(base, ir.Local) and base not in addressed:
+            loop.fixed = not _writes(loop.body, base) and not _mentions(loop.stop, base)
 
 
 def _writes(body: list[ir.Stmt], local: ir.Local) -> bool:
@@ -237,6 +240,18 @@ def _writes(body: list[ir.Stmt], local: ir.Local) -> bool:
             found |= node.counter.base is local
 
     visit(body, note)
+    return found
+
+
+def _mentions(e: ir.Expr, local: ir.Local) -> bool:
+    """Whether an expression reads or writes a local."""
+    found = False
+
+    def note(node: ir.Expr | ir.Stmt) -> None:
+        nonlocal found
+        found |= any(place.base is local for _, place in places_of(node))
+
+    visit([ir.Evaluate(e)], note)
     return found
 
 

@@ -21,14 +21,17 @@ from tappet.core import (
     places,
     properties,
     templates,
+    variable_info,
     watched_properties,
 )
 from tappet.core.body import Body
+from tappet.core.internal_error import At, function_at, working_on
 from tappet.core.method_tables import number_methods
 from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_value, data_symbol, export_name
 from tappet.core.relations import relate
 from tappet.core.scalars import scalar_of
 from tappet.core.statements import lower_statements
+from tappet.iec.task import Task
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
@@ -42,17 +45,9 @@ LARGEST_STEP = 4096
 """Data objects are taken for this much larger than they are at most, see `extent`."""
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
-    """A task as lowering needs it."""
-
-    name: str
-    programs: tuple[str, ...]
-
-    @property
-    def symbol(self) -> str:
-        """Exported function that runs one cycle."""
-        return TASK_PREFIX + self.name
+def task_symbol(name: str) -> str:
+    """Exported function that runs one cycle of a task."""
+    return TASK_PREFIX + name
 
 
 @dataclass(slots=True)
@@ -152,6 +147,19 @@ def data_owners(analysis: Analysis) -> list[GvlSymbol | PouSymbol]:
 
 def fill_data_object(program: Program, item: DataObject) -> None:
     """Size and initial values of a data object."""
+    with working_on("initial values", lambda: _owner_at(item.owner)):
+        _fill(program, item)
+
+
+def _owner_at(owner: GvlSymbol | PouSymbol) -> At:
+    return At(
+        owner.name,
+        owner.source.uri if owner.source is not None else "",
+        (owner.span[0] if owner.span else 0) + 1,
+    )
+
+
+def _fill(program: Program, item: DataObject) -> None:
     initialiser, owner = templates.initialiser_of(program), item.owner
     if isinstance(owner, PouSymbol):
         assert owner.instance is not None
@@ -192,7 +200,8 @@ def _init_function(program: Program, data: list[DataObject]) -> None:
         base = ir.Place(ir.Data(item.symbol))
         if isinstance(item.owner, PouSymbol):
             b.pou, b.own_data = item.owner, base
-        initial.run_steps(b, base, item.template.steps)
+        with working_on("initial values", lambda item=item: _owner_at(item.owner)):  # type: ignore[misc]
+            initial.run_steps(b, base, item.template.steps)
         function.body = [*b.entry, *b.out]
         program.module.functions[name] = function
         entry.body.append(ir.Evaluate(ir.Call(ir.VOID, name, [])))
@@ -250,8 +259,8 @@ def instances(owner: GvlSymbol | PouSymbol, leaving: bool = False) -> list[tuple
 
 
 def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
-    function = ir.Function(task.symbol, exported=True, uri="", inline="never")
-    program.taken.add(task.symbol)
+    function = ir.Function(task_symbol(task.name), exported=True, uri="", inline="never")
+    program.taken.add(task_symbol(task.name))
     before, after = addressed.transfers(program, task, tasks, function)
     function.body += before
     for name in task.programs:
@@ -260,7 +269,7 @@ def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
             function.body.append(ir.Evaluate(ir.Call(ir.VOID, program.function(pou), [])))
     function.body += after
     function.body += watched_properties.refresh(program, *_served(program, task, tasks))
-    program.module.functions[task.symbol] = function
+    program.module.functions[task_symbol(task.name)] = function
 
 
 def _served(program: Program, task: Task, tasks: Sequence[Task]) -> tuple[list[PouSymbol], list[GvlSymbol]]:
@@ -298,16 +307,17 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
     b = Body(program, function, source)
     b.pou = pou
     b.checks = b.checks and not unchecked(pou)
-    _own_instance(b, pou)
-    _result(b, pou)
-    _parameters(b, pou)
-    _locals(b, pou)
-    assert pou.pou is not None
-    b.leave = monitored.keeper(b, pou)
-    lower_statements(b, pou.pou.body)
-    if b.leave is not None:
-        b.leave()
-    copies = _input_copies(b)
+    with working_on("lowering", lambda: function_at(function, b.last_line)):
+        _own_instance(b, pou)
+        _result(b, pou)
+        _parameters(b, pou)
+        _locals(b, pou)
+        assert pou.pou is not None
+        b.leave = monitored.keeper(b, pou)
+        lower_statements(b, pou.pou.body)
+        if b.leave is not None:
+            b.leave()
+        copies = _input_copies(b)
     function.body = [*copies, *b.entry, *b.out]
     program.module.functions[function.name] = function
     program.bodies[function.name] = pou
@@ -451,5 +461,5 @@ def _initialise(
     initial.write_template(b, place, template, type_.align)
 
 
-OPERATORS = (builtins, conversions, properties)
+OPERATORS = (builtins, conversions, properties, variable_info)
 """Modules that register the lowering of operators when they are imported."""

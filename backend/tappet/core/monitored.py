@@ -6,10 +6,9 @@ from collections.abc import Callable
 
 from tappet.core import assign, ir
 from tappet.core.body import Body
-from tappet.core.program import attribute_value
 from tappet.core.scalars import scalar_of
 from tappet.lang import ast
-from tappet.lang.analysis.monitored import CALLED, monitoring_name
+from tappet.lang.analysis.monitored import monitoring_name
 from tappet.lang.symbols import PouSymbol, VarSymbol
 
 
@@ -20,11 +19,8 @@ def keeper(b: Body, pou: PouSymbol) -> Callable[[], None] | None:
         return None
     kept = owner.locals.get(monitoring_name(owner.name, name).upper())
     own = pou.result if pou.name.startswith("__get") else pou.locals.get(name.upper())
-    if (
-        isinstance(kept, VarSymbol)
-        and kept.decl is not None
-        and attribute_value(kept.decl.attributes, CALLED)
-    ):
+    monitored = kept.decl.monitored if isinstance(kept, VarSymbol) and kept.decl is not None else None
+    if monitored is None or monitored.request is not None:
         return None
     if not isinstance(kept, VarSymbol) or not isinstance(own, VarSymbol) or kept.type is None:
         return None

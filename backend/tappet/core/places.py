@@ -9,6 +9,7 @@ from tappet.core.scalars import convert, require_scalar
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import yields_reference
+from tappet.lang.parts import composed
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 
 FAULT_BOUNDS = 2
@@ -55,7 +56,7 @@ def slot_of(b: Body, variable: VarSymbol) -> ir.Place:
 
 
 def place_of_variable(b: Body, variable: VarSymbol) -> ir.Place:
-    """Where the object lies that a variable stands for."""
+    """Where the object lies that a variable denotes."""
     slot = slot_of(b, variable)
     if variable.section == "VAR_IN_OUT" and id(variable) not in b.places:
         pointer = b.in_out_pointer(variable, slot)
@@ -81,7 +82,7 @@ def program_data(pou: PouSymbol) -> ir.Place:
 
 
 def place_of_member(b: Body, e: ast.Member) -> ir.Place:
-    """Place of a member of a value, or of what a qualified name stands for."""
+    """Place of a member of a value, or of what a qualified name denotes."""
     symbol = e.symbol
     if not isinstance(symbol, VarSymbol):
         if isinstance(symbol, PouSymbol) and symbol.kind == "PROGRAM":
@@ -220,10 +221,8 @@ def _behind(address: ir.Expr) -> ir.Place:
 
 def _granularity(type_: t.Type) -> int:
     """Size of the largest simple type inside (LTYP-81)."""
-    if isinstance(type_, t.Array):
-        return _granularity(type_.element)
-    if isinstance(type_, t.Struct | t.FunctionBlock):
-        return max((_granularity(m.type) for m in type_.members.values()), default=1)
+    if isinstance(type_, t.Array | t.Struct | t.FunctionBlock):
+        return max((_granularity(inner) for inner in composed(type_)), default=1)
     return type_.align if isinstance(type_, t.String) else type_.size
 
 

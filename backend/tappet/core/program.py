@@ -10,6 +10,7 @@ from tappet.core import ir
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
+from tappet.lang.parts import Holding, composed, types_holding
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
@@ -76,7 +77,7 @@ class Program:
     """id(FunctionBlock) to the function that runs the dynamic initial values of its members."""
     made_for: dict[str, tuple[t.FunctionBlock, Callable[[], None]]] = field(default_factory=dict)
     """Functions that are made from the members of a block and no text, by name: how to lower them again."""
-    holding: dict[tuple[str, int], bool] = field(default_factory=dict)
+    holding: dict[str, Holding[t.Type]] = field(default_factory=dict)
     """Whether types, by id(), hold an instance with a method of this name: see `life_cycle`."""
     check_names: dict[str, PouSymbol | None] = field(default_factory=dict)
     created: dict[str, t.Type] = field(default_factory=dict)
@@ -222,23 +223,25 @@ class Program:
             function.exposed.add((place.base.type, place.root))
         self._expose_blocks(function.exposed, type_)
 
+    def holds(self, what: str, wanted: Callable[[t.Type], bool]) -> Holding[t.Type]:
+        """Which types hold something; who wants the same asks under the same name. Kept between edits."""
+        found = self.holding.get(what)
+        if found is None:
+            found = self.holding[what] = types_holding(wanted)
+        return found
+
     def _expose_blocks(self, exposed: set[tuple[str, int]], type_: t.Type | None) -> None:
         if isinstance(type_, t.FunctionBlock):
             key = (self.block_name(type_), -1)
             if key in exposed:
                 return
             exposed.add(key)
-            for member in type_.members.values():
-                self._expose_blocks(exposed, member.type)
             derived = type_.base
             while derived is not None:
                 exposed.add((self.block_name(derived), -1))
                 derived = derived.base
-        elif isinstance(type_, t.Array):
-            self._expose_blocks(exposed, type_.element)
-        elif isinstance(type_, t.Struct):
-            for member in type_.members.values():
-                self._expose_blocks(exposed, member.type)
+        for inner in composed(type_):
+            self._expose_blocks(exposed, inner)
 
 
 def qualified_name(pou: PouSymbol) -> str:

@@ -1,6 +1,6 @@
 """Properties: reading calls Get, assigning calls Set (LDEC-121).
 
-A property that returns a REFERENCE stands for what it refers to: a place behind a call of Get.
+A property that returns a REFERENCE yields what it refers to: a place behind a call of Get.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tappet.core import ir
 from tappet.core.program import Program
 from tappet.lang import types as t
+from tappet.lang.parts import composed
 from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
 
 Nested = dict[tuple[str, int], frozenset[str]]
@@ -22,7 +23,7 @@ class Relations:
 
     @classmethod
     def of(cls, module: ir.Module) -> Relations:
-        """What is known now; `relate` makes it anew."""
+        """What is known now; `relate` makes it again."""
         return cls(module.nested, module.containers)
 
     def changed(self, module: ir.Module) -> set[str]:
@@ -80,16 +81,15 @@ def _nested_blocks(
 
 def _blocks_in(program: Program, type_: t.Type | None, nested: dict[int, set[str]]) -> set[str]:
     """Names of the block types that have instances inside a type."""
-    if isinstance(type_, t.Array):
-        return _blocks_in(program, type_.element, nested)
-    if not isinstance(type_, t.FunctionBlock | t.Struct):
+    while isinstance(type_, t.Array):
+        type_ = type_.element
+    if type_ is None:
         return set()
     found = nested.get(id(type_))
     if found is None:
         found = nested[id(type_)] = set()
         if isinstance(type_, t.FunctionBlock) and not type_.program:
             found.add(program.block_name(type_))
-        for member in type_.members.values():
-            if member.section != "VAR_IN_OUT":
-                found |= _blocks_in(program, member.type, nested)
+        for inner in composed(type_):
+            found |= _blocks_in(program, inner, nested)
     return found

@@ -48,7 +48,7 @@ def convert(value: ir.Expr, target: ir.Scalar, mode: str = "round") -> ir.Expr:
         folded = _fold(value.value, target)
         if folded is not None:
             return ir.Const(target, folded)
-    if source.pointer and not target.pointer and target.bits != 64:
+    if source.pointer and not target.pointer and (target.bits != 64 or target.floating):
         return ir.Convert(target, ir.Convert(ir.U64, value))
     if target.pointer and source.integer and source.bits < 64 and source.signed:
         return ir.Convert(target, ir.Convert(ir.I64, value))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from tappet.core import assign, calls, guarded, ir, places
 from tappet.core.body import PLACES, VALUES, Body
+from tappet.core.guard import Guard
 from tappet.core.scalars import convert, require_scalar, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
@@ -94,12 +95,24 @@ def _for(b: Body, s: ast.For) -> None:
     counter = places.freeze(b, b.place(s.variable), b.out)
     b.touch(counter)
     start, stop = convert(b.value(s.start), scalar), convert(b.value(s.stop), scalar)
-    step: int | ir.Expr = 1
-    if s.step is not None:
-        amount = convert(b.value(s.step), scalar)
-        step = int(amount.value) if isinstance(amount, ir.Const) else amount
+    step = _step(b, s, scalar)
     body = _loop_body(b, s.body)
     b.emit(ir.For(counter, scalar, start, stop, step, body, s.span[0] + 1))
+
+
+def _step(b: Body, s: ast.For, counter: ir.Scalar) -> int | ir.Expr:
+    """The step of a loop, which keeps its sign where the counter has none."""
+    if s.step is None:
+        return 1
+    amount = b.value(s.step)
+    if isinstance(amount, ir.Const):
+        return int(amount.value)
+    signed, unsigned = _WIDTHS[counter.bits]
+    return convert(amount, signed if amount.type.signed else unsigned)
+
+
+_WIDTHS = {8: (ir.I8, ir.U8), 16: (ir.I16, ir.U16), 32: (ir.I32, ir.U32), 64: (ir.I64, ir.U64)}
+"""Signed and unsigned integers by their bits."""
 
 
 def _range_check(scalar: ir.Scalar) -> str:
@@ -112,12 +125,21 @@ def _checked_for(b: Body, s: ast.For, scalar: ir.Scalar) -> None:
     counter = places.freeze(b, b.place(s.variable), b.out)
     b.touch(counter)
     read = ir.Load(scalar, counter)
-    step = convert(b.value(s.step), scalar) if s.step is not None else ir.Const(scalar, 1)
+    step = _step(b, s, scalar)
+    amount = ir.Const(scalar, step) if isinstance(step, int) else convert(step, scalar)
     start = assign.range_checked(b, convert(b.value(s.start), scalar), s.variable.type)
     b.emit(ir.Store(counter, start))
-    down = isinstance(step, ir.Const) and step.value < 0
-    test = ir.Compare(ir.BOOL, "ge" if down else "le", read, convert(b.value(s.stop), scalar))
-    advance = assign.range_checked(b, ir.Binary(scalar, "add", read, step), s.variable.type)
+    stop = convert(b.value(s.stop), scalar)
+    if isinstance(step, int) or not step.type.signed:
+        falling = isinstance(step, int) and step < 0
+        test: ir.Expr = ir.Compare(ir.BOOL, "ge" if falling else "le", read, stop)
+    else:
+        bound = b.temp(scalar)
+        rising = ir.Compare(ir.BOOL, "ge", step, ir.Const(step.type, 0))
+        reached = ir.Load(scalar, ir.Place(bound))
+        up, down = (ir.Compare(ir.BOOL, order, read, reached) for order in ("le", "ge"))
+        test = ir.Sequence(ir.BOOL, [ir.Store(ir.Place(bound), stop)], ir.Select(ir.BOOL, rising, up, down))
+    advance = assign.range_checked(b, ir.Binary(scalar, "add", read, amount), s.variable.type)
     first = b.temp(ir.BOOL, once=False)
     b.emit(ir.Store(ir.Place(first), ir.Const(ir.BOOL, 1)))
     running = ir.Load(ir.BOOL, ir.Place(first))
@@ -185,7 +207,7 @@ def _jump(b: Body, s: ast.Jump) -> None:
 
 
 def _try(b: Body, s: ast.Try) -> None:
-    def caught(_: guarded.Guard, fault: ir.Local) -> None:
+    def caught(_: Guard, fault: ir.Local) -> None:
         if s.exception is not None:
             code = convert(guarded.exception_code(fault), require_scalar(s.exception.type))
             assign.store_scalar(b, s.exception, code)

@@ -77,9 +77,9 @@ class Initialiser:
                 found.data[:] = type_.default.to_bytes(type_.size, "little", signed=type_.default < 0)
         return found
 
-    def forget(self, things: frozenset[int] | set[int]) -> None:
+    def forget(self, entities: frozenset[int] | set[int]) -> None:
         """Types given by id() may start with something else now."""
-        for key in self.types.keys() & things:
+        for key in self.types.keys() & entities:
             del self.types[key]
 
     def _members(self, template: Template, type_: t.Struct | t.FunctionBlock) -> None:

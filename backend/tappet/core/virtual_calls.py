@@ -30,7 +30,7 @@ def is_fixed(target: PouSymbol) -> bool:
 def call_virtual(
     b: Body, name: str, static: Static, scalar: ir.Scalar, values: list[ir.Expr], declared: PouSymbol
 ) -> ir.Expr:
-    """Call of what `name` stands for in the instance `values[0]`; `declared` is what its static type has."""
+    """Call of what `name` denotes in the instance `values[0]`; `declared` is what its static type has."""
     program = b.program
     if isinstance(static, t.FunctionBlock):
         bodies = {id(method): method for method in _declared(program, name, static)}

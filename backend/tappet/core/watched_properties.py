@@ -11,12 +11,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from tappet.core import guarded, initial, ir, places
 from tappet.core.assign import assign
 from tappet.core.body import Body
-from tappet.core.program import Program, attribute_value, data_symbol
+from tappet.core.guard import Guard
+from tappet.core.program import Program, data_symbol
 from tappet.core.scalars import scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis.monitored import CALLED as CALLED_MARK
-from tappet.lang.analysis.monitored import SHOWN, monitoring_name
+from tappet.lang.analysis.monitored import monitoring_name
+from tappet.lang.parts import Holding
 from tappet.lang.symbols import GvlSymbol, PouSymbol, PropertySymbol, Storage, VarSymbol
 
 ASKED, FAILED, CALLED = 1, 2, 3
@@ -35,11 +36,10 @@ def watched_members(type_: t.FunctionBlock) -> Iterator[tuple[t.Member, t.Member
     derived block replaces, its own."""
     found: dict[str, tuple[t.Member, t.Member]] = {}
     for member in type_.members.values():
-        pragmas = member.decl.attributes if member.decl is not None else []
-        asking = attribute_value(pragmas, CALLED_MARK) if pragmas else None
-        shown = attribute_value(pragmas, SHOWN) if asking else None
-        if asking and shown and is_watchable(member.type):
-            found[shown.upper()] = (member, type_.members[asking.upper()])
+        monitored = member.decl.monitored if member.decl is not None else None
+        if monitored is not None and monitored.request is not None and is_watchable(member.type):
+            request = type_.members[monitored.request.upper()]
+            found[monitored.property_name.upper()] = (member, request)
     yield from found.values()
 
 
@@ -50,16 +50,12 @@ def monitors_by_call(pous: Iterable[PouSymbol]) -> bool:
     )
 
 
-def holds_watched(type_: t.Type, seen: set[int]) -> bool:
-    """Whether an object of a type has such properties inside."""
-    if isinstance(type_, t.Array):
-        return holds_watched(type_.element, seen)
-    if not isinstance(type_, t.FunctionBlock | t.Struct) or id(type_) in seen:
-        return False
-    seen.add(id(type_))
-    if isinstance(type_, t.FunctionBlock) and next(watched_members(type_), None) is not None:
-        return True
-    return any(holds_watched(m.type, seen) for m in type_.members.values() if m.section != "VAR_IN_OUT")
+def watched(program: Program) -> Holding[t.Type]:
+    """Which types have such properties inside."""
+    return program.holds(
+        "watched",
+        lambda type_: isinstance(type_, t.FunctionBlock) and next(watched_members(type_), None) is not None,
+    )
 
 
 def refresh(program: Program, programs: Sequence[PouSymbol], lists: Sequence[GvlSymbol]) -> list[ir.Stmt]:
@@ -78,17 +74,14 @@ def refresh(program: Program, programs: Sequence[PouSymbol], lists: Sequence[Gvl
 
 
 def _object(b: Body, place: ir.Place, type_: t.Type) -> None:
-    if not holds_watched(type_, set()):
+    if not watched(b.program).holds(type_):
         return
     if isinstance(type_, t.FunctionBlock):
         address = places.address_of(place)
         b.emit(ir.Evaluate(ir.Call(ir.VOID, _monitor(b.program, type_), [address])))
-    elif isinstance(type_, t.Struct):
-        for member in type_.members.values():
-            _object(b, places.at(place, member.offset), member.type)
-    elif isinstance(type_, t.Array):
-        with initial.each_element(b, place, type_.count, type_.element.size) as element:
-            _object(b, element, type_.element)
+        return
+    for inner, part, _ in initial.each_part(b, place, type_):
+        _object(b, inner, part)
 
 
 def _monitor(program: Program, type_: t.FunctionBlock) -> str:
@@ -113,9 +106,8 @@ def _monitor(program: Program, type_: t.FunctionBlock) -> str:
         b.own_data = ir.Place(ir.Self(function.self_type))
         for value, asking in watched_members(type_):
             _serve(b, pou, value, asking)
-        for member in type_.members.values():
-            if member.section != "VAR_IN_OUT":
-                _object(b, places.at(b.own_data, member.offset), member.type)
+        for inner, part, _ in initial.each_part(b, b.own_data, type_):
+            _object(b, inner, part)
         function.body = [*b.entry, *b.out]
         program.module.functions[key] = function
 
@@ -124,7 +116,8 @@ def _monitor(program: Program, type_: t.FunctionBlock) -> str:
 
 
 def _serve(b: Body, pou: PouSymbol, value: t.Member, asking: t.Member) -> None:
-    property_ = _property(pou, attribute_value(value.decl.attributes, SHOWN) or "") if value.decl else None
+    monitored = value.decl.monitored if value.decl is not None else None
+    property_ = _property(pou, monitored.property_name) if monitored is not None else None
     kept = value.decl.symbol if value.decl is not None else None
     if property_ is None or not isinstance(kept, VarSymbol):
         return
@@ -139,7 +132,7 @@ def _serve(b: Body, pou: PouSymbol, value: t.Member, asking: t.Member) -> None:
         assign(b, ":=", target, got)
         b.emit(ir.Store(state, ir.Const(ir.U8, CALLED)))
 
-    def failed(guard: guarded.Guard, fault: ir.Local) -> None:
+    def failed(guard: Guard, fault: ir.Local) -> None:
         b.emit(ir.Store(state, ir.Const(ir.U8, FAILED)))
 
     with b.block_of() as body:

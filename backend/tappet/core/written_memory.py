@@ -13,9 +13,9 @@ from tappet.core import ir
 from tappet.core.walk import visit
 
 _OTHER = ir.Local("", 0, 1)
-"""Stands for memory that is not the function's own."""
+"""Denotes memory that is not the function's own."""
 _OWN = ir.Local("", 0, 1)
-"""Stands for the space for the result."""
+"""Denotes the space for the result."""
 _THREADED = {"setjmp", "longjmp", "load_acquire", "store_release", "fetch_add", "compare_swap", "fence"}
 
 

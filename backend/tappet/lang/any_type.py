@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.symbols import Storage, TypeSymbol, VarSymbol
+from tappet.lang.symbols import TypeSymbol
+from tappet.lang.system_structures import structure
 
 CLASSES = (
     "BOOL", "BIT", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT",
@@ -30,23 +30,19 @@ _LONG_NAMES = {
     "LDATE_AND_TIME": "LDATEANDTIME",
     "LTIME_OF_DAY": "LTIMEOFDAY",
 }
-CLASS_OFFSET, VALUE_OFFSET, SIZE_OFFSET, SIZE = 0, 8, 16, 24
-"""Bytes of the members in the structure, and of the structure."""
+CLASS_OFFSET, VALUE_OFFSET, SIZE_OFFSET = 0, 8, 16
+"""Bytes of the members in the structure."""
 
 
 def _any(name: str) -> t.Struct:
-    struct = t.Struct(name, size=SIZE, align=8)
-    for member, type_, offset in (
-        ("TypeClass", TYPE_CLASS, CLASS_OFFSET),
-        ("pValue", t.Pointer(t.BYTE), VALUE_OFFSET),
-        ("diSize", t.DINT, SIZE_OFFSET),
-    ):
-        symbol = VarSymbol(member, type=type_, storage=Storage.INSTANCE, owner=name, offset=offset)
-        symbol.home = Storage.INSTANCE
-        decl = ast.VarDecl(name=member, type_ref=ast.NamedType(name=str(type_)), symbol=symbol)
-        symbol.decl = decl
-        struct.members[member.upper()] = t.Member(member, type_, offset, decl=decl)
-    return struct
+    return structure(
+        name,
+        [
+            ("TypeClass", TYPE_CLASS, "Class of the type"),
+            ("pValue", t.Pointer(t.BYTE), "Address of the value"),
+            ("diSize", t.DINT, "Size in bytes"),
+        ],
+    )
 
 
 def _is(*kinds: t.Kind) -> Callable[[t.Type], bool]:

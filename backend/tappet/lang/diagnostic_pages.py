@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tappet.lang.diagnostics import TABLE, Entry
-from tappet.lang.rules import ALL_RULES
+from tappet.lang.rules import all_rules
 from tappet.lang.sample_texts import RuleText, Sample, samples, text_of_rule
 
 _GROUPS = {
@@ -45,7 +45,7 @@ _GROUPS = {
 
 def pages() -> dict[str, str]:
     """Text of every page by file name."""
-    rules = {code: text_of_rule(rule) for rule in ALL_RULES for code in rule.CODES}
+    rules = {code: text_of_rule(rule) for rule in all_rules() for code in rule.CODES}
     found = samples()
     made = {f"{code}.md": _page(entry, rules.get(code), found.get(code, ())) for code, entry in TABLE.items()}
     made["README.md"] = _index()

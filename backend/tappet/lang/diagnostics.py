@@ -11,10 +11,10 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from importlib.resources import files
+from pathlib import Path
 from typing import Literal
 
-from tappet.lang.source import Span
+from tappet.lang.source import Source, Span
 
 Severity = Literal["error", "warning", "info"]
 _SEVERITIES: dict[str, Severity] = {"error": "error", "warning": "warning", "info": "info"}
@@ -55,6 +55,8 @@ class Diagnostic:
     related: tuple[Related, ...] = ()
     facts: Mapping[str, str] = field(default_factory=dict, compare=False)
     """What the message is about: the fields of the report, such as `name`, `source`, `target`."""
+    element: str | None = None
+    """Id of the drawn element that the message is at, where `with_elements` has found one."""
 
     @property
     def alias(self) -> str:
@@ -69,7 +71,8 @@ class Diagnostic:
     def __str__(self) -> str:
         """`uri:line:column: severity code: message advice` with 1-based line and column."""
         place = f"{self.uri}:{self.span.line + 1}:{self.span.column + 1}"
-        text = f"{place}: {self.severity} {self.code}: {self.message}"
+        at = "" if self.element is None else f"Element {self.element}: "
+        text = f"{place}: {self.severity} {self.code}: {at}{self.message}"
         return f"{text}. {self.advice}" if self.advice else text
 
     def record(self) -> dict[str, object]:
@@ -80,6 +83,7 @@ class Diagnostic:
             "column": self.span.column + 1,
             "end_line": self.span.end_line + 1,
             "end_column": self.span.end_column + 1,
+            "element": self.element,
             "severity": self.severity,
             "code": self.code,
             "message": self.message,
@@ -88,7 +92,7 @@ class Diagnostic:
 
 
 def _read_table() -> dict[str, Entry]:
-    text = files("tappet.lang").joinpath("diagnostics.csv").read_text(encoding="utf-8")
+    text = Path(__file__).with_name("diagnostics.csv").read_text(encoding="utf-8")
     table: dict[str, Entry] = {}
     for row in csv.DictReader(text.splitlines()):
         code = row["code"]
@@ -108,6 +112,14 @@ def _read_table() -> dict[str, Entry]:
 def with_severity(found: Sequence[Diagnostic], errors: frozenset[str]) -> list[Diagnostic]:
     """The messages, those whose code is in `errors` as errors."""
     return [replace(d, severity="error") if d.code in errors else d for d in found]
+
+
+def with_elements(found: Sequence[Diagnostic], sources: Iterable[Source]) -> list[Diagnostic]:
+    """The messages, those about drawn bodies with the elements that they are at."""
+    maps = {source.uri: source.map for source in sources if source.map is not None and source.bodies}
+    if not maps:
+        return list(found)
+    return [replace(d, element=maps[d.uri].place(d.span).element) if d.uri in maps else d for d in found]
 
 
 TABLE: dict[str, Entry] = _read_table()

@@ -1,4 +1,4 @@
-"""Text to tokens, by one compiled expression; comments and pragmas are set aside as trivia.
+"""Text to tokens, by the expression of `iec.tokens`; comments and pragmas are set aside as trivia.
 
 `lex` gives the parallel lists the parser reads, `tokenize` one list of everything for tools such as the
 highlighter and the formatter. Both accept any text: what is no token is reported and left out.
@@ -10,66 +10,89 @@ import re
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
+from tappet.iec import tokens
+from tappet.iec.literals import quoted_is_closed
+from tappet.iec.tokens import TOKEN, TRIVIA, WORD, extent, kind_of
+from tappet.iec.trivia import block_comment_end
+from tappet.iec.words import KEYWORDS, OPERATORS
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.source import Source, Span
 
 ID: Final = "id"
 INT: Final = "int"  # plain decimal digits: a number, or the bit of `x.3`
-NUMBER: Final = "number"  # every other numeric, time, date or typed literal
-STRING: Final = "string"
-ADDRESS: Final = "address"
 END: Final = "end"  # after the last token
-COMMENT: Final = "comment"
-PRAGMA: Final = "pragma"
+NUMBER, STRING, ADDRESS = tokens.NUMBER, tokens.STRING, tokens.ADDRESS
+COMMENT, PRAGMA = tokens.COMMENT, tokens.PRAGMA
 
-_WORDS = """
-    PROGRAM END_PROGRAM FUNCTION END_FUNCTION FUNCTION_BLOCK END_FUNCTION_BLOCK METHOD END_METHOD
-    ACTION END_ACTION TRANSITION END_TRANSITION PROPERTY END_PROPERTY END_GET END_SET INTERFACE END_INTERFACE
-    TYPE END_TYPE STRUCT END_STRUCT UNION END_UNION
-    VAR VAR_INPUT VAR_OUTPUT VAR_IN_OUT VAR_GLOBAL VAR_TEMP VAR_STAT VAR_INST VAR_EXTERNAL VAR_CONFIG
-    VAR_ACCESS VAR_GENERIC END_VAR CONSTANT RETAIN NON_RETAIN PERSISTENT
-    AT ARRAY OF POINTER REFERENCE TO
-    IF THEN ELSIF ELSE END_IF CASE END_CASE FOR DO END_FOR WHILE END_WHILE REPEAT UNTIL END_REPEAT
-    EXIT CONTINUE RETURN JMP __TRY __CATCH __FINALLY __ENDTRY
-    AND OR XOR NOT MOD AND_THEN OR_ELSE TRUE FALSE NULL THIS SUPER PARAMS
-"""
-KEYWORDS: Final = frozenset(_WORDS.split())
-"""Words with a fixed meaning in declarations and ST. Others (GET, PUBLIC, BY) count by their place only."""
-
-_TOKEN = re.compile(
-    r"""[^\S\r\n]*+(
-      [^\W\d]\w*+(?!\#)
-    | [;,)\[\]^+&-] | := | \(\*(?:[^*(]++|\*(?!\))|\((?!\*))*+\*\) | \(\*?+
-    | \r?\n | \r
-    | \d\w*+(?:\#\w*+|(?:\.\d\w*+)?+(?:(?<=\d[eE])[+-]\d\w*+)?+)
-    | \.\.?+ | :
-    | //[^\r\n]*+ | /\*[^*]*+(?:\*(?!/)[^*]*+)*+(?:\*/)?+ | /
-    | '(?:[^'$\r\n]|\$[^\r\n])*+\$?+'?+ | "(?:[^"$\r\n]|\$[^\r\n])*+\$?+"?+
-    | => | = | <= | <> | < | >= | > | \*\*?+
-    | \{(?:[^{}'"\r\n]|'[^'\r\n]*+'|"[^"\r\n]*+")*+\}
-    | \{\s*+(?i:attribute)\b(?:[^{}'"\r\n]|[\r\n]\s*+(?=['":}])|'[^']*+'|"[^"]*+")*+\}
-    | \{\s*+(?i:attribute)\s*+'[^'\r\n]*+'\s*+:=\s*+'[^{}]*+(?<=['\s])\} | \{[^}\r\n]*+\}?+
-    | (?i:L?(?:D|DT|DATE|TOD|TIME_OF_DAY|DATE_AND_TIME))\#\d\w*+(?:[-:]\d\w*+)*+(?:\.\d\w*+)?+
-    | [^\W\d]\w*+\#(?:
-          [+-]?+\d\w*+(?:\#\w*+|(?:\.\d\w*+)?+(?:(?<=\d[eE])[+-]\d\w*+)?+)
-        | '(?:[^'$\r\n]|\$[^\r\n])*+\$?+'?+ | "(?:[^"$\r\n]|\$[^\r\n])*+\$?+"?+
-        | \w*+ )
-    | %[A-Za-z]*+(?:\*|\d++(?:\.\d++)*+)?+
-    | \S
-    )""",
-    re.VERBOSE,
+_WORDS_BY_PLACE: Final = ("ACTION", "TRANSITION", "PARAMS")
+"""Keywords that are names like any other where they begin nothing: variables of other systems have them."""
+_BEFORE_OPERAND: Final = frozenset(
+    [
+        ".",
+        ":=",
+        "?=",
+        ",",
+        "(",
+        "[",
+        "=>",
+        "=",
+        "<>",
+        "<",
+        ">",
+        "<=",
+        ">=",
+        "+",
+        "-",
+        "*",
+        "/",
+        "**",
+        "&",
+        "..",
+        "AND",
+        "OR",
+        "XOR",
+        "NOT",
+        "MOD",
+        "AND_THEN",
+        "OR_ELSE",
+        "OF",
+        "IF",
+        "ELSIF",
+        "WHILE",
+        "UNTIL",
+        "CASE",
+        "FOR",
+        "TO",
+    ]
 )
-_COMMENT_MARK = re.compile(r"\(\*|\*\)")
-_MANY_LINES = {
-    quote: re.compile(rf"({quote}(?:\$[^\r\n]|[^{quote}$]){{0,32767}}{quote})[ \t]*(?=[;,)\]+=<>:]|\r?\n|$)")
-    for quote in "'\""
-}
+"""Behind these no object begins."""
+_BEHIND_OPERAND: Final = frozenset(
+    [
+        "AND",
+        "OR",
+        "XOR",
+        "MOD",
+        "AND_THEN",
+        "OR_ELSE",
+        "THEN",
+        "DO",
+        "OF",
+        "TO",
+        "AT",
+        "END_IF",
+        "END_CASE",
+        "END_FOR",
+        "END_WHILE",
+        "END_REPEAT",
+    ]
+)
+"""Keywords that follow an operand."""
+
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 _NEWLINE: Final = "newline"
 _SPECIAL: Final = "special"
-_OPERATORS = "; , ( ) [ ] ^ + - & := .. . : / => = <= <> < >= > * **"
-_BASE_KINDS: dict[str, str] = {op: op for op in _OPERATORS.split()} | {word: word for word in KEYWORDS}
+_BASE_KINDS: dict[str, str] = {op: op for op in OPERATORS} | {word: word for word in KEYWORDS}
 _BASE_KINDS |= {"\n": _NEWLINE, "\r\n": _NEWLINE, "\r": _NEWLINE, "(*": _SPECIAL}
 
 _FULL_WIDTH = {chr(0xFF01 + n): chr(0x21 + n) for n in range(94)} | {
@@ -136,7 +159,7 @@ def lex(text: str, uri: str) -> Lexed:
     text += " \n" if text.endswith("\r") else "\n"  # so that blanks at the end belong to a match
     size = len(text)
     while position < size:
-        for match in _TOKEN.finditer(text, position):
+        for match in TOKEN.finditer(text, position):
             piece = match[1]
             kind = lookup(piece)
             if kind is _NEWLINE:
@@ -167,45 +190,55 @@ def lex(text: str, uri: str) -> Lexed:
         line_start = max(text.rfind("\n", 0, last), text.rfind("\r", 0, last)) + 1
     lines.append(line)
     columns.append(last - line_start)
+    for word in _WORDS_BY_PLACE:
+        if word in kinds:
+            _free_names(kinds, texts, word)
     return out
 
 
-def _classify(piece: str) -> str:
-    first = piece[0]
-    if first.isdigit():
-        return INT if piece.isdecimal() and piece.isascii() else NUMBER
-    if first == "_" or first.isalnum():
-        if "#" in piece:
-            return NUMBER
-        upper = piece.upper()
-        if upper in KEYWORDS:
-            return upper if piece.isascii() else _SPECIAL
-        return ID if piece.isascii() else _SPECIAL
-    if first in "'\"":
-        return STRING if len(piece) > 1 and _closed(piece) else _SPECIAL
-    if first == "%" and len(piece) > 1:
-        return ADDRESS
-    return _SPECIAL
+def _free_names(kinds: list[str], texts: list[str], word: str) -> None:
+    """Makes identifiers of the places of a keyword where it begins nothing."""
+    for i, kind in enumerate(kinds):
+        if kind == word and not _begins_construct(kinds, texts, i):
+            kinds[i] = ID
 
 
-def _closed(string: str) -> bool:
-    """Whether the last quote of a string closes it, rather than being escaped by an odd number of `$`."""
-    if string[-1] != string[0]:
+def _begins_construct(kinds: list[str], texts: list[str], i: int) -> bool:
+    following = kinds[i + 1]
+    if kinds[i] == "PARAMS":
+        return following == "OF" and kinds[i - 1] != "CASE"
+    if i and kinds[i - 1] in _BEFORE_OPERAND:
         return False
-    body = string[1:-1]
-    return (len(body) - len(body.rstrip("$"))) % 2 == 0
+    if following == "(":  # TRANSITION (PRIORITY := 1) FROM
+        return kinds[i] == "TRANSITION" and texts[i + 2].upper() == "PRIORITY"
+    if following is ID:
+        return not (kinds[i + 2] == "=" and texts[i + 1].upper() in ("S", "R", "REF"))
+    return following in KEYWORDS and following not in _BEHIND_OPERAND
+
+
+def _classify(piece: str) -> str:
+    kind = kind_of(piece)
+    if kind is WORD:
+        upper = piece.upper()
+        return _SPECIAL if not piece.isascii() else upper if upper in KEYWORDS else ID
+    if kind is NUMBER:
+        return INT if piece.isdecimal() and piece.isascii() else NUMBER
+    if kind is STRING:
+        return STRING if quoted_is_closed(piece) else _SPECIAL
+    return ADDRESS if kind is ADDRESS else _SPECIAL
 
 
 def _special(
     out: Lexed, text: str, uri: str, start: int, end: int, line: int, line_start: int
 ) -> tuple[int, int, int]:
-    """Take a comment, a pragma or a faulty piece; returns where to go on, and the line there."""
+    """Take a comment, a pragma or a faulty piece; returns where to continue, and the line there."""
     piece = text[start:end]
     column = start - line_start
     index = len(out.kinds)
-    if piece == "(*":
-        end = _nested_comment_end(text, end)
-    if piece.startswith(("(*", "//", "/*", "{")):
+    kind = kind_of(piece)
+    closed = piece != "(*" or block_comment_end(text, start) is not None
+    end = extent(text, piece, start)
+    if kind in TRIVIA:
         piece = text[start:end].removesuffix("\n") if end == len(text) else text[start:end]
         end_line, end_start = line, line_start
         for mark in _LINE_END.finditer(piece):
@@ -218,45 +251,30 @@ def _special(
                 out.diagnostics.append(report("E0003", uri, span))
             return end, end_line, end_start
         out.trivia.setdefault(index, []).append(Trivia(COMMENT, piece, span))
-        closed = piece.startswith("//") or (
-            len(piece) > 3 and piece.endswith("*)" if piece[0] == "(" else "*/")
-        )
-        if not closed or (piece[0] == "(" and _open_comments(piece)):
+        if not closed or (piece.startswith("/*") and not (len(piece) > 3 and piece.endswith("*/"))):
             out.unclosed_comment = True
             place = Span(line, column, line, column + 2)
             mark_text = "*)" if piece[0] == "(" else "*/"
             out.diagnostics.append(report("E0002", uri, place, mark=mark_text))
         return end, end_line, end_start
     span = Span(line, column, line, column + len(piece))
-    if piece[0] in "'\"":
-        whole = _string_over_lines(text, start)
-        if whole:
+    if kind is STRING:
+        whole = text[start:end]
+        if whole != piece:
             _append(out, STRING, whole, line, column)
             last_break = max(whole.rfind("\n"), whole.rfind("\r"))
             breaks = len(_LINE_END.findall(whole))
-            return start + len(whole), line + breaks, start + last_break + 1
+            return end, line + breaks, start + last_break + 1
         out.diagnostics.append(report("E0004", uri, span, quote=piece[0]))
         _append(out, STRING, piece.rstrip("$") + piece[0], line, column)
         out.damaged.add(index + 1)
-    elif piece[0] == "_" or piece[0].isalnum():
+    elif kind is WORD:
         wrong = next(char for char in piece if not char.isascii())
         out.diagnostics.append(report("E0005", uri, span, name=piece, char=wrong))
         _append(out, ID, piece, line, column)
     else:
         _unexpected(out, uri, span, piece)
     return end, line, line_start
-
-
-def _string_over_lines(text: str, start: int) -> str:
-    """The string that begins at `start` and ends on a later line, '' where a quote is missing rather.
-
-    A quote is taken as the end when what follows can follow a string, and the first line does not end like a
-    statement: without its end, a string would go on to the begin of the next one.
-    """
-    match = _MANY_LINES[text[start]].match(text, start)
-    if match is None or match[0].partition("\n")[0].rstrip().endswith(";"):
-        return ""
-    return match[1]
 
 
 def _unexpected(out: Lexed, uri: str, span: Span, char: str) -> None:
@@ -284,23 +302,6 @@ def _append(out: Lexed, kind: str, text: str, line: int, column: int) -> None:
     out.texts.append(text)
     out.lines.append(line)
     out.columns.append(column)
-
-
-def _nested_comment_end(text: str, position: int) -> int:
-    """End of the comment whose opening mark ends at `position`; the end of the text if it is not closed."""
-    depth = 1
-    for mark in _COMMENT_MARK.finditer(text, position):
-        depth += 1 if mark[0] == "(*" else -1
-        if depth == 0:
-            return mark.end()
-    return len(text)
-
-
-def _open_comments(piece: str) -> bool:
-    depth = 0
-    for mark in _COMMENT_MARK.finditer(piece):
-        depth += 1 if mark[0] == "(*" else -1
-    return depth > 0
 
 
 def tokenize(source: Source) -> list[Token]:

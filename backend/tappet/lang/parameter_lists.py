@@ -60,13 +60,13 @@ def _take(
     faults = lexed.diagnostics + parser.diagnostics
     if faults:  # the value of the library stays, so that nothing else is reported
         type_ = text_at(source, variable.type_ref.span)
-        return [told_at_reference("E0904", source, declaration.name, item, type_, faults[0].message)]
+        return [reported_at_reference("E0904", source, declaration.name, item, type_, faults[0].message)]
     variable.given, variable.own_initial = item, variable.initial
     variable.initial, variable.initial_ref = value, False
     return []
 
 
-def told_at_reference(
+def reported_at_reference(
     code: str, source: Source, list_name: str, item: GivenValue, type_: object, reason: str
 ) -> Diagnostic:
     """A message about the value of a parameter, at the reference that gives it."""

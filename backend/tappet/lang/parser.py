@@ -3,7 +3,8 @@
 The parts build on each other: `parser_core` (tokens, errors), `parser_expressions`, `parser_recovery`,
 `parser_statements`, `parser_types`, `parser_variables`, `parser_type_blocks`, and `parser_declarations` for
 whole objects.
-A body in another textual language is one more reader of `Parser`, chosen where `_members` reads statements.
+A body is read by the reader of its language (`languages`), and charts and drawings are lowered to statements
+behind the parser (`lowering`).
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 from tappet.lang import ast
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed, lex
+from tappet.lang.lowering import lower_bodies
 from tappet.lang.parameter_lists import take_given_values
 from tappet.lang.parser_declarations import Parser
 from tappet.lang.source import Source, Span
@@ -41,6 +43,9 @@ def parse_tokens(source: Source, lexed: Lexed, inactive: tuple[Span, ...] = ()) 
     parser = Parser(source, lexed)
     unit = parser.unit()
     found = lexed.diagnostics + parser.diagnostics
+    if parser.graphs:
+        unit.graphs = frozenset(pou.graph.language for pou in parser.graphs if pou.graph is not None)
+        found += lower_bodies(source, parser.graphs)
     found.sort(key=_place)
     return ParseResult(unit, found + take_given_values(unit), inactive)
 

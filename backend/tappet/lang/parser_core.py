@@ -1,6 +1,6 @@
 """Token access, errors and recovery shared by all parts of the parser.
 
-The parser never raises. A missing piece is reported once and stood for by an `ErrorExpr`, an empty name
+The parser never raises. A missing piece is reported once and represented by an `ErrorExpr`, an empty name
 or nothing; `failed_at` suppresses every further message at the same token, and a statement that has
 reported anything is left at its `;` or at the next line that begins a statement.
 """
@@ -11,6 +11,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Final
 
+from tappet.iec.trivia import attribute_of
+from tappet.iec.words import ENDS, OBJECT_HEADS, SECTIONS, STATEMENT_ENDS
 from tappet.lang import ast
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.lexer import COMMENT, END, ID, PRAGMA, STRING, Lexed, Trivia
@@ -18,40 +20,11 @@ from tappet.lang.source import Source, Span
 
 make_span: Callable[[tuple[int, int, int, int]], Span] = partial(tuple.__new__, Span)
 
-_SECTION_NAMES = "INPUT OUTPUT IN_OUT GLOBAL TEMP STAT INST EXTERNAL CONFIG ACCESS GENERIC"
-SECTIONS: Final = frozenset(["VAR", *(f"VAR_{name}" for name in _SECTION_NAMES.split())])
-"""Keywords that begin a block of variables (LDEC-02)."""
-ENDS: Final = {
-    "PROGRAM": "END_PROGRAM",
-    "FUNCTION": "END_FUNCTION",
-    "FUNCTION_BLOCK": "END_FUNCTION_BLOCK",
-    "METHOD": "END_METHOD",
-    "ACTION": "END_ACTION",
-    "TRANSITION": "END_TRANSITION",
-    "PROPERTY": "END_PROPERTY",
-    "INTERFACE": "END_INTERFACE",
-    "TYPE": "END_TYPE",
-    "STRUCT": "END_STRUCT",
-    "UNION": "END_UNION",
-    "GET": "END_GET",
-    "SET": "END_SET",
-    "IF": "END_IF",
-    "CASE": "END_CASE",
-    "FOR": "END_FOR",
-    "WHILE": "END_WHILE",
-    "REPEAT": "END_REPEAT",
-    "__TRY": "__ENDTRY",
-}
-"""Opening keyword to the keyword that closes it."""
-CHILD_HEADS: Final = frozenset(["METHOD", "ACTION", "TRANSITION", "PROPERTY"])
-POU_HEADS: Final = frozenset(["PROGRAM", "FUNCTION", "FUNCTION_BLOCK"])
-OBJECT_HEADS: Final = CHILD_HEADS | POU_HEADS | {"INTERFACE", "TYPE"}
-"""Keywords that begin an object; they also end a statement list whose own end is missing."""
 BODY_END: Final = frozenset(ENDS.values()) | OBJECT_HEADS | SECTIONS | {
     END, "END_VAR", "ELSE", "ELSIF", "UNTIL", "__CATCH", "__FINALLY", "STRUCT", "UNION",
 }  # fmt: skip
 """Tokens at which a list of statements stops."""
-COMPOUND: Final = frozenset(["IF", "CASE", "FOR", "WHILE", "REPEAT", "__TRY"])
+COMPOUND: Final = frozenset(STATEMENT_ENDS)
 STATEMENT_KEYWORDS: Final = COMPOUND | {"EXIT", "CONTINUE", "RETURN", "JMP"}
 _STATEMENT_SECOND: Final = frozenset([":=", ".", "(", "[", "^", ":"])
 
@@ -71,6 +44,7 @@ class Core:
         "depth",
         "diagnostics",
         "failed_at",
+        "graphs",
         "i",
         "kinds",
         "label_scan_end",
@@ -97,6 +71,8 @@ class Core:
         self.failed_at = -1
         self.label_scan_end = 0
         """Up to here no CASE label was found; keeps the search for labels linear."""
+        self.graphs: list[ast.Pou] = []
+        """POUs whose body is no list of statements yet."""
         self.open: list[Opener] = []
         """The constructs begun and not yet closed, outermost first."""
         self.orphan_ends = 0
@@ -340,9 +316,7 @@ def pragma_of(item: Trivia) -> ast.Pragma:
     """The node of a pragma, with name and value of an attribute pragma."""
     text = item.text[1:].removesuffix("}").strip()
     pragma = ast.Pragma(span=item.span, text=text)
-    if text[:9].lower() == "attribute":
-        name, mark, value = text[9:].partition(":=")
-        pragma.attribute = name.strip().strip("'\"")
-        if mark:
-            pragma.value = value.strip().strip("'\"")
+    attribute = attribute_of(item.text)
+    if attribute is not None:
+        pragma.attribute, pragma.value = attribute
     return pragma

@@ -5,25 +5,22 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 from typing import Final
 
+from tappet.iec.words import CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS
 from tappet.lang import ast
-from tappet.lang.diagnostics import report
-from tappet.lang.il.reader import read_body
-from tappet.lang.il.recognise import is_instruction_list
+from tappet.lang.languages import reader_of, text_readers
+from tappet.lang.languages.drawn import DrawnReader
+from tappet.lang.languages.reader import TextReader
 from tappet.lang.lexer import END, ID
-from tappet.lang.parser_core import BODY_END, CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS, Opener
+from tappet.lang.parser_core import BODY_END, Opener
 from tappet.lang.parser_type_blocks import TypeBlockParser
 from tappet.lang.parser_variables import ACCESS
-from tappet.lang.sfc.chart import Chart
-from tappet.lang.sfc.reader import begins_step, begins_transition, read_step, read_transition
-from tappet.lang.sfc.translate import translate
-from tappet.lang.source import NOWHERE, Span, split_lines
+from tappet.lang.source import NOWHERE, Span
 
 _MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
 _GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
 _BEHIND_VARIABLE: Final = frozenset([":=", "(", ".", "[", "^"])
 """What follows a name that begins a statement."""
 _HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
-_CHARTED: Final = _HOLDERS | {"ACTION", "METHOD"}
 _TYPED: Final = frozenset(["FUNCTION", "METHOD"])
 
 
@@ -156,6 +153,8 @@ class Parser(TypeBlockParser):
             modifiers=modifiers,
             owner=owner if isinstance(owner, ast.Pou) else None,
         )
+        while self.kinds[self.i] == "VAR_GENERIC":  # CODESYS writes it before EXTENDS
+            self._section(pou)
         self._heritage(pou)
         if kind in _TYPED and self.kinds[self.i] == ":":
             self.i += 1
@@ -233,34 +232,21 @@ class Parser(TypeBlockParser):
         """Variables, statements and children up to the end of `pou`, in any order."""
         kinds = self.kinds
         end = ENDS[opener[0]]
-        begun = False  # whether a statement has been read
-        chart = Chart()
         while True:
             kind = kinds[self.i]
-            if kind is ID and not pou.body and begins_step(self):
-                if pou.kind not in _CHARTED and not chart.steps:
-                    hint = (
-                        "Write the chart in a program, a function block, an action, a method or a property."
-                    )
-                    self.error("E0113", what=f"A chart in a {pou.kind}", hint=hint)
-                read_step(self, chart)
-                continue
-            if kind == "TRANSITION" and chart.steps and begins_transition(self):
-                read_transition(self, chart)
-                continue
-            if kind == end or kind is END:
+            if kind not in BODY_END or (kind == "TRANSITION" and self._goes_on(pou)):
+                if not self._part_of_body(pou, kind):
+                    break
+            elif kind == end or kind is END:
+                if self.source.bodies and self._drawn(pou, opener):
+                    break
                 if self.i in self.trivia and not pou.body:
                     pou.body += self.statements()  # pragmas alone
                 break
-            if kind in SECTIONS:
-                if begun:
+            elif kind in SECTIONS:
+                if any(not isinstance(item, ast.PragmaStmt) for item in pou.body):
                     self.error("E0112", section=kind)
-                block = self.variable_block()
-                if block.generic and pou.kind != "FUNCTION_BLOCK":
-                    what = f"a {pou.kind.lower()}"
-                    hint = "Write a VAR CONSTANT; blocks have generic constants."
-                    self.error("E0405", block.span, section=kind, what=what, hint=hint)
-                pou.blocks.append(block)
+                self._section(pou)
             elif kind in CHILD_HEADS and pou.kind in _HOLDERS:
                 _adopt(pou, self.property(pou) if kind == "PROPERTY" else self.pou(kind, pou))
             elif kind in OBJECT_HEADS:
@@ -271,37 +257,54 @@ class Parser(TypeBlockParser):
                 self.i += 1
                 self.variables(ENDS[kind])
                 self._pass(ENDS[kind])
-            else:
-                at = self.i
-                if not begun and self._reads_rows():
-                    pou.language = "IL"
-                body = read_body(self) if pou.language == "IL" else self.statements()
-                pou.body += body
-                begun = begun or any(not isinstance(item, ast.PragmaStmt) for item in body)
-                if self.i == at and not self._foreign_end(kind):
-                    break
-        if chart.steps and pou.kind in _CHARTED:
-            self._chart(pou, chart)
+            elif not self._part_of_body(pou, kind):
+                break
+        if pou.graph is not None:
+            self.graphs.append(pou)
 
-    def _chart(self, pou: ast.Pou, chart: Chart) -> None:
-        """Give a POU the variables and statements of its chart."""
-        lines = split_lines(self.source.text)
+    def _part_of_body(self, pou: ast.Pou, kind: str) -> bool:
+        """Let the reader of the language take what stands here; whether something was taken."""
+        at = self.i
+        self._reader(pou).read(self, pou)
+        return self.i != at or self._foreign_end(kind)
 
-        def report_at(code: str, span: Span, **fields: object) -> None:
-            self.diagnostics.append(report(code, self.source.uri, span, **fields))
+    def _section(self, pou: ast.Pou) -> None:
+        """One block of variables."""
+        section = self.kinds[self.i]
+        block = self.variable_block()
+        if block.generic and pou.kind != "FUNCTION_BLOCK":
+            what = f"a {pou.kind.lower()}"
+            hint = "Write a VAR CONSTANT; blocks have generic constants."
+            self.error("E0405", block.span, section=section, what=what, hint=hint)
+        pou.blocks.append(block)
 
-        def text_of(span: Span) -> str:
-            last = span.end_column if span.end_line == span.line else None
-            return lines[span.line][span.column : last]
+    def _drawn(self, pou: ast.Pou, opener: Opener) -> bool:
+        """Let the body be read that is drawn between the head and the end that stands here."""
+        for part in self.source.bodies:
+            if part.drawn is not None and opener[1] < part.line <= self.lines[self.i]:
+                reader = reader_of(part.language)
+                assert isinstance(reader, DrawnReader)
+                self.diagnostics += reader.read_drawn(self.source, part, pou)
+                return True
+        return False
 
-        blocks, pou.body = translate(pou, chart, report_at, text_of)
-        pou.blocks += blocks
-        pou.language = "SFC"
+    def _goes_on(self, pou: ast.Pou) -> bool:
+        """Whether the graph of a body continues with what could be an object of its own."""
+        if pou.graph is None:
+            return False
+        reader = reader_of(pou.graph.language)
+        return isinstance(reader, TextReader) and reader.begins(self, pou)
 
-    def _reads_rows(self) -> bool:
-        """Whether the body that begins here is written in IL."""
-        language = self.source.language
-        return is_instruction_list(self) if language is None else language == "IL"
+    def _reader(self, pou: ast.Pou) -> TextReader:
+        """The reader of the body that begins or continues here."""
+        line = self.lines[self.i]
+        for part in reversed(self.source.bodies):
+            if part.line <= line:
+                named = reader_of(part.language) if part.language else None
+                if isinstance(named, TextReader):
+                    return named
+                break
+        return next(reader for reader in text_readers() if reader.begins(self, pou))
 
     def _pass(self, kind: str) -> None:
         if self.kinds[self.i] == kind:

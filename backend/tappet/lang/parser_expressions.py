@@ -6,7 +6,8 @@ from abc import ABC, abstractmethod
 from dataclasses import fields
 from typing import Final
 
-from tappet.lang import ast, literals
+from tappet.iec import literals
+from tappet.lang import ast
 from tappet.lang.diagnostics import report
 from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, STRING
 from tappet.lang.parser_core import BODY_END, MAX_NESTING, MAX_TREE_DEPTH, Core, make_span
@@ -137,6 +138,11 @@ class ExpressionParser(Core, ABC):
         """Signs and NOT, then `**`, which binds stronger (LST-04 level 3)."""
         start = self.i
         kind = self.kinds[start]
+        if kind == "NOT" and self._named_operand(start + 1):
+            self.i = start + 1
+            callee = ast.Name(span=self.span_at(start), name=kind)
+            args = self.arguments(of_call=True)
+            return ast.Call(span=self.span_from(start), callee=callee, args=args)
         if kind == "-" or kind == "NOT" or kind == "+":
             if self.depth >= MAX_NESTING:
                 return self.too_deep()
@@ -151,6 +157,16 @@ class ExpressionParser(Core, ABC):
             right = self.unary() if self.kinds[self.i] in ("-", "+", "NOT") else self.operand()
             left = ast.Binary(span=self.span_from(start), op="**", left=left, right=right)
         return left
+
+    def _named_operand(self, i: int) -> bool:
+        """Whether `(IN := x)` stands at token `i`, as IEC 61131-3 names the operand of an operator."""
+        kinds, texts = self.kinds, self.texts
+        return (
+            kinds[i] == "("
+            and kinds[i + 1] is ID
+            and kinds[i + 2] == ":="
+            and (texts[i + 1].upper() in ("IN", "EN"))
+        )
 
     def operand(self) -> ast.Expr:
         """A literal, a variable with its members and indices, a call, or an expression in parentheses."""
@@ -244,8 +260,6 @@ class ExpressionParser(Core, ABC):
             return ast.This(span=self.span_at(start))
         if kind == "SUPER":
             return ast.Super(span=self.span_at(start))
-        if kind == "NULL":
-            return ast.Literal(span=self.span_at(start), text=self.texts[start], kind="null")
         if kind in _CALLABLE_OPERATORS and self.kinds[self.i] == "(":
             return ast.Name(span=self.span_at(start), name=kind)
         self.i = start
@@ -373,7 +387,7 @@ class ExpressionParser(Core, ABC):
         return kind in (ID, INT, NUMBER, STRING) and self.lines[i] == self.lines[i - 1]
 
     def _closes_soon(self, i: int) -> bool:
-        """Whether the arguments go on at token `i`: a `)` or `,` comes before the statement ends."""
+        """Whether the arguments continue at token `i`: a `)` or `,` comes before the statement ends."""
         kinds = self.kinds
         for at in range(i, min(i + 40, len(kinds))):
             kind = kinds[at]
@@ -463,7 +477,7 @@ class ExpressionParser(Core, ABC):
 
     def initial_value_of(self, type_ref: ast.TypeRef) -> ast.Expr:
         """The initial value of a variable. CoDeSys 2.3 writes arrays without brackets: `1, 2, 4(0)`; only the
-        analysis knows whether a name stands for an array."""
+        analysis knows whether a name denotes an array."""
         named = isinstance(type_ref, ast.NamedType) and type_ref.name.upper() not in ELEMENTARY
         if not named and not isinstance(type_ref, ast.ArrayType):
             return self.initial_value()

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Final
 
+from tappet.iec.words import ENDS
 from tappet.lang import ast
 from tappet.lang.lexer import END, ID
-from tappet.lang.parser_core import BODY_END, COMPOUND, ENDS, MAX_NESTING, STATEMENT_KEYWORDS
+from tappet.lang.parser_core import BODY_END, COMPOUND, MAX_NESTING, STATEMENT_KEYWORDS
 from tappet.lang.parser_expressions import ExpressionParser
 
 _OPENED_BY: Final = {end: begin for begin, end in ENDS.items()}

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
+from tappet.iec.words import OBJECT_HEADS, SECTIONS
 from tappet.lang import ast
 from tappet.lang.lexer import ID, INT, NUMBER, STRING
-from tappet.lang.parser_core import (
-    BODY_END,
-    MAX_NESTING,
-    OBJECT_HEADS,
-    SECTIONS,
-)
+from tappet.lang.parser_core import BODY_END, MAX_NESTING
 from tappet.lang.parser_recovery import StatementRecovery
 
 _LABEL_PARTS: Final = frozenset(
@@ -73,6 +69,8 @@ class StatementParser(StatementRecovery):
                 return ast.Assign(span=self.span_from(start), op=operator, target=target, value=value)
             result: ast.Stmt = ast.Assign(span=self.span_from(start), op=operator, target=target, value=value)
         else:
+            if kinds[self.i] == "?=":
+                target = self._attempt(start, target)
             if isinstance(target, ast.Call):
                 result = ast.CallStmt(span=target.span, call=target)
             elif self.i == start:
@@ -82,6 +80,14 @@ class StatementParser(StatementRecovery):
         self.end_of_statement(messages_before)
         result.span = self.span_from(start)
         return result
+
+    def _attempt(self, start: int, target: ast.Expr) -> ast.Call:
+        """`itf ?= value`, the assignment attempt of IEC 61131-3: what __QUERYINTERFACE(value, itf) does."""
+        callee = ast.Name(span=self.span_at(self.i), name="__QUERYINTERFACE")
+        self.i += 1
+        value = self.expression()
+        args = [ast.Argument(span=e.span, name=None, value=e) for e in (value, target)]
+        return ast.Call(span=self.span_from(start), callee=callee, args=args)
 
     def labelled(self, start: int) -> ast.Stmt:
         """`label: statement`; the label of nothing is put on an empty statement."""

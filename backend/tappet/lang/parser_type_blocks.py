@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Final
 
+from tappet.iec.words import ENDS, OBJECT_HEADS, SECTIONS
 from tappet.lang import ast
 from tappet.lang.lexer import END, ID
-from tappet.lang.parser_core import ENDS, OBJECT_HEADS, SECTIONS
 from tappet.lang.parser_variables import VariableParser
 from tappet.lang.source import NOWHERE, Span
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from typing import Final
 
+from tappet.iec.words import ENDS
 from tappet.lang import ast
 from tappet.lang.lexer import END, ID
-from tappet.lang.parser_core import ENDS, MAX_NESTING
+from tappet.lang.parser_core import MAX_NESTING
 from tappet.lang.parser_statements import StatementParser
 
 _STRONGER_THAN_COMPARISON = 5
 """Precedence of `<` and `>`, which end a value of a generic constant; inside parentheses they compare."""
+_BEGIN_TYPE: Final = frozenset(["ARRAY", "POINTER", "REFERENCE", "STRUCT", "UNION"])
+"""Keywords that begin a type."""
 
 
 class TypeParser(StatementParser):
@@ -67,6 +71,9 @@ class TypeParser(StatementParser):
             return self._string_type(start, upper == "WSTRING")
         self.i = start + 1
         name = text
+        if upper == "REF_TO" and (kinds[self.i] is ID or kinds[self.i] in _BEGIN_TYPE):
+            base = self.type_reference()
+            return ast.PointerType(span=self.span_from(start), base=base, ref_to=True)
         while kinds[self.i] == ".":
             self.i += 1
             part, _ = self.member_name()

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Final
 
+from tappet.iec.words import ENDS, OBJECT_HEADS, SECTIONS
 from tappet.lang import ast
 from tappet.lang.lexer import ADDRESS, END, ID
-from tappet.lang.parser_core import ENDS, OBJECT_HEADS, SECTIONS, STATEMENT_KEYWORDS
+from tappet.lang.parser_core import STATEMENT_KEYWORDS
 from tappet.lang.parser_types import TypeParser
 from tappet.lang.source import Span
 

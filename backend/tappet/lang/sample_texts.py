@@ -23,7 +23,7 @@ from functools import cache
 from importlib.resources import files
 from types import ModuleType
 
-from tappet.lang.rules import ALL_RULES
+from tappet.lang.rules import all_rules
 
 _SECTION = re.compile(r"^(Passes|Fails):\n", re.MULTILINE)
 _CODE = re.compile(r"[EWS]\d{4}")
@@ -31,7 +31,7 @@ _CODE = re.compile(r"[EWS]\d{4}")
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A piece of ST with the codes it stands for: all of them are reported, or none."""
+    """A piece of ST with the codes it belongs to: all of them are reported, or none."""
 
     passes: bool
     text: str
@@ -90,7 +90,7 @@ def read_samples(text: str) -> list[Sample]:
 def samples() -> dict[str, tuple[Sample, ...]]:
     """The samples of every code."""
     found: dict[str, list[Sample]] = {}
-    for rule in ALL_RULES:
+    for rule in all_rules():
         for sample in text_of_rule(rule).samples:
             for code in sample.codes:
                 found.setdefault(code, []).append(sample)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import NamedTuple
+
+from tappet.iec.places import NOWHERE, BodyText, SourceMap, Span
 
 
 class Scope(StrEnum):
@@ -49,30 +50,16 @@ class Source:
     body_line: int = 0
     """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one
     text."""
-    language: str | None = None
-    """Language of the bodies, `ST` or `IL`; None: each body tells by its first instruction."""
+    bodies: tuple[BodyText, ...] = ()
+    """Where bodies do not tell their language by their first words, or are drawn, in order of the lines."""
     uses: tuple[tuple[str, str], ...] = ()
     """Libraries that the text's library needs: the name it gives to one, and the namespace that is here."""
     private: bool = False
     """Only libraries that use this one see it: the application has another version of it."""
     given: tuple[GivenValue, ...] = ()
     """Values that the reference to the library gives to parameters of this list, in place of its own."""
-
-
-class Span(NamedTuple):
-    """A half-open range of a source text; lines and columns are 0-based, in UTF-16-free code points.
-
-    A named tuple because the parser makes one per node: a frozen dataclass costs three times as much.
-    """
-
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-
-    def to(self, other: Span) -> Span:
-        """The span from the start of this one to the end of `other`."""
-        return Span(self.line, self.column, other.end_line, other.end_column)
+    map: SourceMap | None = field(default=None, compare=False)
+    """Which parts of which objects the lines show; None for a text that is a document of its own."""
 
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
@@ -93,4 +80,14 @@ def text_at(source: Source, span: Span) -> str:
     return " ".join(" ".join(lines).split())
 
 
-NOWHERE = Span(0, 0, 0, 0)
+__all__ = [
+    "NOWHERE",
+    "BodyText",
+    "GivenValue",
+    "Scope",
+    "Source",
+    "SourceMap",
+    "Span",
+    "split_lines",
+    "text_at",
+]

@@ -1,4 +1,4 @@
-"""What names stand for."""
+"""What names denote."""
 
 from __future__ import annotations
 

@@ -12,6 +12,8 @@ from enum import StrEnum
 from itertools import product
 from typing import TYPE_CHECKING
 
+from tappet.iec.words import ELEMENTARY_TYPES, TYPE_SYNONYMS
+
 if TYPE_CHECKING:
     from tappet.lang import ast
 
@@ -55,40 +57,20 @@ class Elementary:
         return self.name
 
 
-BOOL = Elementary("BOOL", Kind.BOOL, 1)
-BYTE = Elementary("BYTE", Kind.BITS, 1)
-WORD = Elementary("WORD", Kind.BITS, 2)
-DWORD = Elementary("DWORD", Kind.BITS, 4)
-LWORD = Elementary("LWORD", Kind.BITS, 8)
-SINT = Elementary("SINT", Kind.SIGNED, 1)
-INT = Elementary("INT", Kind.SIGNED, 2)
-DINT = Elementary("DINT", Kind.SIGNED, 4)
-LINT = Elementary("LINT", Kind.SIGNED, 8)
-USINT = Elementary("USINT", Kind.UNSIGNED, 1)
-UINT = Elementary("UINT", Kind.UNSIGNED, 2)
-UDINT = Elementary("UDINT", Kind.UNSIGNED, 4)
-ULINT = Elementary("ULINT", Kind.UNSIGNED, 8)
-REAL = Elementary("REAL", Kind.REAL, 4)
-LREAL = Elementary("LREAL", Kind.REAL, 8)
-TIME = Elementary("TIME", Kind.TIME, 4)
-LTIME = Elementary("LTIME", Kind.TIME, 8)
-DATE = Elementary("DATE", Kind.DATE, 4)
-TOD = Elementary("TIME_OF_DAY", Kind.DATE, 4)
-DT = Elementary("DATE_AND_TIME", Kind.DATE, 4)
-LDATE = Elementary("LDATE", Kind.DATE, 8)
-LTOD = Elementary("LTIME_OF_DAY", Kind.DATE, 8)
-LDT = Elementary("LDATE_AND_TIME", Kind.DATE, 8)
-
 ELEMENTARY: dict[str, Elementary] = {
-    t.name: t
-    for t in (
-        BOOL, BYTE, WORD, DWORD, LWORD, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT,
-        REAL, LREAL, TIME, LTIME, DATE, TOD, DT, LDATE, LTOD, LDT,
-    )
-}  # fmt: skip
+    name: Elementary(name, Kind(row.family), row.size) for name, row in ELEMENTARY_TYPES.items()
+}
 """Elementary types by upper-case name, with the short names as well."""
-ELEMENTARY |= {"TOD": TOD, "DT": DT, "LTOD": LTOD, "LDT": LDT, "BIT": BOOL}
-ELEMENTARY |= {"__UXINT": ULINT, "__XINT": LINT, "__XWORD": LWORD}
+ELEMENTARY |= {synonym: ELEMENTARY[name] for synonym, name in TYPE_SYNONYMS.items()}
+
+BOOL = ELEMENTARY["BOOL"]
+BYTE, WORD, DWORD, LWORD = (ELEMENTARY[name] for name in ("BYTE", "WORD", "DWORD", "LWORD"))
+SINT, INT, DINT, LINT = (ELEMENTARY[name] for name in ("SINT", "INT", "DINT", "LINT"))
+USINT, UINT, UDINT, ULINT = (ELEMENTARY[name] for name in ("USINT", "UINT", "UDINT", "ULINT"))
+REAL, LREAL = ELEMENTARY["REAL"], ELEMENTARY["LREAL"]
+TIME, LTIME = ELEMENTARY["TIME"], ELEMENTARY["LTIME"]
+DATE, TOD, DT = (ELEMENTARY[name] for name in ("DATE", "TOD", "DT"))
+LDATE, LTOD, LDT = (ELEMENTARY[name] for name in ("LDATE", "LTOD", "LDT"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,9 +139,11 @@ class Pointer:
     base: Type | None
     size: int = 8
     align: int = 8
+    ref_to: bool = False
+    """REF_TO of IEC 61131-3: it has the address of a variable of its type, or NULL, and nothing else."""
 
     def __str__(self) -> str:
-        return f"POINTER TO {self.base or 'ANY'}"
+        return f"REF_TO {self.base}" if self.ref_to else f"POINTER TO {self.base or 'ANY'}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from tappet.lang import ast
+from tappet.lang.ast.fields import source_fields
 
 _Children = Callable[[Any], Iterable[ast.Expr | None]]
 _CHILDREN: dict[type, _Children] = {
@@ -126,7 +127,7 @@ def _same(one: object, other: object) -> bool:
         assert isinstance(other, tuple)
         return len(one) == len(other) and all(map(_same, one, other))
     if isinstance(one, ast.Node):
-        for name in _compared(one.__class__):
+        for name in source_fields(one.__class__):
             mine, its = getattr(one, name), getattr(other, name)
             if name == "name" and isinstance(mine, str) and isinstance(its, str):
                 if mine.upper() != its.upper():
@@ -135,21 +136,6 @@ def _same(one: object, other: object) -> bool:
                 return False
         return True
     return one == other
-
-
-_RESOLVED = frozenset({"span", "name_span", "target_span", "type", "constant", "is_constant", "untyped"}) | {
-    "symbol", "bit", "operand_type", "parameter", "expansion", "carried", "accumulator",
-}  # fmt: skip
-_FIELDS: dict[type, tuple[str, ...]] = {}
-
-
-def _compared(kind: type[ast.Node]) -> tuple[str, ...]:
-    found = _FIELDS.get(kind)
-    if found is None:
-        skipped = _RESOLVED | {"target"} if kind is ast.Call else _RESOLVED
-        found = tuple(name for name in kind.__dataclass_fields__ if name not in skipped)
-        _FIELDS[kind] = found
-    return found
 
 
 def variables(unit: ast.Unit) -> Iterator[ast.VarDecl]:

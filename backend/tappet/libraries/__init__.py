@@ -14,28 +14,11 @@ from functools import lru_cache
 from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.source import NOWHERE, Scope, Source
 from tappet.libraries import repository
-from tappet.libraries.parameters import Given, with_values
+from tappet.libraries.library import Library
 from tappet.libraries.repository import NEWEST, ROOT, Installed, Requirement, UnknownLibraryError
-from tappet.project.library_reference import LibraryReference
+from tappet.project.library_reference import LibraryReference, ParameterValue
 
 APPLICATION = "the application"
-
-
-@dataclass(frozen=True, slots=True)
-class Library:
-    """An installed library with its sources."""
-
-    name: str
-    version: str
-    namespace: str
-    company: str
-    description: str
-    sources: tuple[Source, ...]
-    requires: tuple[Requirement, ...] = ()
-    removable: bool = False
-    """It was installed besides those of the product."""
-    stands_for: tuple[str, ...] = ()
-    """Libraries of other systems that it takes the place of."""
 
 
 def names() -> tuple[str, ...]:
@@ -64,7 +47,7 @@ def as_called(name: str, texts: Iterable[str]) -> str:
     The library's own name qualifies in any case.
     """
     item = repository.find(name)
-    for known in item.stands_for:
+    for known in item.replaces:
         pattern = re.compile(rf"(?<![\w.]){re.escape(known.name)}\s*\.", re.IGNORECASE)
         if known.name.upper() != item.name.upper() and any(pattern.search(text) for text in texts):
             return known.name
@@ -95,8 +78,8 @@ class _Used:
     place: str = ""
     """Path of the library manager whose reference brings it in."""
     uses: list[tuple[str, str]] = field(default_factory=list)
-    given: list[Given] = field(default_factory=list)
-    """Values for its parameters."""
+    given: list[tuple[ParameterValue, str]] = field(default_factory=list)
+    """Values for its parameters, with where they are given: paths of library managers."""
 
 
 class _Resolution:
@@ -110,6 +93,8 @@ class _Resolution:
             self._refer(reference)
 
     def outcome(self) -> tuple[list[Library], list[Diagnostic]]:
+        for used in list(self._found.values()):
+            self._complete(used)
         done = 0
         while done < len(self._found):
             used = list(self._found.values())[done]
@@ -122,7 +107,10 @@ class _Resolution:
         library = _load(used.item, used.space, _label(used.item), tuple(used.uses), used.private)
         if not used.given:
             return library
-        sources, unknown = with_values(library.sources, used.given, library.name)
+        from tappet.libraries.parameters import Given, with_values
+
+        given = [Given(parameter, place) for parameter, place in used.given]
+        sources, unknown = with_values(library.sources, given, library.name)
         self.problems += unknown
         return replace(library, sources=sources)
 
@@ -147,9 +135,17 @@ class _Resolution:
                 f"{item.version} under the namespace '{space}'; give one of them another namespace",
             )
             return
-        known.given += [Given(parameter, place) for parameter in reference.parameters]
+        known.given += [(parameter, place) for parameter in reference.parameters]
         if placeholder:
             self._placeholders.setdefault(placeholder.upper(), known)
+
+    def _complete(self, used: _Used) -> None:
+        """What another system has in one library and we have in several shares the namespace, unless the
+        application refers to the further part itself."""
+        for item in repository.completing(used.space):
+            if all(other.item.name != item.name for other in self._found.values()):
+                further = _Used(item, used.space, APPLICATION, place=used.place)
+                self._found[f"{used.space.upper()} {item.name.upper()}"] = further
 
     def _require(self, user: _Used, required: Requirement) -> None:
         """A library that another one needs: the one that is there, or beside it under a name of its own."""
@@ -166,7 +162,7 @@ class _Resolution:
         )
         if there is None:
             there = self._beside(item, wanted, user, private=bool(same))
-        there.given += [Given(parameter, user.place) for parameter in required.parameters]
+        there.given += [(parameter, user.place) for parameter in required.parameters]
         if there is not user and (wanted, there.space) not in user.uses:
             user.uses.append((wanted, there.space))
 
@@ -214,7 +210,7 @@ def _load(
         sources,
         item.requires,
         item.removable,
-        tuple(known.name for known in item.stands_for),
+        tuple(known.name for known in item.replaces),
     )
 
 

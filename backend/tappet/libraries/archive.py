@@ -17,8 +17,6 @@ from typing import Any
 from tappet.libraries import repository
 from tappet.libraries.repository import Installed
 from tappet.project.errors import FolderFormatError
-from tappet.project.folder.archive import Limits
-from tappet.project.folder.archive import unpack as unpack_zip
 
 SUFFIX = ".tappetlib"
 MANIFEST = "library.json"
@@ -71,6 +69,9 @@ def pack(facts: Mapping[str, Any], texts: Mapping[str, str]) -> bytes:
 
 def unpack(data: bytes) -> tuple[dict[str, Any], dict[str, str]]:
     """Manifest and texts of a library file; raises LibraryFileError."""
+    from tappet.project.folder.archive import Limits
+    from tappet.project.folder.archive import unpack as unpack_zip
+
     limits = Limits(files=MAX_FILES, file_bytes=MAX_BYTES, total_bytes=MAX_BYTES)
     try:
         files = unpack_zip(data, limits)

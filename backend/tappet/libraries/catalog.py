@@ -14,7 +14,7 @@ from tappet.lang.parser import parse
 from tappet.lang.source import Source, text_at
 
 if TYPE_CHECKING:
-    from tappet.libraries import Library
+    from tappet.libraries.library import Library
 
 KINDS = {"PROGRAM": "program", "FUNCTION": "function", "FUNCTION_BLOCK": "function_block", "METHOD": "method"}
 

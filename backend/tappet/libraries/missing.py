@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from tappet.libraries import repository
-from tappet.project.data import LibraryManagerData
 from tappet.project.exchange import ImportReport
 from tappet.project.model import Project
+from tappet.project.sources import references_of
 
 
-def tell_missing(project: Project, report: ImportReport) -> None:
+def report_missing(project: Project, report: ImportReport) -> None:
     """One entry for each library that is referenced and not installed."""
-    for item in project.find_kind("library_manager"):
-        if not isinstance(item.data, LibraryManagerData):
-            continue
-        for reference in item.data.references:
+    for item in project.walk():
+        for reference in references_of(project, item):
             try:
                 repository.find(reference.name, reference.version)
             except repository.UnknownLibraryError:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 
 from tappet.lang.diagnostics import Diagnostic, report
+from tappet.lang.nearest import nearest
 from tappet.lang.source import NOWHERE, GivenValue, Source
 from tappet.libraries.catalog import Item, parameter_lists
 from tappet.project.library_reference import ParameterValue
@@ -61,7 +61,7 @@ def _unknown(lists: list[tuple[int, Item]], given: Given, library: str) -> Diagn
         for _, item in lists
         for pin in item.members
     }
-    close = get_close_matches(f"{wanted.list}.{wanted.name}".upper(), offered, n=1)
+    close = nearest(f"{wanted.list}.{wanted.name}", offered)
     hint = f"Did you mean '{offered[close[0]]}'? Else remove the value." if close else ""
     where = f" in a list '{wanted.list}'" if wanted.list else ""
     fields = {"library": library, "name": wanted.name, "where": where, "value": wanted.value, "hint": hint}

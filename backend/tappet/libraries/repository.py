@@ -11,7 +11,7 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -63,8 +63,10 @@ class Installed:
     description: str
     internal: bool
     """Only the compiler calls it."""
-    stands_for: tuple[Designation, ...]
-    """Libraries of other systems that it takes the place of (placeholders)."""
+    replaces: tuple[Designation, ...]
+    """Libraries of other systems that this one replaces (placeholders)."""
+    completes: tuple[str, ...]
+    """Upper-case namespaces of libraries of other systems whose second part it is."""
     requires: tuple[Requirement, ...]
     removable: bool
     stamp: int
@@ -93,10 +95,16 @@ def version_key(version: str) -> tuple[tuple[int, str], ...]:
 
 def installed() -> list[Installed]:
     """All libraries in all versions, by name, newest first."""
-    found = [*_in(ROOT, removable=False), *_in(user_location(), removable=True)]
+    found = [*_of_the_product(), *_in(user_location(), removable=True)]
     found.sort(key=lambda item: version_key(item.version), reverse=True)
     found.sort(key=lambda item: item.name.upper())
     return found
+
+
+@cache
+def _of_the_product() -> tuple[Installed, ...]:
+    """They stay as they are while the process runs."""
+    return tuple(_in(ROOT, removable=False))
 
 
 def find(text: str, version: str = NEWEST) -> Installed:
@@ -109,11 +117,11 @@ def find(text: str, version: str = NEWEST) -> Installed:
     named = [item for item in everything if item.name.upper() == wanted.name.upper()]
     if wanted.company is not None:
         named = [item for item in named if item.company.upper() == wanted.company.upper()] or (
-            [item for item in named if _stands_for(item, wanted)]
+            [item for item in named if _replaces(item, wanted)]
         )
     if not named:
         for item in everything:
-            if _stands_for(item, wanted):
+            if _replaces(item, wanted):
                 return item
         names = dict.fromkeys(item.name for item in everything if not item.internal)
         raise UnknownLibraryError(f"library '{text}' is not installed; installed are {', '.join(names)}")
@@ -122,7 +130,7 @@ def find(text: str, version: str = NEWEST) -> Installed:
     for item in named:
         if item.version == wanted.version:
             return item
-    if wanted.company is not None and _stands_for(named[0], wanted):
+    if wanted.company is not None and _replaces(named[0], wanted):
         return named[0]  # other systems number their libraries in their own way
     versions = " and ".join(item.version for item in named)
     raise UnknownLibraryError(
@@ -131,21 +139,30 @@ def find(text: str, version: str = NEWEST) -> Installed:
     )
 
 
+def completing(namespace: str) -> list[Installed]:
+    """The libraries, in their newest versions, that are further parts of another system's library."""
+    found: dict[str, Installed] = {}
+    for item in installed():
+        if namespace.upper() in item.completes:
+            found.setdefault(item.name, item)
+    return list(found.values())
+
+
 def namespace_of(item: Installed, text: str) -> str:
-    """The prefix of a library's names under a reference: a placeholder keeps its own name."""
+    """The prefix of a library's names under a reference: a placeholder keeps its own name if it is a word."""
     name = designation(text).name
-    if name.upper() == item.name.upper():
+    if name.upper() == item.name.upper() or not name.isidentifier():
         return item.namespace
     return name
 
 
-def _stands_for(item: Installed, wanted: Designation) -> bool:
+def _replaces(item: Installed, wanted: Designation) -> bool:
     return any(
         known.name.upper() == wanted.name.upper()
         and (
             wanted.company is None or known.company is None or known.company.upper() == wanted.company.upper()
         )
-        for known in item.stands_for
+        for known in item.replaces
     )
 
 
@@ -182,7 +199,8 @@ def _read(path: Path, stamp: int, removable: bool) -> Installed:
         company=str(facts.get("company", "")),
         description=str(facts.get("description", "")),
         internal=bool(facts.get("internal", False)),
-        stands_for=tuple(designation(text) for text in facts.get("stands_for", ())),
+        replaces=tuple(designation(text) for text in facts.get("replaces", ())),
+        completes=tuple(str(name).upper() for name in facts.get("completes", ())),
         requires=tuple(_requirement(required) for required in facts.get("requires", ())),
         removable=removable,
         stamp=stamp,

@@ -1,9 +1,12 @@
-"""The data of every object kind: what an object holds besides its place and name."""
+"""What the data of object kinds are made of: what an object holds besides its place and name.
+
+Each kind defines its own data with these in `kinds`.
+"""
 
 from __future__ import annotations
 
 import json
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import (
     AfterValidator,
@@ -12,7 +15,6 @@ from pydantic import (
     ConfigDict,
     Field,
     StrictBool,
-    StrictInt,
     model_validator,
 )
 
@@ -54,9 +56,8 @@ Text = Annotated[str, Field(max_length=MAX_TEXT), AfterValidator(_clean_text)]
 Line = Annotated[str, Field(max_length=4000), AfterValidator(_clean_text)]
 Duration = Annotated[str, BeforeValidator(_microseconds_as_text), AfterValidator(_clean_time)]
 """A TIME literal (`T#20ms`) or a number of microseconds as text (`300`); TASK-17."""
-RuleCode = Annotated[str, Field(pattern=r"^S[0-9]{4}$")]
-Prefix = Annotated[str, Field(pattern=r"^[A-Za-z0-9_]{0,20}$")]
-Language = Literal["ST", "IL", "LD", "FBD", "CFC", "SFC"]
+LanguageName = Annotated[str, Field(pattern=r"^[A-Z][A-Z0-9_]{0,19}$")]
+"""One of `iec.languages`, or of a plug-in that is not installed here; what is in it is kept then."""
 
 
 class Data(BaseModel):
@@ -64,50 +65,15 @@ class Data(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="null")
 
+    @property
+    def subkind(self) -> str | None:
+        """What the declaration text says this is (`program`, `struct` ...), None where the kind says it
+        all."""
+        return None
+
 
 class NoData(Data):
     """Data of objects that are nothing but a place in the tree."""
-
-
-class DeviceData(Data):
-    """A device of the Devices view (CON-01)."""
-
-    device_type: Line = Field(
-        default="tappet.softplc", description="Device description that this device follows."
-    )
-    runtime_id: Line | None = Field(
-        default=None, description="Runtime that the active path leads to (COM-10)."
-    )
-    simulated: StrictBool = Field(
-        default=False, description="Run in the simulation instead of the runtime (ONL-08)."
-    )
-    description: Text = ""
-
-
-class StaticAnalysisData(Data):
-    """The coding rules of an application (`tappet check --static`); what is not named is as it is for all."""
-
-    with_build: StrictBool = Field(default=True, description="The rules run with every build.")
-    rules: dict[RuleCode, Literal["warning", "error"]] = Field(
-        default_factory=dict, description="Rules that are switched on, by code, and what their findings are."
-    )
-    prefixes: dict[Line, Prefix] = Field(
-        default_factory=dict, description="What names begin with, by kind of object or type."
-    )
-    limits: dict[Line, Annotated[StrictInt, Field(ge=0, le=1_000_000)]] = Field(
-        default_factory=dict, description="Limits of sizes, by what they limit."
-    )
-
-
-NO_RULES = StaticAnalysisData()
-
-
-class ApplicationData(Data):
-    """An application: how it is checked."""
-
-    static_analysis: StaticAnalysisData = Field(
-        default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
-    )
 
 
 class CodeData(Data):
@@ -125,125 +91,24 @@ class BodyData(CodeData):
 
     declaration: Text = ""
     implementation: Text = ""
-    language: Language = "ST"
-
-
-class PouData(BodyData):
-    """PROGRAM, FUNCTION_BLOCK or FUNCTION: the declaration says which (POU-01)."""
-
-
-class MethodData(BodyData):
-    """METHOD of a function block, a program or an interface (POU-09)."""
-
-
-class AccessorData(BodyData):
-    """Get or Set of a property; the declaration holds local variables only."""
-
-
-class ActionData(CodeData):
-    """ACTION: a further body that works on the variables of its POU (POU-08)."""
-
-    implementation: Text = ""
-    language: Language = "ST"
+    language: LanguageName = "ST"
 
 
 class DeclarationData(CodeData):
-    """An object that is only declaration text: property, interface, DUT, variable list."""
+    """Base of what is only declaration text: property, interface, DUT, variable list."""
 
     declaration: Text = ""
 
 
-class ProgramCall(Data):
-    """A program that a task calls, in the order of the list (TASK-20, TASK-21)."""
-
-    name: Line = Field(min_length=1, description="Name of the program, e.g. PLC_PRG.")
-    comment: Line = ""
+SPLIT_TEXTS = "$texts"
+"""Stands in the data of an object whose plug-in is missing: which fields are text files of their own in a
+folder, and their endings."""
 
 
-class WatchdogData(Data):
-    """Watchdog of a task (TASK-30..33)."""
-
-    enabled: StrictBool = False
-    time: Duration = Field(default="T#100ms", description="Longest allowed duration of a cycle.")
-    sensitivity: StrictInt = Field(
-        default=1, ge=0, le=1_000_000, description="Number of overruns that are one too many."
-    )
-
-
-class TaskData(Data):
-    """A task: when it runs and what it calls (tasks.md, section 2)."""
-
-    priority: StrictInt = Field(
-        default=1, ge=0, le=31, description="0 is the highest, 31 the lowest (TASK-11)."
-    )
-    type: Literal["cyclic", "freewheeling", "event", "status", "external"] = "cyclic"
-    interval: Duration = Field(
-        default="T#20ms", description="TIME literal or microseconds; cyclic tasks (TASK-12)."
-    )
-    event: Line = Field(default="", description="Path of the BOOL variable, or the system event (TASK-18).")
-    watchdog: WatchdogData = WatchdogData()
-    pous: tuple[ProgramCall, ...] = ()
-
-    @model_validator(mode="after")
-    def _cyclic_needs_interval(self) -> TaskData:
-        if self.type == "cyclic" and duration_ns(self.interval) == 0:
-            raise ValueError("a cyclic task needs an interval longer than 0, such as T#20ms")
-        return self
-
-
-class LibraryParameterData(Data):
-    """A value that a library reference gives to a parameter of the library, in place of the library's own."""
-
-    list: Line = Field(
-        default="", description="The parameter list; empty: the parameter is known by its name alone."
-    )
-    name: Line = Field(min_length=1)
-    value: Line = Field(min_length=1, description="A constant expression of the type of the parameter.")
-
-
-class LibraryReferenceData(Data):
-    """A library that an application uses (LIB-02, LIB-08)."""
-
-    name: Line = Field(min_length=1, description="The library; of a placeholder, what it is resolved by.")
-    placeholder: Annotated[Line, Field(min_length=1)] | None = Field(
-        default=None,
-        description="Name of the placeholder: libraries that ask for it get this library.",
-        exclude_if=lambda placeholder: placeholder is None,
-    )
-    version: Line = Field(
-        default="*", min_length=1, description="A version, or * for the newest installed one."
-    )
-    namespace: Line = Field(
-        default="", description="Prefix of the library's names; empty means its own namespace."
-    )
-    parameters: tuple[LibraryParameterData, ...] = Field(
-        default=(),
-        description="Parameters of the library that have another value here.",
-        exclude_if=lambda parameters: not parameters,
-    )
-
-    @model_validator(mode="after")
-    def _one_value_each(self) -> LibraryReferenceData:
-        seen = set()
-        for parameter in self.parameters:
-            key = (parameter.list.upper(), parameter.name.upper())
-            if key in seen:
-                name = f"{parameter.list}.{parameter.name}".strip(".")
-                raise ValueError(f"the parameter '{name}' of '{self.name}' has two values; one holds")
-            seen.add(key)
-        return self
-
-
-class LibraryManagerData(Data):
-    """The libraries of one application or of the POUs view."""
-
-    references: tuple[LibraryReferenceData, ...] = ()
-
-
-class UnknownData(BaseModel):
+class UnknownData(Data):
     """Data of a kind whose plug-in is missing: kept as they are (CON-03)."""
 
-    model_config = ConfigDict(frozen=True, extra="allow")
+    model_config = ConfigDict(extra="allow")
 
     @model_validator(mode="before")
     @classmethod

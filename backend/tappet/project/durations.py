@@ -1,4 +1,4 @@
-"""TIME literals and bare numbers of microseconds, as the task editor takes them (TASK-17, EX-04 of tasks)."""
+"""TIME literals and bare numbers of microseconds, as the task editor takes them (TASK-17, tasks EX-04)."""
 
 from __future__ import annotations
 

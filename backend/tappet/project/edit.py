@@ -9,31 +9,24 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from tappet.project.data import (
-    CodeData,
-    Data,
-    DeclarationData,
-    MethodData,
-    PouData,
-    TaskData,
-    UnknownData,
-)
-from tappet.project.declaration_text import rename_header
+from tappet.project.data import CodeData, Data
 from tappet.project.errors import InvalidDataError, NotPlaceableError
-from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
-from tappet.project.naming import name_key, normal_name, unique_name
+from tappet.project.kind_registry import kind_of, kinds
+from tappet.project.model import APPLICATION, Project, ProjectObject, new_id
+from tappet.project.naming import normal_name, unique_name
+from tappet.project.object_kind import Renaming
+from tappet.project.objects import changed_object, make_object
 from tappet.project.placement import (
-    RULES,
+    Site,
     check_name,
     check_place,
     check_spelling,
-    in_scope_of,
     owner_of,
     proposed_name,
 )
-from tappet.project.templates import children_of_new, new_data
+from tappet.project.templates import new_data
 
-AnyData = Data | UnknownData | Mapping[str, Any]
+AnyData = Data | Mapping[str, Any]
 
 
 def add_object(
@@ -53,9 +46,10 @@ def add_object(
     `name` None takes a proposed one; `index` None appends. Raises NotPlaceableError, InvalidNameError,
     NameTakenError, InvalidDataError, UnknownObjectError (parent).
     """
-    check_place(project, kind, parent_id)
-    name = proposed_name(project, kind, parent_id) if name is None else normal_name(name)
-    check_name(project, kind, name, parent_id)
+    site = Site.of(project, parent_id)
+    check_place(site, kind)
+    name = proposed_name(site, kind) if name is None else normal_name(name)
+    check_name(site, kind, name)
     added = make_object(
         id=new_id(),
         parent_id=parent_id,
@@ -67,8 +61,8 @@ def add_object(
     grown = _with(project, [added])
     if index is not None:
         grown = _ordered(grown, added.id, index)
-    for child_kind, child_name in children_of_new(kind):
-        grown, _ = add_object(grown, added.id, child_kind, child_name)
+    for child in kinds()[kind].children:
+        grown, _ = add_object(grown, added.id, child.kind, child.name)
     return grown, grown.get(added.id)
 
 
@@ -90,7 +84,8 @@ def exclude_object(project: Project, object_id: str, excluded: bool) -> Project:
 
 
 def rename_object(project: Project, object_id: str, name: str) -> Project:
-    """Rename an object: in the tree, in its declaration's header (DECL-30), and in the tasks that call it.
+    """Rename an object: in the tree, in its declaration's header (DECL-30), and where others follow, such as
+    the tasks that call it.
 
     Raises InvalidNameError, NameTakenError, UnknownObjectError.
     """
@@ -98,11 +93,8 @@ def rename_object(project: Project, object_id: str, name: str) -> Project:
     name = normal_name(name)
     if name == item.name:
         return project
-    check_name(project, item.kind, name, item.parent_id, own=object_id)
-    changed = [_renamed(item, name)]
-    if item.kind == "pou":
-        changed += _tasks_calling(project, item, name)
-    return _with(project, changed)
+    check_name(Site.of(project, item.parent_id), item.kind, name, own=object_id)
+    return _with(project, [_renamed(item, name), *_following(project, item, name)])
 
 
 def move_object(project: Project, object_id: str, parent_id: str | None, index: int | None = None) -> Project:
@@ -113,11 +105,12 @@ def move_object(project: Project, object_id: str, parent_id: str | None, index: 
     item = project.get(object_id)
     if parent_id != item.parent_id:
         _check_no_cycle(project, item, parent_id)
-        if item.kind in RULES:
-            check_place(project, item.kind, parent_id, present=object_id)
+        site = Site.of(project, parent_id)
+        if item.kind in kinds():
+            check_place(site, item.kind, present=object_id)
         else:
-            _check_unknown_place(project, item, parent_id)
-        check_name(project, item.kind, item.name, parent_id, own=object_id)
+            _check_unknown_place(project, item, site)
+        check_name(site, item.kind, item.name, own=object_id)
         old_parent = item.parent_id
         end = len(project.siblings(parent_id, item.kind))
         moved = changed_object(item, parent_id=parent_id, index=end)
@@ -140,11 +133,12 @@ def copy_object(
     """
     origin = source or project
     item = origin.get(object_id)
-    if item.kind in RULES:
-        check_place(project, item.kind, parent_id)
+    site = Site.of(project, parent_id)
+    if item.kind in kinds():
+        check_place(site, item.kind)
     else:
-        _check_unknown_place(origin, item, parent_id, project)
-    name = _free_name(project, item, parent_id)
+        _check_unknown_place(origin, item, site)
+    name = _free_name(site, item)
     check_spelling(item.kind, name)
     ids = {item.id: new_id()} | {below.id: new_id() for below in origin.walk(item.id)}
     top = changed_object(
@@ -176,7 +170,7 @@ def give_content(project: Project, then: ProjectObject) -> Project:
     """Give the object with the id of `then` its name and data; its place stays. Raises NameTakenError."""
     item = project.get(then.id)
     if then.name != item.name:
-        check_name(project, item.kind, then.name, item.parent_id, own=item.id)
+        check_name(Site.of(project, item.parent_id), item.kind, then.name, own=item.id)
     return _with(project, [changed_object(item, name=then.name, data=then.data)])
 
 
@@ -190,9 +184,10 @@ def restore_objects(
     """
     if top.parent_id is not None and top.parent_id not in project.objects:
         raise NotPlaceableError(f"What '{top.name}' was in has been deleted too; restore that first")
-    if top.kind in RULES:
-        check_place(project, top.kind, top.parent_id)
-    name = _free_name(project, top, top.parent_id)
+    site = Site.of(project, top.parent_id)
+    if top.kind in kinds():
+        check_place(site, top.kind)
+    name = _free_name(site, top)
     restored = [top if name == top.name else _renamed(top, name)]
     found = {top.id}
     waiting = list(below)
@@ -231,35 +226,34 @@ def _ordered(project: Project, object_id: str, index: int) -> Project:
 
 
 def _renamed(item: ProjectObject, name: str) -> ProjectObject:
-    data = item.data
-    if isinstance(data, (PouData, MethodData, DeclarationData)) and item.kind not in ("gvl", "persistent"):
-        data = data.model_copy(update={"declaration": rename_header(data.declaration, name)})
+    kind = kind_of(item)
+    data = item.data if kind is None or kind.renamed is None else kind.renamed(item.data, name)
     return changed_object(item, name=name, data=data)
 
 
-def _tasks_calling(project: Project, program: ProjectObject, name: str) -> list[ProjectObject]:
-    """The tasks of the program's scope that call it, with the new name."""
-    application = next((item for item in project.ancestors(program.id) if item.kind == "application"), None)
-    key = name_key(program.name)
+def _following(project: Project, renamed: ProjectObject, name: str) -> list[ProjectObject]:
+    """The objects of the same application, or of all for one of the POUs view, that follow a new name."""
+    above = project.ancestors(renamed.id)
+    application = next((item for item in above if item.kind == APPLICATION), None)
+    renaming = Renaming(renamed.kind, renamed.subkind, renamed.name, name)
     changed = []
-    for task in project.walk(application.id if application else None):
-        if isinstance(task.data, TaskData) and any(name_key(call.name) == key for call in task.data.pous):
-            calls = tuple(
-                call.model_copy(update={"name": name}) if name_key(call.name) == key else call
-                for call in task.data.pous
-            )
-            changed.append(changed_object(task, data=task.data.model_copy(update={"pous": calls})))
+    for item in project.walk(application.id if application else None):
+        kind = kind_of(item)
+        if kind is None or kind.follow is None or item.id == renamed.id:
+            continue
+        data = kind.follow(item.data, renaming)
+        if data is not item.data:
+            changed.append(changed_object(item, data=data))
     return changed
 
 
-def _free_name(project: Project, item: ProjectObject, parent_id: str | None) -> str:
-    rule = RULES.get(item.kind)
-    if rule is not None and rule.naming == "fixed":
-        check_name(project, item.kind, item.name, parent_id)
+def _free_name(site: Site, item: ProjectObject) -> str:
+    known = kinds().get(item.kind)
+    if known is not None and known.naming.style == "fixed":
+        check_name(site, item.kind, item.name)
         return item.name
-    taken = [other.name for other in in_scope_of(project, owner_of(project, parent_id))]
-    taken += [other.name for other in project.children(parent_id)]
-    return unique_name(item.name, taken)
+    below = site.below(site.parent.id if site.parent else None)
+    return unique_name(item.name, [other.name for other in (*site.scope, *below)])
 
 
 def _check_no_cycle(project: Project, item: ProjectObject, parent_id: str | None) -> None:
@@ -270,13 +264,10 @@ def _check_no_cycle(project: Project, item: ProjectObject, parent_id: str | None
         raise NotPlaceableError(f"'{item.name}' cannot be moved into itself")
 
 
-def _check_unknown_place(
-    origin: Project, item: ProjectObject, parent_id: str | None, target: Project | None = None
-) -> None:
+def _check_unknown_place(origin: Project, item: ProjectObject, site: Site) -> None:
     """An object whose plug-in is missing may only go where its like is: below the same kind of owner."""
     old_owner = owner_of(origin, item.parent_id)
-    new_owner = owner_of(target or origin, parent_id)
-    if (old_owner.kind if old_owner else None) != (new_owner.kind if new_owner else None):
+    if (old_owner.kind if old_owner else None) != (site.owner.kind if site.owner else None):
         raise NotPlaceableError(
             f"'{item.name}' belongs to a plug-in that is not installed; where else it may be is not known"
         )

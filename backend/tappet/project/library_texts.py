@@ -10,16 +10,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from typing import Any
 
-from tappet.project.data import LibraryManagerData
-from tappet.project.declaration_text import subkind_of
+from tappet.iec.sections import end_keyword
 from tappet.project.errors import ProjectError
 from tappet.project.library_reference import LibraryReference
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of
-from tappet.project.sources import SourceText, libraries, references_of, source_of
-
-KINDS = frozenset(["pou", "interface", "dut", "gvl"])
+from tappet.project.source_text import SourceText
+from tappet.project.sources import compiled, libraries, references_of, source_of
 
 
 class NoLibraryError(ProjectError):
@@ -61,8 +59,7 @@ def library_requirements(project: Project) -> list[LibraryReference]:
     for application in project.applications():
         found += libraries(project, application.id)
     for item in project.children(None):
-        if isinstance(item.data, LibraryManagerData):
-            found += references_of(project, item)
+        found += references_of(project, item)
     return list(dict.fromkeys(found))
 
 
@@ -92,17 +89,13 @@ def _requirement(reference: LibraryReference) -> dict[str, Any]:
 def _objects(project: Project) -> Iterator[ProjectObject]:
     for owner in (*project.applications(), None):
         for item in in_scope_of(project, owner):
-            if item.kind in KINDS and not item.excluded and not _is_program(item):
+            if compiled(item).in_library and not item.excluded and item.subkind != "program":
                 yield item
-
-
-def _is_program(item: ProjectObject) -> bool:
-    return item.kind == "pou" and subkind_of(getattr(item.data, "declaration", "")) == "program"
 
 
 def _parts(project: Project, item: ProjectObject) -> list[ProjectObject]:
     """Methods and the like of a block or interface."""
-    if item.kind not in ("pou", "interface"):
+    if compiled(item).members == "none":
         return []
     return [child for child in in_scope_of(project, item) if not child.excluded]
 
@@ -112,14 +105,15 @@ def text_with_parts(project: Project, item: ProjectObject) -> str:
     own = source_of(project, item.id)
     assert own is not None
     text = own.text.rstrip("\n") + "\n"
-    if item.kind not in ("pou", "interface"):
+    if compiled(item).members == "none":
         return text
     parts = []
     for child in _parts(project, item):
         source = source_of(project, child.id)
         if source is not None:
             parts.append(source.text.rstrip("\n") + "\n")
-    if item.kind == "interface":  # its methods stand inside
-        head, keyword, _ = text.rpartition("END_INTERFACE")
+    end = end_keyword(text)
+    if compiled(item).members == "inside" and end is not None:
+        head, keyword, _ = text.rpartition(end)
         return f"{head}{''.join(parts)}{keyword}\n"
     return text + "".join(f"\n{part}" for part in parts)

@@ -1,31 +1,30 @@
-"""Which kind of object may be where (CON-06..CON-09, TASK-02, PERS-02, LIB-01): one table.
+"""What may be where, and under which name (CON-06..CON-09, TASK-02, PERS-02, LIB-01): the rules of the kinds
+applied.
 
 A folder is transparent: it takes what the place it is in takes, except what must stand directly at its owner.
+Whether an object may be somewhere is worked out here and nowhere else: `refusal` for any tree that is read
+through `Site`, the one of a project or the one that an import is building.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from types import MappingProxyType
-from typing import Literal
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from tappet.project.data import Language
+from tappet.iec.languages import offered
 from tappet.project.errors import InvalidNameError, NameTakenError, NotPlaceableError, ProjectError
-from tappet.project.model import Project, ProjectObject, is_pous_root
+from tappet.project.kind_registry import kinds
+from tappet.project.model import DEVICE, FOLDER, Project, ProjectObject, is_pous_root
 from tappet.project.naming import check_free_name, check_identifier, name_key, unique_name
-
-DEVICES_VIEW = "devices_view"
-"""Stands in the table for the root of the Devices view."""
-POUS_VIEW = "pous_view"
-"""Stands in the table for the root of the POUs view."""
-
-Naming = Literal["identifier", "free", "fixed"]
+from tappet.project.object_kind import DEVICES_VIEW, POUS_VIEW, NameStyle, ObjectKind
 
 
 class PlacementRule(BaseModel):
-    """Where objects of one kind may be, and how they are named."""
+    """Where objects of one kind may be, and how they are named; what the front end gets of a kind."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -36,117 +35,40 @@ class PlacementRule(BaseModel):
     )
     in_folders: bool = Field(default=True, description="May stand in a folder of such a parent.")
     once: bool = Field(default=False, description="At most one below one parent, its folders included.")
-    naming: Naming = Field(default="identifier", description="Identifier, free text, or one of `names`.")
+    naming: NameStyle = Field(default="identifier", description="Identifier, free text, or one of `names`.")
     names: tuple[str, ...] = Field(default=(), description="The possible names where naming is fixed.")
     proposal: str = Field(default="", description="Name that the dialog proposes.")
     subkinds: tuple[str, ...] = Field(default=(), description="Templates to choose from for a new object.")
-    languages: tuple[Language, ...] = Field(
+    languages: tuple[str, ...] = Field(
         default=(), description="Languages to choose from for the body of a new object; the first is usual."
     )
 
 
-_CODE_PLACES = ("application", POUS_VIEW)
-_LANGUAGES: tuple[Language, ...] = ("ST", "IL")
+def placement_rules() -> list[PlacementRule]:
+    """The rules of all kinds that are installed, in the order of the dialog that adds objects."""
+    return [_rule_of(kind) for kind in kinds().values()]
 
-RULES: Mapping[str, PlacementRule] = MappingProxyType(
-    {
-        rule.kind: rule
-        for rule in (
-            PlacementRule(
-                kind="folder",
-                parents=(*_CODE_PLACES, "folder", "pou", "interface"),
-                parent_subkinds=("program", "function_block"),
-                naming="free",
-                proposal="Folder",
-            ),
-            PlacementRule(kind="device", parents=(DEVICES_VIEW,), naming="free", proposal="Device"),
-            PlacementRule(
-                kind="plc_logic", parents=("device",), once=True, naming="fixed", names=("PLC Logic",)
-            ),
-            PlacementRule(
-                kind="application",
-                parents=("plc_logic", "application"),
-                in_folders=False,
-                proposal="Application",
-            ),
-            PlacementRule(
-                kind="pou",
-                parents=_CODE_PLACES,
-                proposal="POU",
-                subkinds=("program", "function_block", "function"),
-                languages=_LANGUAGES,
-            ),
-            PlacementRule(kind="interface", parents=_CODE_PLACES, proposal="ITF"),
-            PlacementRule(
-                kind="dut",
-                parents=_CODE_PLACES,
-                proposal="DUT",
-                subkinds=("struct", "enum", "union", "alias", "subrange"),
-            ),
-            PlacementRule(
-                kind="gvl",
-                parents=_CODE_PLACES,
-                proposal="GVL",
-                subkinds=("variable_list", "parameter_list"),
-            ),
-            PlacementRule(kind="persistent", parents=("application",), once=True, proposal="PersistentVars"),
-            PlacementRule(
-                kind="method",
-                parents=("pou", "interface"),
-                parent_subkinds=("program", "function_block"),
-                proposal="Meth",
-                languages=_LANGUAGES,
-            ),
-            PlacementRule(
-                kind="property",
-                parents=("pou", "interface"),
-                parent_subkinds=("program", "function_block"),
-                proposal="Prop",
-            ),
-            PlacementRule(
-                kind="action",
-                parents=("pou",),
-                parent_subkinds=("program", "function_block"),
-                proposal="Act",
-                languages=_LANGUAGES,
-            ),
-            PlacementRule(
-                kind="accessor",
-                parents=("property",),
-                in_folders=False,
-                naming="fixed",
-                names=("Get", "Set"),
-                languages=_LANGUAGES,
-            ),
-            PlacementRule(
-                kind="task_configuration",
-                parents=("application",),
-                in_folders=False,
-                once=True,
-                naming="fixed",
-                names=("Task Configuration",),
-            ),
-            PlacementRule(kind="task", parents=("task_configuration",), in_folders=False, proposal="Task"),
-            PlacementRule(
-                kind="library_manager",
-                parents=_CODE_PLACES,
-                in_folders=False,
-                once=True,
-                naming="fixed",
-                names=("Library Manager",),
-            ),
-            PlacementRule(kind="scene", parents=("application",), proposal="Scene3D"),
-        )
-    }
-)
-"""The rule of each kind. A kind without a rule belongs to a plug-in that is not installed."""
+
+def _rule_of(kind: ObjectKind[Any]) -> PlacementRule:
+    return PlacementRule(
+        kind=kind.name,
+        parents=kind.placement.parents,
+        parent_subkinds=kind.placement.parent_subkinds,
+        in_folders=kind.placement.in_folders,
+        once=kind.placement.once,
+        naming=kind.naming.style,
+        names=kind.naming.names,
+        proposal=kind.naming.proposal,
+        subkinds=tuple(kind.templates),
+        languages=offered() if kind.written else (),
+    )
 
 
 def owner_of(project: Project, parent_id: str | None) -> ProjectObject | None:
     """The nearest object at or above `parent_id` that is no folder; None for a root of a view."""
     while parent_id is not None:
         parent = project.get(parent_id)
-        if parent.kind != "folder":
+        if parent.kind != FOLDER:
             return parent
         parent_id = parent.parent_id
     return None
@@ -158,93 +80,138 @@ def in_scope_of(project: Project, owner: ProjectObject | None) -> Iterable[Proje
     while waiting:
         item = waiting.pop()
         yield item
-        if item.kind == "folder":
+        if item.kind == FOLDER:
             waiting.extend(reversed(project.children(item.id)))
 
 
-def check_place(project: Project, kind: str, parent_id: str | None, *, present: str | None = None) -> None:
-    """Raise NotPlaceableError unless an object of `kind` may be below `parent_id` (None: root of a view).
+@dataclass(frozen=True)
+class Site:
+    """A place of a tree where an object may be put; what is there already is looked for once."""
+
+    parent: ProjectObject | None
+    """None: a root of one of the two views."""
+    owner: ProjectObject | None
+    """The nearest object at or above the parent that is no folder."""
+    below: Callable[[str | None], Sequence[ProjectObject]]
+    """The children of an object; of None the roots."""
+    path_of: Callable[[str], str]
+
+    @classmethod
+    def of(cls, project: Project, parent_id: str | None) -> Site:
+        """The place below an object of a project. Raises UnknownObjectError."""
+        parent = project.get(parent_id) if parent_id is not None else None
+        return cls(parent, owner_of(project, parent_id), project.children, project.path_of)
+
+    @cached_property
+    def scope(self) -> list[ProjectObject]:
+        """The objects directly below the owner and in its folders; of the roots those of both views."""
+        found = []
+        waiting = list(reversed(self.below(self.owner.id if self.owner else None)))
+        while waiting:
+            item = waiting.pop()
+            found.append(item)
+            if item.kind == FOLDER:
+                waiting.extend(reversed(self.below(item.id)))
+        return found
+
+    def siblings(self, kind: str) -> Iterator[ProjectObject]:
+        """The objects among which one of this kind would be."""
+        parent_id = self.parent.id if self.parent else None
+        view = is_pous_root(parent_id, kind)
+        return (item for item in self.below(parent_id) if is_pous_root(parent_id, item.kind) == view)
+
+    def view_or_kind(self, kind: str) -> str:
+        """What stands in `Placement.parents` for this place and an object of this kind."""
+        if self.owner is not None:
+            return self.owner.kind
+        return DEVICES_VIEW if self.parent is None and kind == DEVICE else POUS_VIEW
+
+
+def refusal(kind: ObjectKind[Any], site: Site, *, present: str | None = None) -> str | None:
+    """Why an object of a kind may not be at a place, as a sentence; None where it may.
 
     `present` is the id of an object that is there already or is being moved, which does not count as another.
     """
-    rule = RULES.get(kind)
-    if rule is None:
-        raise NotPlaceableError(f"Objects of kind '{kind}' belong to a plug-in that is not installed")
-    owner = owner_of(project, parent_id)
-    place = _place_of(project, kind, parent_id, owner)
+    rule, owner = kind.placement, site.owner
+    place = site.view_or_kind(kind.name)
     if place not in rule.parents:
-        raise NotPlaceableError(
-            f"A {_words(kind)} cannot be below {_place_name(owner, place)}; it belongs below "
-            + " or ".join(_words(parent) for parent in rule.parents)
-        )
-    if (
-        owner is not None
-        and owner.kind == "pou"
-        and rule.parent_subkinds
-        and owner.subkind is not None
-        and owner.subkind not in rule.parent_subkinds
-    ):
-        allowed = " and ".join(_words(subkind) for subkind in rule.parent_subkinds)
-        raise NotPlaceableError(
-            f"A {_words(owner.subkind)} such as '{owner.name}' has no {_words(kind)}; {allowed} objects may"
-        )
-    if not rule.in_folders and parent_id is not None and project.get(parent_id).kind == "folder":
-        raise NotPlaceableError(
-            f"A {_words(kind)} cannot be in a folder; put it at {_place_name(owner, place)}"
-        )
+        parents = " or ".join(words_of(parent) for parent in rule.parents)
+        return f"A {kind.words} cannot be below {_place_name(owner, place)}; it belongs below {parents}"
+    subkind = owner.subkind if owner is not None and rule.parent_subkinds else None
+    if owner is not None and subkind is not None and subkind not in rule.parent_subkinds:
+        allowed = " and ".join(words_of(subkind) for subkind in rule.parent_subkinds)
+        return f"A {words_of(subkind)} such as '{owner.name}' has no {kind.words}; {allowed} objects may"
+    if not rule.in_folders and site.parent is not None and site.parent.kind == FOLDER:
+        return f"A {kind.words} cannot be in a folder; put it at {_place_name(owner, place)}"
     if rule.once:
-        for item in in_scope_of(project, owner):
-            if item.kind == kind and item.id != present:
-                raise NotPlaceableError(
-                    f"{_place_name(owner, place)} has a {_words(kind)} already ('{item.name}'); "
+        for item in site.scope:
+            if item.kind == kind.name and item.id != present:
+                return (
+                    f"{_place_name(owner, place)} has a {kind.words} already ('{item.name}'); "
                     "only one is possible"
                 )
+    return None
 
 
-def check_name(
-    project: Project, kind: str, name: str, parent_id: str | None, *, own: str | None = None
-) -> None:
-    """Raise InvalidNameError or NameTakenError unless `name` fits the kind and is free at this place.
+def check_place(site: Site, kind: str, *, present: str | None = None) -> None:
+    """Raise NotPlaceableError unless an object of `kind` may be at a place; `present` as in `refusal`."""
+    known = kinds().get(kind)
+    if known is None:
+        raise NotPlaceableError(f"Objects of kind '{kind}' belong to a plug-in that is not installed")
+    refused = refusal(known, site, present=present)
+    if refused is not None:
+        raise NotPlaceableError(refused)
+
+
+def check_name(site: Site, kind: str, name: str, *, own: str | None = None) -> None:
+    """Raise InvalidNameError or NameTakenError unless `name` fits the kind and is free at a place.
 
     `own` is the id of the object that has or gets the name. Within an application, and within the POUs view,
     names are unique across folders too, because code refers to them by name alone.
     """
     check_spelling(kind, name)
-    _check_siblings(project, kind, name, parent_id, own)
-    if kind == "folder":
-        return
     key = name_key(name)
-    owner = owner_of(project, parent_id)
-    if owner is None and kind == "device":
+    for sibling in site.siblings(kind):
+        if sibling.id != own and name_key(sibling.name) == key:
+            raise NameTakenError(
+                f"'{sibling.name}' exists already in this place; names differ by more than case"
+            )
+    if not in_code(kind):
         return
-    for item in in_scope_of(project, owner):
-        if item.id != own and item.kind not in ("folder", "device") and name_key(item.name) == key:
-            raise NameTakenError(f"'{name}' exists already at {project.path_of(item.id)}")
+    for item in site.scope:
+        if item.id != own and in_code(item.kind) and name_key(item.name) == key:
+            raise NameTakenError(f"'{name}' exists already at {site.path_of(item.id)}")
+
+
+def in_code(kind: str) -> bool:
+    """Whether code may refer to objects of a kind by name alone; of a kind that is not installed, it may."""
+    known = kinds().get(kind)
+    return known is None or known.naming.unique == "scope"
 
 
 def check_spelling(kind: str, name: str) -> None:
     """Raise InvalidNameError unless `name` can name an object of this kind."""
-    rule = RULES.get(kind)
-    if rule is not None and rule.naming == "identifier":
+    known = kinds().get(kind)
+    if known is not None and known.naming.style == "identifier":
         check_identifier(name)
         return
     check_free_name(name)
-    if rule is not None and rule.naming == "fixed" and name not in rule.names:
-        raise InvalidNameError(f"A {_words(kind)} is named {' or '.join(rule.names)}, not '{name}'")
+    if known is not None and known.naming.style == "fixed" and name not in known.naming.names:
+        raise InvalidNameError(f"A {known.words} is named {' or '.join(known.naming.names)}, not '{name}'")
 
 
-def proposed_name(project: Project, kind: str, parent_id: str | None) -> str:
+def proposed_name(site: Site, kind: str) -> str:
     """A free name for a new object of this kind; PLC_PRG for the first POU of an application (POU-07)."""
-    rule = RULES.get(kind)
-    owner = owner_of(project, parent_id)
-    scope = list(in_scope_of(project, owner))
-    if rule is not None and rule.naming == "fixed":
-        taken = {item.name for item in scope}
-        return next((name for name in rule.names if name not in taken), rule.names[0])
-    wanted = rule.proposal if rule is not None else kind
-    if kind == "pou" and owner is not None and not any(item.kind == "pou" for item in scope):
-        wanted = "PLC_PRG"
-    return unique_name(wanted, (item.name for item in scope))
+    known = kinds().get(kind)
+    if known is None:
+        return unique_name(kind, (item.name for item in site.scope))
+    naming = known.naming
+    if naming.style == "fixed":
+        taken = {item.name for item in site.scope}
+        return next((name for name in naming.names if name not in taken), naming.names[0])
+    first = naming.first and site.owner is not None and all(item.kind != kind for item in site.scope)
+    wanted = naming.first if first else naming.proposal or kind
+    return unique_name(wanted, (item.name for item in site.scope))
 
 
 def check_project(project: Project) -> None:
@@ -257,6 +224,8 @@ def check_project(project: Project) -> None:
             raise ProjectError(f"The object '{item.name}' has the id {item.id} but is listed as {object_id}")
         if item.parent_id is not None and item.parent_id not in project.objects:
             raise ProjectError(f"The parent of '{item.name}' is missing")
+    installed = kinds()
+    sites: dict[str | None, Site] = {}
     reached = 0
     taken: set[tuple[str | None, bool, str]] = set()
     for item in project.walk():
@@ -268,41 +237,23 @@ def check_project(project: Project) -> None:
                 f"'{project.path_of(item.id)}' is there twice; names differ by more than case"
             )
         taken.add(place)
-        owner = owner_of(project, item.parent_id)
-        if item.kind in RULES and (owner is None or owner.kind in RULES):
-            check_place(project, item.kind, item.parent_id, present=item.id)
+        site = sites.get(item.parent_id)
+        if site is None:
+            site = sites[item.parent_id] = Site.of(project, item.parent_id)
+        if item.kind in installed and (site.owner is None or site.owner.kind in installed):
+            check_place(site, item.kind, present=item.id)
     if reached != len(project.objects):
         raise ProjectError("Some objects of the project are their own ancestors")
 
 
-def _check_siblings(project: Project, kind: str, name: str, parent_id: str | None, own: str | None) -> None:
-    key = name_key(name)
-    for sibling in project.siblings(parent_id, kind):
-        if sibling.id == own or name_key(sibling.name) != key:
-            continue
-        raise NameTakenError(f"'{sibling.name}' exists already in this place; names differ by more than case")
-
-
-def _place_of(project: Project, kind: str, parent_id: str | None, owner: ProjectObject | None) -> str:
-    if owner is not None:
-        return owner.kind
-    if parent_id is None and kind == "device":
-        return DEVICES_VIEW
-    return POUS_VIEW
-
-
 def _place_name(owner: ProjectObject | None, place: str) -> str:
-    return _words(place) if owner is None else f"the {_words(place)} '{owner.name}'"
+    return words_of(place) if owner is None else f"the {words_of(place)} '{owner.name}'"
 
 
-_WORDS = {
-    DEVICES_VIEW: "the Devices view",
-    POUS_VIEW: "the POUs view",
-    "pou": "POU",
-    "dut": "DUT",
-    "gvl": "GVL",
-}
+_VIEWS = {DEVICES_VIEW: "the Devices view", POUS_VIEW: "the POUs view"}
 
 
-def _words(kind: str) -> str:
-    return _WORDS.get(kind, kind.replace("_", " "))
+def words_of(kind: str) -> str:
+    """What messages call a kind, a subkind or a view."""
+    known = kinds().get(kind)
+    return known.words if known is not None else _VIEWS.get(kind) or kind.replace("_", " ")

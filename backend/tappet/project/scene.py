@@ -1,8 +1,8 @@
 """A 3D scene of a machine: elements with properties that are fixed or bound to variables.
 
-A scene is data, never code: opening a project runs nothing (DESIGN decision 16). Lengths are in the unit of
-the machine (`unit` metres each, 0.001 for millimetres). `{i}` in a variable or name stands for the index of a
-repetition.
+A scene is data, never code: opening a project runs nothing (architecture, decision 16). Lengths are in
+the unit of the machine (`unit` metres each, 0.001 for millimetres). `{i}` in a variable or name is the
+index of a repetition.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class Element(Data):
         return self
 
     def names(self) -> list[str]:
-        """Names of the single elements this one stands for."""
+        """Names of the single elements this one represents."""
         if self.repeat is None:
             return [self.name]
         return [_indexed_name(self.name, i) for i in range(self.repeat.first, self.repeat.last + 1)]

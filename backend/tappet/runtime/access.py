@@ -24,6 +24,13 @@ class PlcError(RuntimeError):
     """The PLC cannot do that in its present state; the message says what would be right."""
 
 
+class NoApplicationError(PlcError):
+    """What is asked for needs an application."""
+
+    def __init__(self) -> None:
+        super().__init__("no application is loaded; download one first")
+
+
 class ApplicationAccess:
     """Serialised access to the application, if there is one. All methods may be called from any thread."""
 
@@ -33,10 +40,10 @@ class ApplicationAccess:
 
     def _need(self) -> LoadedApplication:
         if self.application is None:
-            raise PlcError("no application is loaded; download one first")
+            raise NoApplicationError
         return self.application
 
-    def _tell(self, kind: str) -> None:
+    def _notify(self, kind: str) -> None:
         """Something listeners want to know; the life cycle overrides this."""
 
     # -- values ------------------------------------------------------------------------------------------
@@ -44,6 +51,11 @@ class ApplicationAccess:
     def symbols(self) -> SymbolMap:
         """Symbol map of the loaded application."""
         return self._need().package.symbols
+
+    def symbols_with_code(self) -> tuple[str, SymbolMap]:
+        """Code id and symbol map of the loaded application, of one moment."""
+        package = self._need().package
+        return package.code_id, package.symbols
 
     def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
         """Bytes at (offset, size) places of the image; properties that are monitored by a call are as of now
@@ -79,14 +91,14 @@ class ApplicationAccess:
         """Hold variables at values until released."""
         with self._lock:
             self._need().force(values)
-            self._tell("forces")
+            self._notify("forces")
 
     def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
         """Release forces, all with None; returns how many."""
         with self._lock:
             released = self._need().unforce(keys, restore=restore)
             if released:
-                self._tell("forces")
+                self._notify("forces")
             return len(released)
 
     def forces(self) -> list[tuple[Force, str | None]]:

@@ -6,16 +6,19 @@ import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from tappet.codegen.constants import constants_within
 from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
 from tappet.runtime.contexts import FAULTED, RUNNING, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
-from tappet.runtime.executive.loader import Executive
+from tappet.runtime.executive.loader import FILE_SERVICES, Executive
 from tappet.runtime.executive.records import Block
 from tappet.runtime.faults import RawFault
+from tappet.runtime.files import ApplicationFiles
 from tappet.runtime.flight import FlightRecorder, FlightSettings
 from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
 from tappet.runtime.image import Image
 from tappet.runtime.link import LinkedCode
 from tappet.runtime.places import Place
+from tappet.runtime.program_log import ProgramLog
 from tappet.runtime.recorder import Recorder, RecorderList, RecorderSpec
 from tappet.runtime.retain import LIVE, Kept, KeptValue, Remanent, RetainFile, matching
 from tappet.runtime.task_group import TaskError, TaskGroup
@@ -39,7 +42,9 @@ class LoadedApplication:
         scheduling: Scheduling = NORMAL,
         stuck_limit_s: float = STUCK_LIMIT_S,
         flight: FlightSettings | None = None,
+        folder: Path | None = None,
     ) -> None:
+        """`folder` holds the data of the runtime, its files among them."""
         self.executive = executive
         self.package = package
         self.virtual = virtual
@@ -54,6 +59,10 @@ class LoadedApplication:
             executive, package, self.image.address, virtual=virtual, stuck_limit_s=stuck_limit_s
         )
         self.tasks = TaskGroup(executive, self.contexts, scheduling)
+        self.log = ProgramLog(executive)
+        self.files = ApplicationFiles(executive, folder)
+        self.contexts.application["pLog"] = self.log.address
+        self.contexts.application["pFiles"] = self.files.address
         self.ownership = TaskOwnership(package)
         self.forces = ForceTable()
         self.recorders: dict[int, list[Recorder]] = {}
@@ -116,8 +125,17 @@ class LoadedApplication:
     def connect_code(self, code: LinkedCode) -> None:
         """From its next cycle on every task runs `code`."""
         self.code = code
+        self.connect_files()
         for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):
             self.executive.store(task.place("pCode"), code[spec.symbol])
+
+    def connect_files(self) -> None:
+        """Open the folder of files and start the thread that serves requests, once code needs them."""
+        if self.files.opened or self.code.imported.isdisjoint(FILE_SERVICES):
+            return
+        self.files.open()
+        if not self.virtual:
+            self.tasks.launch_files(self.files.wake)
 
     def connect_io(self) -> None:
         """The bus cycle task moves both areas between the image and the drivers' buffers."""
@@ -137,6 +155,7 @@ class LoadedApplication:
         """
         saved = [(o, self.image.read(o, n)) for o, n in self.package.no_init] if keep_no_init else []
         self.image.write(0, self.package.initial_image)
+        self.files.reset()
         for task in self.contexts.tasks:
             task["started"] = 0
             task["eventLast"] = 0
@@ -158,11 +177,22 @@ class LoadedApplication:
         fault = self.tasks.call(self.code[INIT_SYMBOL])
         for offset, data in saved:
             self.image.write(offset, data)
-        for variable, data in matching(kept, self.remanent())[0]:
-            self.image.write(variable.offset, data)
+        self._restore(kept)
         if fault is not None:
             self.mark_faulted()
         return fault
+
+    def _restore(self, kept: Kept) -> None:
+        """Kept values take their places; constants among them have the values that they are declared with."""
+        restored = matching(kept, self.remanent())[0]
+        if not restored:
+            return
+        places = [(variable.offset, variable.size) for variable, _ in restored]
+        declared = [(o, self.image.read(o, n)) for o, n in constants_within(self.package.symbols, places)]
+        for variable, data in restored:
+            self.image.write(variable.offset, data)
+        for offset, data in declared:
+            self.image.write(offset, data)
 
     def mark_faulted(self) -> None:
         """State FAULTED because of code that belongs to no task."""
@@ -423,6 +453,8 @@ class LoadedApplication:
         self.tasks.halt()
         if self.flight is not None:
             self.flight.close()
+        self.files.close()
+        self.log.close()
         self.close_retain_file()
         self.code.close()
         self.tasks.close()

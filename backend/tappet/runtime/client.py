@@ -2,7 +2,7 @@
 
     async with await RuntimeClient.connect("ws://127.0.0.1:11740", token) as client:
         await client.download(package.to_bytes())
-        await client.start()
+        await client.call(Start())
 
 A lost connection ends all waiting calls with ConnectionLost; connecting again is up to the caller.
 """
@@ -12,23 +12,25 @@ from __future__ import annotations
 import asyncio
 import itertools
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Literal
+from typing import Literal
 
+from msgspec import Raw
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import protocol
-from tappet.runtime.faults import ExceptionReport
-from tappet.runtime.flight import FlightStatus
-from tappet.runtime.logbook import LogEntry
+from tappet.runtime.operations.declaration import Operation, Reply
+from tappet.runtime.operations.download import CHUNK, BeginDownload, CommitDownload, DownloadChunk
+from tappet.runtime.operations.life_cycle import GetInfo, Hello
+from tappet.runtime.operations.recording import EndRecord, Record
+from tappet.runtime.operations.symbols import GetSymbols, LoadedSymbols
 from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.protocol import ProtocolError
 from tappet.runtime.recorder import Frame
-from tappet.runtime.tasks import TaskStatistics
 
 _LARGEST_REPLY = 1 << 30
 _PENDING_FRAMES = 20_000
@@ -40,7 +42,8 @@ class ConnectionLost(ConnectionError):  # noqa: N818 - the event, not an error c
 
 
 class RuntimeRefused(RuntimeError):  # noqa: N818
-    """The runtime answered with an error; `code` is one of refused, bad_request, unknown_op, internal."""
+    """The runtime answered with an error; `code` is refused, no_application, not_found,
+    bad_request, unknown_op, bad_reply, internal, or one of the operation."""
 
     def __init__(self, code: str, message: str) -> None:
         super().__init__(message)
@@ -53,17 +56,6 @@ class RuntimeEvent:
 
     kind: str
     state: str
-
-
-@dataclass(frozen=True, slots=True)
-class ForcedValue:
-    """A forced variable: its place, the forced bytes, the bytes before, and its path when it has one."""
-
-    offset: int
-    bit: int | None
-    data: bytes
-    before: bytes
-    path: str | None
 
 
 class Recorder:
@@ -136,11 +128,11 @@ class RuntimeClient:
     def __init__(self, socket: ClientConnection) -> None:
         self._socket = socket
         self._numbers = itertools.count(1)
-        self._waiting: dict[int, asyncio.Future[Any]] = {}
+        self._waiting: dict[int, asyncio.Future[Raw]] = {}
         self._recorders: dict[int, Recorder] = {}
         self._orphans: dict[int, list[protocol.FrameBatch]] = {}
         self._callbacks: list[Callable[[RuntimeEvent], None]] = []
-        self._symbols: tuple[str, SymbolMap] | None = None
+        self._symbols: LoadedSymbols | None = None
         self._receiver: asyncio.Task[None] | None = None
         self._upload = asyncio.Lock()
 
@@ -156,7 +148,7 @@ class RuntimeClient:
         client = cls(socket)
         client._receiver = asyncio.create_task(client._receive())
         try:
-            await client._call("hello", token=token)
+            await client.call(Hello(token))
         except RuntimeRefused as error:
             await client.close()
             raise ConnectionLost(str(error)) from error
@@ -186,19 +178,24 @@ class RuntimeClient:
 
     # -- wire --------------------------------------------------------------------------------------------
 
-    async def _call(self, op: str, **arguments: Any) -> Any:
+    async def call(self, operation: Operation[Reply]) -> Reply:
+        """The reply to an operation. RuntimeRefused says why there is none."""
         if not self.connected:
             raise ConnectionLost("the connection to the runtime is closed")
         number = next(self._numbers)
-        future: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        future: asyncio.Future[Raw] = asyncio.get_running_loop().create_future()
         self._waiting[number] = future
         try:
-            await self._socket.send(protocol.pack({"id": number, "op": op, **arguments}))
-            return await future
+            await self._socket.send(protocol.pack_request(number, operation))
+            result = await future
         except ConnectionClosed as error:
             raise self._lost(error) from error
         finally:
             self._waiting.pop(number, None)
+        try:
+            return protocol.parse_result(type(operation), result)
+        except ProtocolError as error:
+            raise RuntimeRefused(error.code, str(error)) from error
 
     @staticmethod
     def _lost(error: ConnectionClosed) -> ConnectionLost:
@@ -244,26 +241,25 @@ class RuntimeClient:
             else:  # the reply to `record` is still on its way to its caller
                 self._orphans.setdefault(batch.recorder, []).append(batch)
             return
-        message = protocol.unpack(data)
-        if "event" in message:
+        message = protocol.parse_message(data)
+        if message.event is not None:
             self._take_event(message)
             return
-        future = self._waiting.get(message.get("id") or 0)
+        future = self._waiting.get(message.id or 0)
         if future is None or future.done():
             return
-        error = message.get("error")
-        if isinstance(error, dict):
-            future.set_exception(RuntimeRefused(str(error.get("code")), str(error.get("message"))))
+        if message.error is not None:
+            future.set_exception(RuntimeRefused(message.error.code, message.error.message))
         else:
-            future.set_result(message.get("result"))
+            future.set_result(message.result)
 
-    def _take_event(self, message: dict[str, Any]) -> None:
-        if message["event"] == "recorder_ended":
-            recorder = self._recorders.pop(message.get("recorder", 0), None)
+    def _take_event(self, message: protocol.Message) -> None:
+        if message.event == "recorder_ended":
+            recorder = self._recorders.pop(message.recorder, None)
             if recorder is not None:
                 recorder.end()
-            return
-        self._emit(RuntimeEvent(str(message["event"]), str(message.get("state"))))
+        else:
+            self._emit(RuntimeEvent(str(message.event), message.state))
 
     def _emit(self, event: RuntimeEvent) -> None:
         for callback in list(self._callbacks):
@@ -273,71 +269,24 @@ class RuntimeClient:
         """Call `callback` for every event, on the event loop; it must not block."""
         self._callbacks.append(callback)
 
-    # -- life cycle --------------------------------------------------------------------------------------
-
-    async def info(self) -> RuntimeInfo:
-        """Identity, state, application."""
-        return _info(await self._call("info"))
+    # -- more than one message ---------------------------------------------------------------------------
 
     async def download(
         self, package: bytes, mode: Literal["download", "online_change"] = "download"
     ) -> RuntimeInfo:
         """Load a package. RuntimeRefused when it does not fit; the old application then stays."""
         async with self._upload:
-            await self._call("download_begin", size=len(package))
-            for at in range(0, len(package), protocol.CHUNK):
-                await self._call("download_chunk", data=package[at : at + protocol.CHUNK])
-            return _info(await self._call("download_commit", mode=mode))
-
-    async def start(self) -> None:
-        """Run the application."""
-        await self._call("start")
-
-    async def stop(self) -> None:
-        """Stop it at the end of its cycles."""
-        await self._call("stop")
-
-    async def single_cycle(self) -> None:
-        """Run one cycle of a stopped application. RuntimeRefused when it is not stopped."""
-        await self._call("single_cycle")
-
-    async def reset(self, kind: Literal["warm", "cold", "origin"]) -> None:
-        """Initial values again, by the table of remanent variables; origin removes the application."""
-        await self._call("reset", kind=kind)
+            await self.call(BeginDownload(len(package)))
+            for at in range(0, len(package), CHUNK):
+                await self.call(DownloadChunk(package[at : at + CHUNK]))
+            return await self.call(CommitDownload(mode))
 
     async def symbols(self) -> SymbolMap:
         """Symbol map of the loaded application; fetched once per application."""
-        info = await self.info()
-        if self._symbols is None or self._symbols[0] != info.code_id:
-            reply = await self._call("symbols")
-            self._symbols = (reply["code_id"], SymbolMap.from_table(reply["table"]))
-        return self._symbols[1]
-
-    # -- values ------------------------------------------------------------------------------------------
-
-    async def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes at (offset, size) places."""
-        return list(await self._call("read", places=[list(p) for p in places]))
-
-    async def write(self, values: Sequence[tuple[int, bytes, int | None]]) -> bool:
-        """Store (offset, bytes, bit or None) together at a cycle begin; for a bit one byte 0 or 1.
-
-        True when that has happened, False when the task takes longer than a second to its next cycle.
-        """
-        return bool(await self._call("write", values=[list(v) for v in values]))
-
-    async def force(self, values: Sequence[tuple[int, bytes, int | None]]) -> None:
-        """Hold places at values until released."""
-        await self._call("force", values=[list(v) for v in values])
-
-    async def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
-        """Release (offset, bit) places, all with None; `restore` brings the values before back (WAT-09)."""
-        rows = None if keys is None else [list(k) for k in keys]
-        return int(await self._call("unforce", keys=rows, restore=restore))
-
-    async def forces(self) -> list[ForcedValue]:
-        """All forces."""
-        return [ForcedValue(*row) for row in await self._call("forces")]
+        info = await self.call(GetInfo())
+        if self._symbols is None or self._symbols.code_id != info.code_id:
+            self._symbols = await self.call(GetSymbols())
+        return self._symbols.symbols
 
     async def record(
         self,
@@ -347,19 +296,9 @@ class RuntimeClient:
         min_interval_ns: int = 0,
         frames: int = 0,
     ) -> Recorder:
-        """Record (offset, size) items at the end of the cycles of a task (the bus cycle task for None).
-
-        `frames` is the wanted length of the ring at the runtime, 0 for as many as fit into a megabyte.
-        """
-        reply = await self._call(
-            "record",
-            items=[list(i) for i in items],
-            task=task,
-            divider=divider,
-            min_interval_ns=min_interval_ns,
-            frames=frames,
-        )
-        recorder = Recorder(self, reply["recorder"], reply["data_size"])
+        """Frames of (offset, size) items (see the operation `Record`)."""
+        reply = await self.call(Record(list(items), task, divider, min_interval_ns, frames))
+        recorder = Recorder(self, reply.recorder, reply.data_size)
         self._recorders[recorder.number] = recorder
         for batch in self._orphans.pop(recorder.number, []):
             recorder.receive(batch)
@@ -368,46 +307,5 @@ class RuntimeClient:
     async def end_record(self, recorder: Recorder) -> None:
         """Stop a recorder."""
         self._recorders.pop(recorder.number, None)
-        await self._call("end_record", recorder=recorder.number)
+        await self.call(EndRecord(recorder.number))
         self._orphans.pop(recorder.number, None)
-
-    # -- flight recorder ---------------------------------------------------------------------------------
-
-    async def flight_status(self) -> FlightStatus:
-        """What the flight recorder keeps."""
-        return FlightStatus(**await self._call("flight_status"))
-
-    async def flight_history(self) -> list[tuple[int, int]]:
-        """(cycle of the bus cycle task, unix time in ns) of every cycle that can be read, oldest first."""
-        return [(cycle, stamp) for cycle, stamp in await self._call("flight_history")]
-
-    async def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes at (offset, size) at the end of a past cycle; RuntimeRefused when it is not kept."""
-        return list(await self._call("flight_read", cycle=cycle, places=[list(p) for p in places]))
-
-    async def flight_freeze(self, on: bool) -> FlightStatus:
-        """Keep what is recorded, or record again."""
-        return FlightStatus(**await self._call("flight_freeze", on=on))
-
-    # -- monitoring --------------------------------------------------------------------------------------
-
-    async def tasks(self) -> list[TaskStatistics]:
-        """Task monitoring."""
-        return [TaskStatistics(**row) for row in await self._call("tasks")]
-
-    async def reset_statistics(self, task: str | None = None) -> None:
-        """Statistics of a task, or of all, back to 0."""
-        await self._call("reset_statistics", task=task)
-
-    async def exception(self) -> ExceptionReport | None:
-        """Why the application is in the state exception."""
-        report = await self._call("exception")
-        return None if report is None else ExceptionReport.from_dict(report)
-
-    async def log(self, since: int = 0) -> list[LogEntry]:
-        """Log entries with a higher number than `since`."""
-        return [LogEntry(**row) for row in await self._call("log", since=since)]
-
-
-def _info(row: dict[str, Any]) -> RuntimeInfo:
-    return RuntimeInfo(**{**row, "scheduling": tuple(row["scheduling"])})

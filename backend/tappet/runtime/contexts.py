@@ -5,9 +5,8 @@ from __future__ import annotations
 import struct
 import time
 from dataclasses import dataclass
-from typing import Any
 
-from tappet.codegen.package import CodePackage, TaskSpec
+from tappet.codegen.package import CodePackage, Facts, TaskSpec
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Arena, Block, Record
 from tappet.runtime.faults import RawFault
@@ -59,9 +58,9 @@ class Contexts:
         self.queues = [Record(layouts["WRITE_QUEUE"], self._arena.take(queue_size)) for _ in range(count)]
         # in virtual time all tasks share one thread, so they share its stack
         stacks = [TaskStack()] if virtual else [TaskStack() for _ in range(count)]
-        self.service_stack, self.scheduler_stack = TaskStack(), TaskStack()
+        self.service_stack, self.scheduler_stack, self.file_stack = TaskStack(), TaskStack(), TaskStack()
         self.stacks = stacks
-        self._fill_application(first, count, virtual, package.runtime)
+        self._fill_application(first, count, virtual, package.facts)
         for i, (spec, task) in enumerate(zip(package.tasks, self.tasks, strict=True)):
             self.fill_task(spec, task, image, stuck_limit_s)
             task["pWrites"] = self.queues[i].address
@@ -72,12 +71,12 @@ class Contexts:
         self.watchdog(self.service)["stuckLimit"] = int(stuck_limit_s * 1e9)
         self.service_stack.describe(self.service)
 
-    def _fill_application(self, first: int, count: int, virtual: bool, facts: dict[str, Any]) -> None:
+    def _fill_application(self, first: int, count: int, virtual: bool, facts: Facts) -> None:
         """`facts` of the package: update_io_in_stop (PLC-02), outputs_in_stop keep|default (PLC-03)."""
         application = self.application
         application["virtual"] = int(virtual)
-        application["ioInStop"] = int(bool(facts.get("update_io_in_stop", True)))
-        application["safeOutputs"] = int(facts.get("outputs_in_stop", "keep") == "default")
+        application["ioInStop"] = int(facts.update_io_in_stop)
+        application["safeOutputs"] = int(facts.outputs_in_stop == "default")
         application["startNs"] = 0 if virtual else time.clock_gettime_ns(time.CLOCK_MONOTONIC)
         application["virtualFreewheel"] = VIRTUAL_FREEWHEEL_NS
         application["taskCount"] = count
@@ -164,7 +163,7 @@ class Contexts:
 
     def close(self) -> None:
         """Release stacks and contexts; all threads must have ended."""
-        for stack in (*self.stacks, self.service_stack, self.scheduler_stack):
+        for stack in (*self.stacks, self.service_stack, self.scheduler_stack, self.file_stack):
             stack.close()
         self._arena.close()
 

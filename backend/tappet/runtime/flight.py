@@ -1,4 +1,4 @@
-"""The flight recorder: the whole image at the end of the last cycles (DESIGN decision 5).
+"""The flight recorder: the whole image at the end of the last cycles (docs/architecture.md, decision 5).
 
 `executive/flight.st` writes it, at the end of the cycles of the bus cycle task that called programs; this
 side sets it up and reads it without stopping a task.
@@ -137,7 +137,7 @@ class FlightRecorder:
     # -- life cycle --------------------------------------------------------------------------------------
 
     def relocate(self) -> None:
-        """Drop everything and begin anew with the image as it is now; only while no task runs."""
+        """Drop everything and begin again with the image as it is now; only while no task runs."""
         record = self.record
         self._size = -(-self._image.size // BLOCK) * BLOCK
         limit = min(self.settings.scan_limit, self._ring_size // 4) // _CHUNK * _CHUNK
@@ -149,7 +149,7 @@ class FlightRecorder:
         record["partSize"] = part
         record["partStart"] = 0
         record["reserve"] = part // BLOCK * (BLOCK + 8)
-        record["first"] = record["next"]  # numbers go on: an entry is never mistaken for another one
+        record["first"] = record["next"]  # numbers continue: an entry is never mistaken for another one
         record["head"] = 0
         record["skipped"] = self.settings.divider
         record["frozen"] = 0
@@ -169,7 +169,7 @@ class FlightRecorder:
         self.record["frozen"] = 0
 
     def freeze(self, on: bool) -> None:
-        """Stop recording, so that nothing kept is dropped any more, or go on."""
+        """Stop recording, so that nothing kept is dropped any more, or continue."""
         self._executive.store_flag(self.record.place("frozen"), int(on))
         self._await_boundary()
 
@@ -223,7 +223,7 @@ class FlightRecorder:
     def rebuild(self, capture: Capture) -> bytes:
         """The image out of a capture; may run beside all other calls."""
         image = rebuild(capture.base, capture.deltas)
-        self._last = (capture.entry.number, image)  # stepping back goes on from here
+        self._last = (capture.entry.number, image)  # stepping back continues from here
         return image[: capture.size]
 
     # -- details -----------------------------------------------------------------------------------------

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import llvmlite.binding as llvm
 
-from tappet.codegen.optimise import OptimiseOptions, target_machine
+from tappet.codegen.compile_options import OptimiseOptions
+from tappet.codegen.optimise import target_machine
 from tappet.runtime.posix import symbol_address
 
 _EXECUTABLE = 0x4
@@ -103,11 +104,17 @@ class LinkedCode:
     """Objects in memory. The code stays as long as this object; `close` removes it."""
 
     def __init__(
-        self, tracker: llvm.orcjit.ResourceTracker, objects: list[bytes], sections: list[CodeSection]
+        self,
+        tracker: llvm.orcjit.ResourceTracker,
+        objects: list[bytes],
+        sections: list[CodeSection],
+        imported: frozenset[str],
     ) -> None:
         self._tracker = tracker
         self.objects = objects
         self.sections = sections
+        self.imported = imported
+        """Names that came from outside the objects."""
 
     def __getitem__(self, symbol: str) -> int:
         return int(self._tracker[symbol])
@@ -146,7 +153,8 @@ class Linker:
         for data in objects:
             builder.add_object_img(data)
         used = {s.name for symbols, _ in tables for s in symbols if s.section == _UNDEFINED}
-        for name in used - defined - _OF_THE_LINKER:
+        imported = frozenset(used - defined - _OF_THE_LINKER)
+        for name in imported:
             builder.import_symbol(name, _address_of(name, imports))
         witnesses = _witnesses(tables)
         for name in {*exports, *(w.name for w in witnesses.values())}:
@@ -160,7 +168,7 @@ class Linker:
             CodeSection(index, section, int(tracker[w.name]) - w.value, tables[index][1][section])
             for (index, section), w in witnesses.items()
         ]
-        return LinkedCode(tracker, objects, sections)
+        return LinkedCode(tracker, objects, sections, imported)
 
 
 def _address_of(name: str, imports: Mapping[str, int]) -> int:

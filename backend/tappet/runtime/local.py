@@ -30,7 +30,8 @@ class ApplicationException(RuntimeError):  # noqa: N818 - the field's term for t
     """The application went into the state exception; `report` says where and why."""
 
     def __init__(self, report: ExceptionReport) -> None:
-        place = f" in {report.pou}, line {report.line}" if report.pou else ""
+        at = f"line {report.line}" if report.element is None else f"element {report.element}"
+        place = f" in {report.pou}, {at}" if report.pou else ""
         super().__init__(f"task {report.task}: {report.message}{place}")
         self.report = report
 

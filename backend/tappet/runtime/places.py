@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tappet.codegen.symbol_map import SymbolError, SymbolMap, TypeInfo
+from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.codegen.symbol_types import TypeInfo
 
 _COMPOSITE = ("struct", "union", "fb", "program", "gvl")
 

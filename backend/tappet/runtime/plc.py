@@ -136,7 +136,8 @@ class SoftPlc(ApplicationAccess):
         with self._lock:
             if self.application is not None:
                 self.application.tasks.collect()
-                self._tell_failed(self.application)
+                self.application.log.collect(self.log)
+                self._log_failed(self.application)
             state = self.state
             if state == "exception" and self._report is None:
                 report = self._report = build_report(self._need(), self.log)
@@ -144,9 +145,9 @@ class SoftPlc(ApplicationAccess):
             if state != self._seen_state:
                 entered = state == "exception"
                 self._seen_state = state
-                self._tell("exception" if entered else "state")
+                self._notify("exception" if entered else "state")
 
-    def _tell_failed(self, application: LoadedApplication) -> None:
+    def _log_failed(self, application: LoadedApplication) -> None:
         """Note the watched properties whose Get has ended in an exception; the application runs on."""
         application.ask_for_watched()
         for offset, size in application.watched.failed():
@@ -154,7 +155,7 @@ class SoftPlc(ApplicationAccess):
             text = f"monitoring '{name}' ended in an exception of its Get, which is called no more"
             self.log.add("warning", "monitoring", text)
 
-    def _tell(self, kind: str) -> None:
+    def _notify(self, kind: str) -> None:
         self._seen_state = self.state
         if self.on_event is not None:
             self.on_event(Event(kind, self.state))
@@ -170,7 +171,7 @@ class SoftPlc(ApplicationAccess):
             if application.tasks.state != RUNNING:
                 application.run()
                 self.log.add("info", "application", f"{application.package.application} started")
-                self._tell("state")
+                self._notify("state")
 
     def single_cycle(self) -> None:
         """Run one cycle of each cyclic and freewheeling task of a stopped application (LST-84).
@@ -203,7 +204,7 @@ class SoftPlc(ApplicationAccess):
             self._save_retain()
             if was_running:
                 self.log.add("info", "application", f"{application.package.application} stopped")
-                self._tell("state")
+                self._notify("state")
 
     def reset(self, kind: str) -> None:
         """Back to initial values as the table of remanent variables says (PERS-02); the application is
@@ -236,17 +237,17 @@ class SoftPlc(ApplicationAccess):
             remove_boot(self.folder)
             remove_retain(self.folder)
         self.log.add("info", "application", f"{application.package.application} reset origin: removed")
-        self._tell("application")
+        self._notify("application")
 
     def _after_initialise(self, fault: RawFault | None) -> None:
         if fault is not None:
             self.poll()
-        self._tell("exception" if self.state == "exception" else "state")
+        self._notify("exception" if self.state == "exception" else "state")
 
     # -- download ----------------------------------------------------------------------------------------
 
     def download(self, data: bytes, mode: str = "download") -> None:
-        """Load a package; it is stopped afterwards (mode `download`) or goes on running (`online_change`).
+        """Load a package; it is stopped afterwards (mode `download`) or continues to run (`online_change`).
 
         Raises PlcError; with a refused package the old application stays as it was.
         """
@@ -266,13 +267,13 @@ class SoftPlc(ApplicationAccess):
                     store_boot(self.folder, data)
                 except BootError as error:
                     self.log.add("error", "boot", str(error))
-            self._tell("application")
+            self._notify("application")
 
     def load(self, package: CodePackage) -> None:
         """Load a package that is at hand as an object, without storing it as boot application."""
         with self._lock:
             self._load(package, None)
-            self._tell("application")
+            self._notify("application")
 
     def _load(self, package: CodePackage, kept: Kept | None) -> None:
         """Replace the application. Values to keep come from the running one (persistent only) or from
@@ -290,6 +291,7 @@ class SoftPlc(ApplicationAccess):
                 scheduling=self.scheduling,
                 stuck_limit_s=self.stuck_limit_s,
                 flight=self.flight,
+                folder=self.folder,
             )
         except (LinkError, ImageError, OSError) as error:
             raise PlcError(f"the package was refused: {error}") from error
@@ -347,6 +349,7 @@ class SoftPlc(ApplicationAccess):
     def _unload(self, application: LoadedApplication, *, leave: bool) -> None:
         """End an application; with `leave` its FB_Exit methods are called."""
         application.tasks.stop()
+        application.log.collect(self.log)
         if leave and application.tasks.state != FAULTED:
             with application.tasks.standing():
                 fault = application.run_exit()
@@ -372,7 +375,7 @@ class SoftPlc(ApplicationAccess):
             self.log.add(
                 "warning", "forces", f"{len(result.lost_forces)} forces released: their variables are gone"
             )
-            self._tell("forces")
+            self._notify("forces")
         if result.fault is not None:
             self._report = None
             self.poll()
@@ -397,7 +400,7 @@ class SoftPlc(ApplicationAccess):
             except (BootError, PlcError) as error:
                 self.log.add("error", "boot", str(error))
                 return False
-            self._tell("application")
+            self._notify("application")
             return True
 
     # -- exception ---------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
-"""Recorders: values sampled by a task at the end of its cycles into a ring that Python empties (DESIGN
-decision 4).
+"""Recorders: values sampled by a task at the end of its cycles into a ring that Python empties.
+
+See docs/architecture.md, decision 4.
 """
 
 from __future__ import annotations
@@ -104,7 +105,7 @@ class Recorder:
         self.located = tuple(items)
 
     def restart(self) -> None:
-        """The clock begins anew: the next cycle is sampled; only while the task stands."""
+        """The clock is reset: the next cycle is sampled; only while the task stands."""
         self.record["lastSample"] = -(1 << 62)
         self.record["skipped"] = self.record["divider"]
 

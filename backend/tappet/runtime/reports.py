@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from tappet.codegen.symbol_map import SymbolError
+from tappet.iec.places import SourceMap, Span
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.faults import CallFrame, ExceptionReport, Locator, describe, fault_name
 from tappet.runtime.logbook import Logbook
@@ -23,7 +25,8 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
     raw = application.contexts.fault(task)
     message, values = describe(raw)
     try:
-        stack = Locator(application.code).call_stack(raw)
+        maps = {uri.upper(): map for uri, map in application.package.source_maps.items()}
+        stack = [_with_element(frame, maps) for frame in Locator(application.code).call_stack(raw)]
     except Exception as error:  # whatever is wrong with the debug information, the exception is reported
         log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
         stack = []
@@ -31,8 +34,17 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
     values |= _values_of(application, [frame.pou for frame in stack])
     return ExceptionReport(
         raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
-        time.time_ns(), tuple(stack), values,
+        time.time_ns(), tuple(stack), values, here.element,
     )  # fmt: skip
+
+
+def _with_element(frame: CallFrame, maps: Mapping[str, SourceMap]) -> CallFrame:
+    """A level of the call stack with the element that its line denotes."""
+    shown = maps.get(frame.uri.upper())
+    if shown is None or frame.line < 1:
+        return frame
+    line = frame.line - 1
+    return replace(frame, element=shown.place(Span(line, 0, line, 0)).element)
 
 
 def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str, str]:

@@ -34,6 +34,7 @@ class TaskGroup:
         self.contexts = contexts
         self.scheduling = scheduling
         self._threads: list[NativeThread] = []
+        self._wake_files: Callable[[], None] | None = None
         self._published: dict[int, object] = {}
         self._retired: list[tuple[list[int], object, Callable[[], None] | None]] = []
 
@@ -62,6 +63,18 @@ class TaskGroup:
         )
         return notes
 
+    def launch_files(self, wake: Callable[[], None]) -> None:
+        """Start the thread that serves requests for files; `wake` lets it look whether it is to end."""
+        self._wake_files = wake
+        self._threads.append(
+            NativeThread(
+                self.executive.entries["tappet_file_thread"],
+                self.contexts.application.address,
+                self.contexts.file_stack,
+                self.scheduling.task_options("files", 31, freewheeling=True),
+            )
+        )
+
     def halt(self) -> None:
         """End all threads; TaskError when one does not even end by force."""
         self.executive.store_flag(self.contexts.application.place("quit"), 1)
@@ -80,6 +93,8 @@ class TaskGroup:
             thread.wake()
         for task in self.contexts.tasks:
             libc.sem_post(task.place("wake"))
+        if self._wake_files is not None:
+            self._wake_files()
 
     def _abort_tasks(self) -> None:
         for task in self.contexts.tasks:

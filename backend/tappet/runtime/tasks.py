@@ -93,7 +93,7 @@ class TaskStatistics:
     missed: int
     """Starts dropped because of that (TASK-72)."""
     jitter_p999_ns: int
-    """99.9 % of the starts were not later than this, in steps of 2048 ns; 1,048,576 stands for more."""
+    """99.9 % of the starts were not later than this, in steps of 2048 ns; 1,048,576 means more."""
 
 
 def read_statistics(spec: TaskSpec, task: Record, statistics: Record, status: str) -> TaskStatistics:

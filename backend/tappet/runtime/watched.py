@@ -30,7 +30,7 @@ class WatchedProperties:
 
     def load(self, package: CodePackage) -> None:
         """Take the places of a package; after an online change those of the new one."""
-        self.values = [(at, size, asking) for at, size, asking in package.runtime.get("watched", ())]
+        self.values = package.facts.watched
         self._asked, self._leases, self._told = set(), {}, set()
 
     def lease(self, places: Iterable[Place]) -> list[int]:

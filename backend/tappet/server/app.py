@@ -12,36 +12,35 @@ from starlette.middleware import Middleware
 
 from tappet import __version__
 from tappet.runtime.client import RuntimeClient
-from tappet.server import (
-    openapi,
-    problems,
-    routes_auth,
-    routes_build,
-    routes_docs,
-    routes_events,
-    routes_exchange,
-    routes_flight,
-    routes_health,
-    routes_libraries,
-    routes_lsp,
-    routes_metrics,
-    routes_objects,
-    routes_online,
-    routes_projects,
-    routes_runtimes,
-    routes_scenes,
-    routes_settings,
-    routes_static_analysis,
-    routes_tests,
-    routes_users,
-    routes_values,
-    routes_views,
-)
+from tappet.runtime.operations import registry
+from tappet.server import openapi, problems
+from tappet.server.auth import routes as routes_auth
+from tappet.server.builds import routes as routes_build
+from tappet.server.docs import routes as routes_docs
+from tappet.server.events import routes as routes_events
+from tappet.server.exchange import routes as routes_exchange
+from tappet.server.flight import routes as routes_flight
 from tappet.server.guard import RequestGuard
-from tappet.server.plc_client import Connect
+from tappet.server.health import routes as routes_health
+from tappet.server.libraries import routes as routes_libraries
+from tappet.server.lsp import routes as routes_lsp
+from tappet.server.metrics import routes as routes_metrics
+from tappet.server.objects import routes as routes_objects
+from tappet.server.online import routes as routes_online
+from tappet.server.personal_settings import routes as routes_settings
+from tappet.server.projects import routes as routes_projects
+from tappet.server.runtimes import operations
+from tappet.server.runtimes import routes as routes_runtimes
+from tappet.server.runtimes.plc_client import Connect
+from tappet.server.scenes import routes as routes_scenes
 from tappet.server.services import open_services
 from tappet.server.settings import ServerSettings
 from tappet.server.static import FrontEnd, find_static
+from tappet.server.static_analysis import routes as routes_static_analysis
+from tappet.server.unit_tests import routes as routes_tests
+from tappet.server.users import routes as routes_users
+from tappet.server.values import routes as routes_values
+from tappet.server.views import routes as routes_views
 
 API = "/api/v1"
 ROUTERS: tuple[APIRouter, ...] = (
@@ -65,7 +64,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_scenes.router,
     routes_events.router,
 )
-"""One router per resource, all below `API`."""
+"""One router per resource, all below `API`; the routes of wire operations come behind them."""
 
 
 def _operation_id(route: APIRoute) -> str:
@@ -99,7 +98,7 @@ def create_app(settings: ServerSettings, connect: Connect = RuntimeClient.connec
     )
     problems.install(app)
     api = APIRouter(prefix=API, responses=openapi.PROBLEM_RESPONSES, max_body_size=settings.max_body_bytes)
-    for router in ROUTERS:
+    for router in (*ROUTERS, operations.router(registry.known().values())):
         api.include_router(router)
     app.include_router(api)
     app.include_router(routes_docs.router)

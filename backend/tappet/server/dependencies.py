@@ -16,9 +16,9 @@ from tappet.project.store import Store
 from tappet.server.auth import identity as identities
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
-from tappet.server.commissioning import Commissioning
+from tappet.server.builds.commissioning import Commissioning
 from tappet.server.database import Database
-from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
+from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 from tappet.server.sockets import StillAllowed

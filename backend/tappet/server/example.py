@@ -10,11 +10,11 @@ from starlette.concurrency import run_in_threadpool
 
 import tappet
 from tappet.project import folder
-from tappet.project.data import DeviceData
 from tappet.project.edit import change_data
 from tappet.project.errors import ProjectError
+from tappet.project.kinds.device import DEVICE, DeviceData
 from tappet.project.model import Project
-from tappet.server.runtimes import RuntimeLink
+from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.services import Services
 from tappet.server.settings import LOCAL_RUNTIME
 
@@ -83,7 +83,7 @@ def _load_once(services: Services, path: Path) -> str:
 
 def _on_local_runtime(project: Project) -> Project:
     """Devices that lead nowhere lead to the local runtime."""
-    for item in project.find_kind("device"):
+    for item in project.find_kind(DEVICE.name):
         if isinstance(item.data, DeviceData) and item.data.runtime_id is None:
             data = item.data.model_copy(update={"runtime_id": LOCAL_RUNTIME})
             project = change_data(project, item.id, data)

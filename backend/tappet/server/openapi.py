@@ -1,20 +1,19 @@
-"""The OpenAPI document, with the shapes of the WebSocket messages too. Run as a module to print it."""
+"""The OpenAPI document, with the shapes of the WebSocket messages too."""
 
 from __future__ import annotations
 
-import json
-import sys
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import TypeAdapter
 
-from tappet.project.model import ProjectObject
+from tappet.project.objects import any_object
+from tappet.server.events.shapes import EventMessage, OpenObject
+from tappet.server.online.shapes import ClientMessage, ServerMessage
 from tappet.server.problems import MEDIA_TYPE
-from tappet.server.schemas.base import ProblemDetails
-from tappet.server.schemas.events import EventMessage, OpenObject
-from tappet.server.schemas.online import ClientMessage, ServerMessage
+from tappet.server.runtimes import operations
+from tappet.server.shapes import ProblemDetails
 
 _REF = "#/components/schemas/{model}"
 _PROBLEM = {
@@ -29,14 +28,13 @@ SOCKET_SHAPES: dict[str, Any] = {
     "OnlineServerMessage": ServerMessage,
     "EventClientMessage": OpenObject,
     "EventServerMessage": EventMessage,
-    "AnyProjectObject": ProjectObject,
 }
 """Shapes that no REST route mentions, by the name the client knows them under."""
 
 
 def _extra_schemas() -> dict[str, Any]:
     schemas: dict[str, Any] = {}
-    for name, shape in SOCKET_SHAPES.items():
+    for name, shape in (*SOCKET_SHAPES.items(), ("AnyProjectObject", any_object())):
         schema = TypeAdapter(shape).json_schema(
             ref_template=_REF, mode="validation" if "Client" in name else "serialization"
         )
@@ -52,7 +50,7 @@ def document(app: FastAPI) -> dict[str, Any]:
     )
     components = result.setdefault("components", {})
     schemas = components.setdefault("schemas", {})
-    for name, schema in _extra_schemas().items():
+    for name, schema in (_extra_schemas() | operations.schemas()).items():
         schemas.setdefault(name, schema)
     for unused in ("HTTPValidationError", "ValidationError"):
         schemas.pop(unused, None)
@@ -74,15 +72,3 @@ def install(app: FastAPI) -> None:
         return app.openapi_schema
 
     app.openapi = cached  # type: ignore[method-assign]
-
-
-def text(app: FastAPI) -> str:
-    """The document as it is kept in the front end: sorted, one line per value, so that diffs read well."""
-    return json.dumps(document(app), indent=2, ensure_ascii=False, sort_keys=True) + "\n"
-
-
-if __name__ == "__main__":
-    from tappet.server.app import create_app
-    from tappet.server.settings import ServerSettings
-
-    sys.stdout.write(text(create_app(ServerSettings())))

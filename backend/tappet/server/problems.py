@@ -17,7 +17,7 @@ from starlette.websockets import WebSocket
 
 from tappet.project.errors import ProjectError
 from tappet.project.store import StaleRevision
-from tappet.server.project_shapes import object_detail
+from tappet.server.objects.replies import object_detail
 
 MEDIA_TYPE = "application/problem+json"
 log = logging.getLogger(__name__)

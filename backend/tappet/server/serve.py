@@ -117,7 +117,7 @@ async def _serve(options: ServeOptions, listener: socket.socket) -> int:
     console.greet(local_link=options.local_link)
     if options.local_link:
         console.offer_links()
-    await services.commissioning.builder.warm()
+    await asyncio.gather(services.commissioning.builder.warm(), services.analysis.warm())
     machine = None if example is None else asyncio.create_task(_run(services, example))
     try:
         await running

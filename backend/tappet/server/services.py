@@ -9,24 +9,26 @@ from datetime import UTC, datetime
 from sqlalchemy import Connection, select
 
 from tappet.project.store import Store
+from tappet.server.analysis.project import Limits
+from tappet.server.analysis.service import AnalysisService
 from tappet.server.auth import accounts, sessions
 from tappet.server.auth.login import FIRST_ACCOUNT, Login
 from tappet.server.auth.one_time import OneTimeSecrets
 from tappet.server.auth.passwords import Passwords
-from tappet.server.builder import Builder
-from tappet.server.commissioning import Commissioning
+from tappet.server.builds.builder import Builder
+from tappet.server.builds.commissioning import Commissioning
+from tappet.server.builds.packages import PackageStore
 from tappet.server.database import Database
-from tappet.server.local_runtime import LocalRuntime
-from tappet.server.metrics import Metrics
+from tappet.server.events.service import ProjectEvents
+from tappet.server.metrics.service import Metrics
 from tappet.server.online.sampler import SamplerPool
-from tappet.server.packages import PackageStore
-from tappet.server.plc_client import Connect
-from tappet.server.project_events import ProjectEvents
-from tappet.server.runtimes import RuntimeLink, RuntimeRegistry
+from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
+from tappet.server.runtimes.local import LocalRuntime
+from tappet.server.runtimes.plc_client import Connect
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.server.tables import runtimes as runtimes_table
-from tappet.server.test_runs import TestRuns
-from tappet.server.views import ViewRegistry
+from tappet.server.unit_tests.service import TestRuns
+from tappet.server.views.service import ViewRegistry
 
 HOUSEKEEPING_S = 3600.0
 """How often expired sessions are deleted; expired ones are never accepted anyway."""
@@ -51,6 +53,7 @@ class Services:
     """Shown on the console at start-up while there is no account."""
     local_runtime: LocalRuntime | None = None
     _events: ProjectEvents | None = None
+    _analysis: AnalysisService | None = None
     _housekeeping: asyncio.Task[None] | None = None
     _samplers: dict[RuntimeLink, SamplerPool] = field(default_factory=dict)
 
@@ -68,10 +71,18 @@ class Services:
         assert self._events is not None, "the server has started"
         return self._events
 
+    @property
+    def analysis(self) -> AnalysisService:
+        """The analysis of open projects, once the server has started."""
+        assert self._analysis is not None, "the server has started"
+        return self._analysis
+
     async def start(self) -> None:
         """Begins the work in the background."""
         self._housekeeping = asyncio.create_task(self._keep_house(), name="housekeeping")
         self._events = ProjectEvents(self.store)
+        limits = Limits(self.settings.analysis_memory_mib, self.settings.analysis_seconds)
+        self._analysis = AnalysisService(self.store, limits, idle_s=self.settings.analysis_idle_seconds)
         if self.settings.local_runtime:
             link = self.runtimes.add("Local", "", "", LOCAL_RUNTIME)
             folder = self.settings.data_dir / "runtime"
@@ -94,6 +105,8 @@ class Services:
             self._events.close()
         if self._housekeeping is not None:
             self._housekeeping.cancel()
+        if self._analysis is not None:
+            await self._analysis.close()
         await self.views.close()
         await self.commissioning.builder.close()
         await self.runtimes.close()

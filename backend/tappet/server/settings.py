@@ -44,6 +44,12 @@ class ServerSettings:
     """Further arguments of `tappet runtime`."""
     build_workers: int = 1
     """Compiler processes; each keeps the caches of the projects it serves."""
+    analysis_memory_mib: int = 4096
+    """Address space of the process that analyses a project; it starts again when it needs more."""
+    analysis_seconds: float = 120.0
+    """Longest time of one request to it, or of one step of a check; it starts again when that is exceeded."""
+    analysis_idle_seconds: float = 300.0
+    """It ends so long after the last editor of the project was closed."""
     reconnect_seconds: float = 1.0
     """First pause before a lost runtime is tried again; doubles up to 15 s. So does that before a local one
     which did not start is started again, up to 30 s."""

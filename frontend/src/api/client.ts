@@ -38,7 +38,7 @@ interface RequestOptions {
   signal?: AbortSignal;
 }
 
-/** Told about every answer 401, so that the frame can show the login page. */
+/** Called for every answer 401, so that the frame can show the login page. */
 let onUnauthorised: () => void = () => undefined;
 export function setUnauthorisedListener(listener: () => void): void {
   onUnauthorised = listener;

@@ -25,6 +25,7 @@ export const keys = {
   objects: (projectId: string) => ['project', projectId, 'objects'] as const,
   object: (projectId: string, objectId: string) => ['project', projectId, 'object', objectId] as const,
   placement: ['placement'] as const,
+  languages: ['languages'] as const,
   libraries: ['libraries'] as const,
   library: (name: string, version = '*') => ['libraries', name, version] as const,
   runtimes: ['runtimes'] as const,
@@ -138,6 +139,6 @@ export function patchSummary(projectId: string, changed: ObjectSummary): void {
 }
 
 export function summaryOf(object: ObjectSummary): ObjectSummary {
-  const { id, parent_id, kind, subkind, name, index, revision, badges, excluded } = object;
-  return { id, parent_id, kind, subkind, name, index, revision, badges, excluded };
+  const { id, parent_id, kind, subkind, name, index, revision, excluded } = object;
+  return { id, parent_id, kind, subkind, name, index, revision, excluded };
 }

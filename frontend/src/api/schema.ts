@@ -228,6 +228,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/languages": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Languages
+         * @description The languages that bodies can be in, in the order of lists.
+         */
+        get: operations["read_languages"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/libraries": {
         parameters: {
             query?: never;
@@ -1033,7 +1053,7 @@ export interface paths {
         post?: never;
         /**
          * Remove Runtime
-         * @description Forget a runtime; the soft PLC itself goes on running.
+         * @description Forget a runtime; the soft PLC itself continues to run.
          */
         delete: operations["remove_runtime"];
         options?: never;
@@ -1069,10 +1089,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Flight State
-         * @description What is kept of the past. It freezes at an exception; a start after a reset begins anew.
+         * Flight Status
+         * @description What is kept of the past. It freezes at an exception; after a reset it begins again.
          */
-        get: operations["flight_state"];
+        get: operations["flight_status"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1089,10 +1109,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * List Flight Cycles
+         * Flight History
          * @description All past cycles that can be read, oldest first. Numbers are missing where nothing was recorded.
          */
-        get: operations["list_flight_cycles"];
+        get: operations["flight_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1111,10 +1131,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Freeze Flight
+         * Flight Freeze
          * @description Keep what is recorded, or record again. An exception stays frozen until it is reset.
          */
-        post: operations["freeze_flight"];
+        post: operations["flight_freeze"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1289,10 +1309,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * List Tasks
+         * Tasks
          * @description Statistics of all tasks.
          */
-        get: operations["list_tasks"];
+        get: operations["tasks"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1311,10 +1331,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Reset Task Statistics
-         * @description Begin the statistics of a task anew.
+         * Reset Statistics
+         * @description Reset the statistics of a task, of all tasks without a name.
          */
-        post: operations["reset_task_statistics"];
+        post: operations["reset_statistics"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1497,9 +1517,8 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @enum {string}
              */
-            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
+            language: string;
         };
         /**
          * AccessorObject
@@ -1565,9 +1584,8 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @enum {string}
              */
-            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
+            language: string;
         };
         /**
          * ActionObject
@@ -1613,7 +1631,7 @@ export interface components {
              */
             revision: number;
         };
-        AnyProjectObject: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["MethodObject"] | components["schemas"]["ActionObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["UnknownObjectKind"];
+        AnyProjectObject: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ApplicationData
          * @description An application: how it is checked.
@@ -1708,6 +1726,42 @@ export interface components {
             first_account_needed: boolean;
             user: components["schemas"]["Me"] | null;
         };
+        /**
+         * BodyLanguage
+         * @description A language that bodies can be in.
+         */
+        BodyLanguage: {
+            /**
+             * Compiled
+             * @description Bodies are compiled; otherwise those of other tools are kept.
+             */
+            compiled: boolean;
+            /**
+             * Drawn
+             * @description Bodies can be elements, stored as JSON.
+             */
+            drawn: boolean;
+            /**
+             * Name
+             * @description As the data of objects name it: `ST`.
+             */
+            name: string;
+            /**
+             * Offered
+             * @description New objects can be written in it.
+             */
+            offered: boolean;
+            /**
+             * Text
+             * @description Bodies can be text.
+             */
+            text: boolean;
+            /**
+             * Title
+             * @description In full, in English.
+             */
+            title: string;
+        };
         /** Body_import_files_as_project */
         Body_import_files_as_project: {
             /**
@@ -1799,6 +1853,11 @@ export interface components {
          * @description One level of the call stack, the innermost first.
          */
         CallFrame: {
+            /**
+             * Element
+             * @description Id of the element in a drawn part.
+             */
+            element: string | null;
             /**
              * Line
              * @description From 1: in the part, or in the whole text where no part is known.
@@ -1912,23 +1971,6 @@ export interface components {
             username: string;
         };
         /**
-         * DeclarationData
-         * @description An object that is only declaration text: property, interface, DUT, variable list.
-         */
-        DeclarationData: {
-            /**
-             * Declaration
-             * @default
-             */
-            declaration: string;
-            /**
-             * Exclude From Build
-             * @description The compiler does not get this object, nor what is below it.
-             * @default false
-             */
-            exclude_from_build: boolean;
-        };
-        /**
          * DeviceData
          * @description A device of the Devices view (CON-01).
          */
@@ -2017,6 +2059,11 @@ export interface components {
             code: string;
             /** Column */
             column: number | null;
+            /**
+             * Element
+             * @description Id of the element in a drawn part.
+             */
+            element: string | null;
             /** End Column */
             end_column: number | null;
             /** End Line */
@@ -2069,8 +2116,25 @@ export interface components {
             state: string;
         };
         /**
+         * DutData
+         * @description TYPE ... END_TYPE.
+         */
+        DutData: {
+            /**
+             * Declaration
+             * @default
+             */
+            declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+        };
+        /**
          * DutObject
-         * @description A data unit type: structure, enumeration, alias, union, subrange (DUT-03).
+         * @description A data unit type: structure, enumeration, alias, union, subrange.
          */
         DutObject: {
             /**
@@ -2078,7 +2142,7 @@ export interface components {
              *       "declaration": ""
              *     }
              */
-            data: components["schemas"]["DeclarationData"];
+            data: components["schemas"]["DutData"];
             /**
              * Id
              * @description uuid4 as 32 hexadecimal digits.
@@ -2249,12 +2313,8 @@ export interface components {
          * @description A past cycle that can be read.
          */
         FlightCycle: {
-            /** Cycle */
             cycle: number;
-            /**
-             * Timestamp
-             * Format: date-time
-             */
+            /** Format: date-time */
             timestamp: string;
         };
         /**
@@ -2262,15 +2322,10 @@ export interface components {
          * @description What is kept; null where nothing is.
          */
         FlightEntries: {
-            /** Count */
             count: number;
-            /** First Cycle */
             first_cycle: number | null;
-            /** First Timestamp */
             first_timestamp: string | null;
-            /** Last Cycle */
             last_cycle: number | null;
-            /** Last Timestamp */
             last_timestamp: string | null;
         };
         /**
@@ -2289,32 +2344,16 @@ export interface components {
          */
         FlightState: {
             entries: components["schemas"]["FlightEntries"];
-            /**
-             * Frozen
-             * @description Nothing is recorded, so nothing kept is dropped.
-             */
+            /** @description Nothing is recorded, so nothing kept is dropped. */
             frozen: boolean;
-            /** Frozen By */
-            frozen_by: ("request" | "exception") | null;
-            /**
-             * Memory
-             * @description Bytes the entries may take.
-             */
+            frozen_by: ("exception" | "request") | null;
+            /** @description Bytes the entries may take. */
             memory: number;
-            /**
-             * Parts
-             * @description 1: all values of an entry are of its cycle. More: the image is large, each entry covers one part of it in turn, and a value may be up to `parts - 1` entries old.
-             */
+            /** @description 1: all values of an entry are of its cycle. More: the image is large, each entry covers one part of it in turn, and a value may be up to `parts - 1` entries old. */
             parts: number;
-            /**
-             * Period
-             * @description An entry every so many cycles.
-             */
+            /** @description An entry every so many cycles. */
             period: number;
-            /**
-             * Used
-             * @description Bytes they take.
-             */
+            /** @description Bytes they take. */
             used: number;
         };
         /**
@@ -2380,16 +2419,32 @@ export interface components {
             places: components["schemas"]["ImagePlace"][];
         };
         /**
-         * FreezeOrder
-         * @description Keep what is recorded (true), or record again (false).
+         * FreezeFlight
+         * @description Keep what is recorded, or record again. An exception stays frozen until it is reset.
          */
-        FreezeOrder: {
-            /** On */
+        FreezeFlight: {
             on: boolean;
         };
         /**
+         * GvlData
+         * @description VAR_GLOBAL ... END_VAR.
+         */
+        GvlData: {
+            /**
+             * Declaration
+             * @default
+             */
+            declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+        };
+        /**
          * GvlObject
-         * @description A global variable list (GVL-01), or the parameter list of a library.
+         * @description A global variable list, or the parameter list of a library.
          */
         GvlObject: {
             /**
@@ -2397,7 +2452,7 @@ export interface components {
              *       "declaration": ""
              *     }
              */
-            data: components["schemas"]["DeclarationData"];
+            data: components["schemas"]["GvlData"];
             /**
              * Id
              * @description uuid4 as 32 hexadecimal digits.
@@ -2520,6 +2575,23 @@ export interface components {
             report: components["schemas"]["ImportReport"];
         };
         /**
+         * InterfaceData
+         * @description INTERFACE and what it extends.
+         */
+        InterfaceData: {
+            /**
+             * Declaration
+             * @default
+             */
+            declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+        };
+        /**
          * InterfaceObject
          * @description An interface; its methods and properties are its children.
          */
@@ -2529,7 +2601,7 @@ export interface components {
              *       "declaration": ""
              *     }
              */
-            data: components["schemas"]["DeclarationData"];
+            data: components["schemas"]["InterfaceData"];
             /**
              * Id
              * @description uuid4 as 32 hexadecimal digits.
@@ -2632,10 +2704,10 @@ export interface components {
             expression: string;
             /**
              * Flags
-             * @description Space separated of CONSTANT, RETAIN, PERSISTENT.
-             * @default
+             * @description Of CONSTANT, RETAIN, PERSISTENT.
+             * @default []
              */
-            flags: string;
+            flags: string[];
             /**
              * Kind
              * @description bool bits int uint real time date ... enum string wstring error.
@@ -2682,13 +2754,13 @@ export interface components {
              * @description Installed besides those of the product.
              */
             removable: boolean;
+            /**
+             * Replaces
+             * @description Libraries of other systems that this one replaces.
+             */
+            replaces: string[];
             /** Requires */
             requires: components["schemas"]["RequiredLibrary"][];
-            /**
-             * Stands For
-             * @description Libraries of other systems that it takes the place of.
-             */
-            stands_for: string[];
             /** Version */
             version: string;
         };
@@ -2734,7 +2806,7 @@ export interface components {
         };
         /**
          * LibraryManagerObject
-         * @description The list of libraries of an application or of the POUs view (LIB-01).
+         * @description The list of libraries of an application or of the POUs view.
          */
         LibraryManagerObject: {
             /**
@@ -2857,13 +2929,13 @@ export interface components {
              * @description Installed besides those of the product.
              */
             removable: boolean;
+            /**
+             * Replaces
+             * @description Libraries of other systems that this one replaces.
+             */
+            replaces: string[];
             /** Requires */
             requires: components["schemas"]["RequiredLibrary"][];
-            /**
-             * Stands For
-             * @description Libraries of other systems that it takes the place of.
-             */
-            stands_for: string[];
             /** Version */
             version: string;
         };
@@ -2990,9 +3062,8 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @enum {string}
              */
-            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
+            language: string;
         };
         /**
          * MethodObject
@@ -3102,7 +3173,7 @@ export interface components {
             kind: string;
             /**
              * Language
-             * @description Language of the body, `ST` or `IL`.
+             * @description Language of the body, see /languages.
              */
             language?: string | null;
             /**
@@ -3229,8 +3300,6 @@ export interface components {
          * @description An object with its data, whose shape depends on `kind` (see /placement and the data schemas).
          */
         ObjectDetail: {
-            /** Badges */
-            badges: string[];
             /** Data */
             data: {
                 [key: string]: unknown;
@@ -3314,8 +3383,6 @@ export interface components {
          * @description An object in the tree.
          */
         ObjectSummary: {
-            /** Badges */
-            badges: string[];
             /**
              * Excluded
              * @description From the build.
@@ -3417,8 +3484,25 @@ export interface components {
             values: components["schemas"]["Value"][];
         };
         /**
+         * PersistentData
+         * @description VAR_GLOBAL PERSISTENT RETAIN ... END_VAR.
+         */
+        PersistentData: {
+            /**
+             * Declaration
+             * @default
+             */
+            declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+        };
+        /**
          * PersistentObject
-         * @description The list of persistent variables of an application (PERS-02).
+         * @description The list of persistent variables of an application.
          */
         PersistentObject: {
             /**
@@ -3426,7 +3510,7 @@ export interface components {
              *       "declaration": ""
              *     }
              */
-            data: components["schemas"]["DeclarationData"];
+            data: components["schemas"]["PersistentData"];
             /**
              * Id
              * @description uuid4 as 32 hexadecimal digits.
@@ -3475,7 +3559,7 @@ export interface components {
         };
         /**
          * PlacementRule
-         * @description Where objects of one kind may be, and how they are named.
+         * @description Where objects of one kind may be, and how they are named; what the front end gets of a kind.
          */
         PlacementRule: {
             /**
@@ -3491,7 +3575,7 @@ export interface components {
              * @description Languages to choose from for the body of a new object; the first is usual.
              * @default []
              */
-            languages: ("ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC")[];
+            languages: string[];
             /**
              * Names
              * @description The possible names where naming is fixed.
@@ -3598,9 +3682,8 @@ export interface components {
             /**
              * Language
              * @default ST
-             * @enum {string}
              */
-            language: "ST" | "IL" | "LD" | "FBD" | "CFC" | "SFC";
+            language: string;
         };
         /**
          * PouObject
@@ -3756,6 +3839,23 @@ export interface components {
             revision: number;
         };
         /**
+         * PropertyData
+         * @description PROPERTY of a function block, a program or an interface.
+         */
+        PropertyData: {
+            /**
+             * Declaration
+             * @default
+             */
+            declaration: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build: boolean;
+        };
+        /**
          * PropertyObject
          * @description A property; its accessors are its children.
          */
@@ -3765,7 +3865,7 @@ export interface components {
              *       "declaration": ""
              *     }
              */
-            data: components["schemas"]["DeclarationData"];
+            data: components["schemas"]["PropertyData"];
             /**
              * Id
              * @description uuid4 as 32 hexadecimal digits.
@@ -3849,15 +3949,12 @@ export interface components {
             version: string;
         };
         /**
-         * ResetOrder
-         * @description How much to initialise.
+         * Reset
+         * @description Initialise the variables: warm (not RETAIN), cold (not PERSISTENT), origin (all, and unload).
          */
-        ResetOrder: {
-            /**
-             * Kind
-             * @enum {string}
-             */
-            kind: "warm" | "cold" | "origin";
+        Reset: {
+            /** @enum {unknown} */
+            kind: "cold" | "origin" | "warm";
         };
         /**
          * RevertTarget
@@ -3934,6 +4031,11 @@ export interface components {
             call_stack: components["schemas"]["CallFrame"][];
             /** Code */
             code: number | string;
+            /**
+             * Element
+             * @description Id of the element in a drawn part.
+             */
+            element: string | null;
             /**
              * Line
              * @description From 1: in the part, or in the whole text where no part is known.
@@ -4234,7 +4336,7 @@ export interface components {
         };
         /**
          * TaskConfigurationObject
-         * @description Holds the tasks of an application (TASK-01).
+         * @description Holds the tasks of an application.
          */
         TaskConfigurationObject: {
             /** @default {} */
@@ -4371,59 +4473,29 @@ export interface components {
          * @description Statistics of one task since its start or the last reset of them; times in µs (TASK-50 .. TASK-59).
          */
         TaskState: {
-            /** Average Jitter Us */
             average_jitter_us: number;
-            /** Average Us */
             average_us: number;
-            /**
-             * Cycles
-             * @description Cycles altogether, those of a stopped application too.
-             */
+            /** @description Cycles altogether, those of a stopped application too. */
             cycles: number;
-            /**
-             * Iec Cycles
-             * @description Cycles that ran the programs.
-             */
+            /** @description Cycles that ran the programs. */
             iec_cycles: number;
-            /** Interval Us */
             interval_us: number;
-            /**
-             * Jitter Us
-             * @description Lateness of the last start.
-             */
+            /** @description Lateness of the last start. */
             jitter_us: number;
-            /** Kind */
             kind: string;
-            /** Last Us */
             last_us: number;
-            /** Max Jitter Us */
             max_jitter_us: number;
-            /** Max Us */
             max_us: number;
-            /** Min Jitter Us */
             min_jitter_us: number;
-            /** Min Us */
             min_us: number;
-            /**
-             * Missed
-             * @description Starts dropped because of that.
-             */
+            /** @description Starts dropped because of that. */
             missed: number;
-            /** Name */
             name: string;
-            /**
-             * Overruns
-             * @description Cycles that were still running when the next was due.
-             */
+            /** @description Cycles that were still running when the next was due. */
             overruns: number;
-            /**
-             * P999 Jitter Us
-             * @description 99.9 % of the starts were not later than this.
-             */
+            /** @description 99.9 % of the starts were not later than this. */
             p999_jitter_us: number;
-            /** Priority */
             priority: number;
-            /** Status */
             status: string;
         };
         /**
@@ -4440,6 +4512,11 @@ export interface components {
              * @description Number of the exception; 0 for assertions.
              */
             code: number;
+            /**
+             * Element
+             * @description Id of the element in a drawn part.
+             */
+            element: string | null;
             /** Expected */
             expected: string | null;
             /** Line */
@@ -5204,6 +5281,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_languages: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BodyLanguage"][];
                 };
             };
             /** @description The request was refused */
@@ -7406,7 +7521,7 @@ export interface operations {
             };
         };
     };
-    flight_state: {
+    flight_status: {
         parameters: {
             query?: never;
             header?: never;
@@ -7446,7 +7561,7 @@ export interface operations {
             };
         };
     };
-    list_flight_cycles: {
+    flight_history: {
         parameters: {
             query?: never;
             header?: never;
@@ -7486,7 +7601,7 @@ export interface operations {
             };
         };
     };
-    freeze_flight: {
+    flight_freeze: {
         parameters: {
             query?: never;
             header?: never;
@@ -7497,7 +7612,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["FreezeOrder"];
+                "application/json": components["schemas"]["FreezeFlight"];
             };
         };
         responses: {
@@ -7668,7 +7783,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ResetOrder"];
+                "application/json": components["schemas"]["Reset"];
             };
         };
         responses: {
@@ -7863,7 +7978,7 @@ export interface operations {
             };
         };
     };
-    list_tasks: {
+    tasks: {
         parameters: {
             query?: never;
             header?: never;
@@ -7903,13 +8018,13 @@ export interface operations {
             };
         };
     };
-    reset_task_statistics: {
+    reset_statistics: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                task: string;
                 runtime_id: string;
+                task: string;
             };
             cookie?: never;
         };

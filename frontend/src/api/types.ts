@@ -15,21 +15,14 @@ export type AuthStatus = Schemas['AuthStatus'];
 export type ProjectSummary = Schemas['ProjectSummary'];
 export type Revision = Schemas['Revision'];
 
-type KindOf<Some extends { kind: string }> = Some extends unknown
-  ? string extends Some['kind']
-    ? never
-    : Some['kind']
-  : never;
-/** Every kind that is installed. Objects of other kinds (their plug-in is missing) are shown and kept, not edited. */
-export type ObjectKind = KindOf<Schemas['AnyProjectObject']>;
-/** An object in the tree. */
-export type ObjectSummary = Omit<Schemas['ObjectSummary'], 'kind' | 'excluded'> & {
-  kind: ObjectKind;
+/** An object in the tree. Its kind may be one that a plug-in of the server brought. */
+export type ObjectSummary = Omit<Schemas['ObjectSummary'], 'excluded'> & {
   /** From the build. */
   excluded?: boolean;
 };
 export type ProjectObject<Data = Record<string, unknown>> = ObjectSummary & { data: Data };
-export type PlacementRule = Omit<Schemas['PlacementRule'], 'kind'> & { kind: ObjectKind };
+export type BodyLanguage = Schemas['BodyLanguage'];
+export type PlacementRule = Schemas['PlacementRule'];
 
 /** Data of every object that is text: pou, method, action, accessor, interface, dut, gvl, persistent. */
 export interface TextData {

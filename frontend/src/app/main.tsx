@@ -6,7 +6,7 @@ import '@fontsource/jetbrains-mono/600.css';
 import './tokens.css';
 import './global.css';
 import { App } from './App';
-import { startPreferences } from './preferences';
+import { startPreferences } from '@/session/preferences';
 import { registerRooms } from './rooms';
 
 await startPreferences();

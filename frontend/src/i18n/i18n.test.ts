@@ -1,17 +1,23 @@
-import { readdirSync, readFileSync, statSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
 
 const root = join(import.meta.dirname, '..');
 
-function texts(language: string): Record<string, string> {
+/** Those of this room, and those beside kinds and languages. */
+function tables(language: string): string[] {
   const folder = join(import.meta.dirname, language);
+  const beside = ['kinds', 'editors'].flatMap((room) =>
+    readdirSync(join(root, room)).map((name) => join(root, room, name, `${language}.json`)),
+  );
+  return [...readdirSync(folder).map((name) => join(folder, name)), ...beside.filter((file) => existsSync(file))];
+}
+
+function texts(language: string): Record<string, string> {
   const all: Record<string, string> = {};
-  for (const file of readdirSync(folder)) {
-    for (const [key, text] of Object.entries(
-      JSON.parse(readFileSync(join(folder, file), 'utf8')) as Record<string, string>,
-    )) {
-      if (key in all) throw new Error(`${language}/${file}: '${key}' is defined twice`);
+  for (const file of tables(language)) {
+    for (const [key, text] of Object.entries(JSON.parse(readFileSync(file, 'utf8')) as Record<string, string>)) {
+      if (key in all) throw new Error(`${file}: '${key}' is defined twice`);
       all[key] = text;
     }
   }

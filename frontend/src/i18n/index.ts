@@ -1,75 +1,63 @@
 /**
  * Texts of the user interface, English and Chinese.
  *
- * One JSON file per room and language: `en/workbench.json`, `zh/workbench.json` and so on, flat keys, `{{name}}` for
- * values, `_one`/`_other` suffixes where a count decides (Chinese has `_other` only). A new room adds its two files to
- * the two tables below. `i18n.test.ts` fails on a key that is missing in one language or used nowhere.
+ * One JSON file per room and language: `en/workbench.json`, `zh/workbench.json` and so on; the folders of kinds and of
+ * languages have theirs beside their code and are found by their place. Flat keys, `{{name}}` for values,
+ * `_one`/`_other` suffixes where a count decides (Chinese has `_other` only).
+ * `i18n.test.ts` fails on a key that is missing in one language or used nowhere.
  */
 import i18next from 'i18next';
 import { useSyncExternalStore } from 'react';
-import enAnalysis from './en/analysis.json';
-import enEditors from './en/editors.json';
-import enIl from './en/il.json';
-import enExchange from './en/exchange.json';
-import enLibraries from './en/libraries.json';
-import enObjects from './en/objects.json';
-import enOnline from './en/online.json';
-import enScene from './en/scene.json';
-import enTests from './en/tests.json';
-import enWorkbench from './en/workbench.json';
-import zhAnalysis from './zh/analysis.json';
-import zhEditors from './zh/editors.json';
-import zhIl from './zh/il.json';
-import zhExchange from './zh/exchange.json';
-import zhLibraries from './zh/libraries.json';
-import zhObjects from './zh/objects.json';
-import zhOnline from './zh/online.json';
-import zhScene from './zh/scene.json';
-import zhTests from './zh/tests.json';
-import zhWorkbench from './zh/workbench.json';
+import type analysis from './en/analysis.json';
+import type editors from './en/editors.json';
+import type exchange from './en/exchange.json';
+import type libraries from './en/libraries.json';
+import type objects from './en/objects.json';
+import type online from './en/online.json';
+import type tests from './en/tests.json';
+import type workbench from './en/workbench.json';
 
 export type Language = 'en' | 'zh';
 
-const en = {
-  ...enWorkbench,
-  ...enObjects,
-  ...enOnline,
-  ...enEditors,
-  ...enIl,
-  ...enScene,
-  ...enTests,
-  ...enAnalysis,
-  ...enExchange,
-  ...enLibraries,
+/** The tables of texts; a folder that has one of its own adds its type here by `declare module '@/i18n'`. */
+export interface TextTables {
+  analysis: typeof analysis;
+  editors: typeof editors;
+  exchange: typeof exchange;
+  libraries: typeof libraries;
+  objects: typeof objects;
+  online: typeof online;
+  tests: typeof tests;
+  workbench: typeof workbench;
+}
+
+type Table = Readonly<Record<string, string>>;
+const FILES = {
+  en: import.meta.glob<Table>(['./en/*.json', '../{kinds,editors}/*/en.json'], { eager: true, import: 'default' }),
+  zh: import.meta.glob<Table>(['./zh/*.json', '../{kinds,editors}/*/zh.json'], { eager: true, import: 'default' }),
 };
-const zh = {
-  ...zhWorkbench,
-  ...zhObjects,
-  ...zhOnline,
-  ...zhEditors,
-  ...zhIl,
-  ...zhScene,
-  ...zhTests,
-  ...zhAnalysis,
-  ...zhExchange,
-  ...zhLibraries,
-};
+const tableOf = (language: Language): Table => Object.assign({}, ...Object.values(FILES[language])) as Table;
 
 type WithoutPlural<Key> = Key extends `${infer Base}_one` | `${infer Base}_other` ? Base : Key;
 
 /** Every key there is; a misspelt key does not compile. */
-export type TextKey = WithoutPlural<keyof typeof en>;
+export type TextKey = WithoutPlural<{ [Name in keyof TextTables]: keyof TextTables[Name] }[keyof TextTables]>;
 export type TextValues = Record<string, string | number>;
 
 void i18next.init({
   lng: 'en',
   fallbackLng: 'en',
-  resources: { en: { translation: en }, zh: { translation: zh } },
+  resources: { en: { translation: tableOf('en') }, zh: { translation: tableOf('zh') } },
   keySeparator: false,
   nsSeparator: false,
   interpolation: { escapeValue: false },
   initAsync: false,
 });
+
+/** The text of a key that is built from the name of a kind or language; null where there is none. */
+export function textOf(key: string): string | null {
+  return i18next.exists(key) ? i18next.t(key) : null;
+}
 
 /** Text outside of React (dialog services, commands). Inside components use `useText`, which follows a language switch. */
 export function t(key: TextKey, values?: TextValues): string {

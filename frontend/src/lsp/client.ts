@@ -5,15 +5,15 @@
  */
 import type { CancellationToken, editor, IDisposable } from 'monaco-editor/editor/editor.api';
 import { socketUrl } from '@/api/client';
-import { LANGUAGE_ID, TEXT_LANGUAGES } from '@/editors/st/language';
-import type { Monaco } from '@/editors/st/monacoLoader';
+import { ReconnectingSocket } from '@/api/socket';
+import { LANGUAGE_ID, TEXT_LANGUAGES } from '@/text/language';
+import type { Monaco } from '@/text/monacoLoader';
 import { language } from '@/i18n';
-import { fromDiagnostic, parsePartUri, toRange } from './convert';
-import type { Diagnostic, InitializeResult, ServerCapabilities } from './protocol';
-import { RpcConnection, RpcError, type RpcSocket } from './rpc';
+import { fromDiagnostic, toRange } from './convert';
+import { parsePartUri } from '@/project/partUri';
+import type { Diagnostic, InitializeResult, ServerCapabilities, ShownMessage } from './protocol';
+import { RpcConnection, RpcError } from './rpc';
 
-const FIRST_PAUSE_MS = 1000;
-const LONGEST_PAUSE_MS = 15_000;
 const INCREMENTAL = 2;
 const MARKERS = 'tappet';
 
@@ -55,10 +55,10 @@ const CLIENT_CAPABILITIES = {
 export class LanguageClient {
   capabilities: ServerCapabilities = {};
   private rpc: RpcConnection | null = null;
-  private ready: Promise<RpcConnection> | null = null;
-  private pause = FIRST_PAUSE_MS;
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  private closed = false;
+  /** Settles with the connection once it is initialised, with null where there is none. */
+  private ready: Promise<RpcConnection | null> = Promise.resolve(null);
+  private settle: (rpc: RpcConnection | null) => void = () => undefined;
+  private readonly socket: ReconnectingSocket;
   private readonly disposables: IDisposable[] = [];
   private readonly listeners = new Map<string, IDisposable>();
   private readonly connectedListeners = new Set<() => void>();
@@ -68,12 +68,21 @@ export class LanguageClient {
     readonly projectId: string,
     /** Hears what the server finds in a text that is open. */
     private readonly published: (uri: string, diagnostics: readonly Diagnostic[]) => void,
+    /** Hears what the server says to people, such as that the analysis has ended. */
+    private readonly said: (message: ShownMessage) => void,
   ) {
     this.disposables.push(
       monaco.editor.onDidCreateModel((model) => this.watch(model)),
       monaco.editor.onWillDisposeModel((model) => this.forget(model)),
     );
-    this.connect();
+    this.socket = new ReconnectingSocket(socketUrl('/lsp', { project: projectId }), {
+      opened: () => this.start(),
+      message: (data) => this.rpc?.receive(data),
+      stateChanged: (state) => {
+        if (state !== 'open') this.lost();
+        if (state === 'connecting') this.ready = new Promise((resolve) => (this.settle = resolve));
+      },
+    });
     for (const model of monaco.editor.getModels()) this.watch(model);
   }
 
@@ -83,7 +92,7 @@ export class LanguageClient {
     return () => this.connectedListeners.delete(listener);
   }
 
-  /** Null where the server cannot answer now or was told to stop; the editor then shows nothing. */
+  /** Null where the server cannot answer now or the request was cancelled; the editor then shows nothing. */
   async request<Result>(method: string, params: unknown, token?: CancellationToken): Promise<Result | null> {
     let subscription: IDisposable | undefined;
     try {
@@ -109,38 +118,31 @@ export class LanguageClient {
 
   /** Tells the server something now, if it is connected. */
   notify(method: string, params: unknown): void {
-    void this.ready?.then(
-      (rpc) => rpc.notify(method, params),
-      () => undefined,
-    );
+    void this.ready.then((rpc) => rpc?.notify(method, params));
   }
 
-  /** Connects anew: what the server tells in words comes in the present language. */
+  /** Connects again: the server writes its messages in the language given at initialisation. */
   renew(): void {
-    this.rpc?.close();
+    this.socket.renew();
   }
 
   close(): void {
-    this.closed = true;
-    clearTimeout(this.timer);
     this.disposables.forEach((disposable) => disposable.dispose());
     this.listeners.forEach((listener) => listener.dispose());
-    this.rpc?.close();
+    this.socket.close();
   }
 
-  private connect(): void {
-    const socket = new WebSocket(socketUrl('/lsp', { project: this.projectId })) as RpcSocket;
-    const rpc = new RpcConnection(socket, () => this.lost());
+  private start(): void {
+    const rpc = new RpcConnection((message) => this.socket.send(message));
     this.rpc = rpc;
     rpc.on<{ uri: string; diagnostics: Diagnostic[] }>('textDocument/publishDiagnostics', (p) =>
       this.diagnostics(p.uri, p.diagnostics),
     );
-    this.ready = new Promise<RpcConnection>((resolve, reject) => {
-      socket.onopen = () => {
-        this.initialise(rpc).then(() => resolve(rpc), reject);
-      };
-    });
-    this.ready.catch(() => undefined);
+    rpc.on<ShownMessage>('window/showMessage', (message) => this.said(message));
+    this.initialise(rpc).then(
+      () => this.settle(rpc),
+      () => this.settle(null),
+    );
   }
 
   private async initialise(rpc: RpcConnection): Promise<void> {
@@ -152,18 +154,16 @@ export class LanguageClient {
       capabilities: CLIENT_CAPABILITIES,
     });
     this.capabilities = result.capabilities;
-    this.pause = FIRST_PAUSE_MS;
     rpc.notify('initialized', {});
     for (const model of this.models()) this.open(rpc, model);
     this.connectedListeners.forEach((listener) => listener());
   }
 
+  /** What waits for an answer gets none; requests fail until there is a connection again. */
   private lost(): void {
+    this.rpc?.end();
     this.rpc = null;
-    this.ready = null;
-    if (this.closed) return;
-    this.timer = setTimeout(() => this.connect(), this.pause);
-    this.pause = Math.min(this.pause * 2, LONGEST_PAUSE_MS);
+    this.settle(null);
   }
 
   private mine(model: editor.ITextModel): boolean {
@@ -184,12 +184,9 @@ export class LanguageClient {
       uri,
       model.onDidChangeContent((event) => this.changed(model, event)),
     );
-    void this.ready?.then(
-      (rpc) => {
-        if (!model.isDisposed()) this.open(rpc, model);
-      },
-      () => undefined,
-    );
+    void this.ready.then((rpc) => {
+      if (rpc !== null && !model.isDisposed()) this.open(rpc, model);
+    });
   }
 
   private readonly opened = new WeakMap<RpcConnection, Set<string>>();

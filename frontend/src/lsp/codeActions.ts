@@ -1,14 +1,14 @@
-/** What mends a message, for Monaco's light bulb and Ctrl+. ; what an action does is carried out by `editors/st/mend`. */
+/** Quick fixes for Monaco's light bulb and Ctrl+. ; they are applied by `editors/st/applyQuickFix`. */
 import type { IDisposable, languages } from 'monaco-editor/editor/editor.api';
-import { TEXT_LANGUAGES } from '@/editors/st/language';
-import type { Monaco } from '@/editors/st/monacoLoader';
+import { TEXT_LANGUAGES } from '@/text/language';
+import type { Monaco } from '@/text/monacoLoader';
 import { t, type TextKey } from '@/i18n';
 import type { LanguageClient } from './client';
 import { toRange } from './convert';
 import type { Diagnostic, WorkspaceEdit } from './protocol';
 
 /** Monaco's command behind each action; its argument is a `ServerAction`. */
-export const MEND = 'tappet.mend';
+export const APPLY_QUICK_FIX = 'tappet.applyQuickFix';
 
 export interface NewMember {
   kind: 'method' | 'property';
@@ -59,7 +59,7 @@ export function registerCodeActions(monaco: Monaco, client: LanguageClient): IDi
             kind: 'quickfix',
             isPreferred: action.isPreferred,
             diagnostics: context.markers.filter((marker) => typeof marker.code === 'string' && codes.has(marker.code)),
-            command: { id: MEND, title, arguments: [{ uri: model.uri.toString(), action }] },
+            command: { id: APPLY_QUICK_FIX, title, arguments: [{ uri: model.uri.toString(), action }] },
           };
         });
         return { actions, dispose: () => undefined };

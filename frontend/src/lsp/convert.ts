@@ -8,6 +8,7 @@ import type {
   Markup,
   Position,
   Range,
+  ShownMessage,
   SignatureHelp,
   TextEdit,
 } from './protocol';
@@ -86,6 +87,12 @@ export function adviceOf(diagnostic: Diagnostic): string | null {
   return typeof data?.advice === 'string' && data.advice !== '' ? data.advice : null;
 }
 
+/** The drawn element that a message is at. */
+export function elementOf(diagnostic: Diagnostic): string | null {
+  const data = diagnostic.data as { element?: unknown } | null | undefined;
+  return typeof data?.element === 'string' ? data.element : null;
+}
+
 export function fromDiagnostic(diagnostic: Diagnostic): editor.IMarkerData {
   const advice = adviceOf(diagnostic);
   const range = fromRange(diagnostic.range);
@@ -151,22 +158,6 @@ export function applyTextEdits(text: string, edits: readonly TextEdit[]): string
   );
 }
 
-export interface PartAddress {
-  readonly projectId: string;
-  readonly objectId: string;
-  readonly part: 'declaration' | 'implementation';
-}
-
-const PART_URI = /^tappet:\/+([^/]+)\/([^/]+)\/(declaration|implementation)$/;
-
-/** Takes `tappet:/<project>/<object>/<part>` apart; null for any other address. */
-export function parsePartUri(uri: string): PartAddress | null {
-  const match = PART_URI.exec(uri);
-  if (match === null) return null;
-  const [, projectId = '', objectId = '', part] = match;
-  return { projectId, objectId, part: part as PartAddress['part'] };
-}
-
 export interface LibraryAddress {
   readonly library: string;
   /** Name of the item, not of a method in it. */
@@ -180,4 +171,9 @@ export function parseLibraryUri(uri: string): LibraryAddress | null {
   const [, library, item] = LIBRARY_URI.exec(uri) ?? [];
   if (library === undefined || item === undefined) return null;
   return { library: decodeURIComponent(library), item: decodeURIComponent(item) };
+}
+
+/** How urgent a message of the server to people is. */
+export function toneOf({ type }: ShownMessage): 'error' | 'warn' | 'info' {
+  return type === 1 ? 'error' : type === 2 ? 'warn' : 'info';
 }

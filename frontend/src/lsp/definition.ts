@@ -1,6 +1,6 @@
 import { t } from '@/i18n';
-import type { TextPlace } from '@/editors/st/focus';
-import { notify } from '@/workbench/notices';
+import type { TextPlace } from '@/text/focus';
+import { notify } from '@/ui/notices';
 import { toPosition } from './convert';
 import type { Location, LocationLink } from './protocol';
 import { activeLanguageClient, openLocation } from './session';

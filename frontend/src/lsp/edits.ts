@@ -1,10 +1,12 @@
 /** Edits of several texts at once: undoable in each open text, and stored together. */
 import { StaleObject } from '@/api/queries';
-import { openDocument, type Part, type TextDocument } from '@/editors/documents/documents';
-import { saveTogether } from '@/editors/documents/saveTogether';
-import type { Monaco } from '@/editors/st/monacoLoader';
+import { openDocument, type TextDocument } from '@/text/documents';
+import type { Part } from '@/project/partUri';
+import { saveTogether } from '@/text/saveTogether';
+import type { Monaco } from '@/text/monacoLoader';
 import { t } from '@/i18n';
-import { applyTextEdits, parsePartUri } from './convert';
+import { applyTextEdits } from './convert';
+import { parsePartUri } from '@/project/partUri';
 import type { TextEdit, WorkspaceEdit } from './protocol';
 
 export interface AppliedEdits {

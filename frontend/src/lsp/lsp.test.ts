@@ -5,65 +5,51 @@ import {
   fromDiagnostic,
   fromMarkup,
   parseLibraryUri,
-  parsePartUri,
   toRange,
+  toneOf,
 } from './convert';
-import { RpcConnection, RpcError, type RpcSocket } from './rpc';
+import { parsePartUri } from '@/project/partUri';
+import { RpcConnection, RpcError } from './rpc';
 
-class FakeSocket implements RpcSocket {
-  readyState = 1;
-  onopen: (() => void) | null = null;
-  onclose: (() => void) | null = null;
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  sent: Record<string, unknown>[] = [];
-  send(text: string) {
-    this.sent.push(JSON.parse(text) as Record<string, unknown>);
-  }
-  close() {
-    this.readyState = 3;
-    this.onclose?.();
-  }
-  say(message: object) {
-    this.onmessage?.({ data: JSON.stringify({ jsonrpc: '2.0', ...message }) });
-  }
+/** A connection whose server is the test. */
+function connection() {
+  const sent: unknown[] = [];
+  const rpc = new RpcConnection((message) => sent.push(message) > 0);
+  const say = (message: object) => rpc.receive(JSON.stringify({ jsonrpc: '2.0', ...message }));
+  return { rpc, sent, say };
 }
 
 describe('json rpc', () => {
   it('pairs answers with requests, whatever their order', async () => {
-    const socket = new FakeSocket();
-    const rpc = new RpcConnection(socket, () => undefined);
+    const { rpc, say } = connection();
     const first = rpc.request<string>('a', {});
     const second = rpc.request<string>('b', {});
-    socket.say({ id: 2, result: 'B' });
-    socket.say({ id: 1, error: { code: -32602, message: 'wrong' } });
+    say({ id: 2, result: 'B' });
+    say({ id: 1, error: { code: -32602, message: 'wrong' } });
     expect(await second).toBe('B');
     await expect(first).rejects.toThrow('wrong');
   });
-  it('cancels, and fails what waits when the socket breaks', async () => {
-    const socket = new FakeSocket();
-    let ended = 0;
-    const rpc = new RpcConnection(socket, () => (ended += 1));
+  it('cancels, and fails what waits when the connection ends', async () => {
+    const { rpc, sent } = connection();
     let cancel = () => undefined as void;
     const cancelled = rpc.request('a', {}, (act) => (cancel = act));
     const broken = rpc.request('b', {});
     cancel();
-    expect(socket.sent.at(-1)).toMatchObject({ method: '$/cancelRequest', params: { id: 1 } });
+    expect(sent.at(-1)).toMatchObject({ method: '$/cancelRequest', params: { id: 1 } });
     await expect(cancelled).rejects.toBeInstanceOf(RpcError);
-    socket.close();
+    rpc.end();
     await expect(broken).rejects.toBeInstanceOf(RpcError);
     await expect(rpc.request('c', {})).rejects.toBeInstanceOf(RpcError);
-    expect(ended).toBe(1);
   });
   it('hands notifications over and answers the questions of the server', () => {
-    const socket = new FakeSocket();
-    const rpc = new RpcConnection(socket, () => undefined);
+    const { rpc, sent, say } = connection();
     const heard: unknown[] = [];
     rpc.on('x/y', (params: unknown) => heard.push(params));
-    socket.say({ method: 'x/y', params: { a: 1 } });
+    say({ method: 'x/y', params: { a: 1 } });
     expect(heard).toEqual([{ a: 1 }]);
-    socket.say({ id: 7, method: 'workspace/configuration', params: {} });
-    socket.say({ id: 8, method: 'foo/bar', params: {} });
-    expect(socket.sent).toEqual([
+    say({ id: 7, method: 'workspace/configuration', params: {} });
+    say({ id: 8, method: 'foo/bar', params: {} });
+    expect(sent).toEqual([
       { jsonrpc: '2.0', id: 7, result: null },
       { jsonrpc: '2.0', id: 8, error: { code: -32601, message: 'unknown method foo/bar' } },
     ]);
@@ -115,5 +101,19 @@ describe('addresses of library texts', () => {
     expect(parseLibraryUri('tappet-library:/Standard/TON')).toEqual({ library: 'Standard', item: 'TON' });
     expect(parseLibraryUri('tappet-library:/My%20Lib/FB_A.Start')).toEqual({ library: 'My Lib', item: 'FB_A' });
     expect(parseLibraryUri('tappet:/p/o/declaration')).toBeNull();
+  });
+});
+
+describe('what the server says to people', () => {
+  it('reaches who listens, and is as urgent as it says', () => {
+    const { rpc, say } = connection();
+    const heard: string[] = [];
+    rpc.on<{ type: number; message: string }>('window/showMessage', (said) =>
+      heard.push(`${toneOf(said)} ${said.message}`),
+    );
+    say({ method: 'window/showMessage', params: { type: 1, message: 'ended' } });
+    say({ method: 'window/showMessage', params: { type: 2, message: 'slow' } });
+    say({ method: 'window/showMessage', params: { type: 3, message: 'ready' } });
+    expect(heard).toEqual(['error ended', 'warn slow', 'info ready']);
   });
 });

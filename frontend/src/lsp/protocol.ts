@@ -89,3 +89,9 @@ export interface ServerCapabilities {
 export interface InitializeResult {
   capabilities: ServerCapabilities;
 }
+
+/** `window/showMessage`: 1 is an error, 2 a warning. */
+export interface ShownMessage {
+  type: number;
+  message: string;
+}

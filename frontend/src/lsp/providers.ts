@@ -1,7 +1,7 @@
 /** Registers the language server's abilities with Monaco, for all texts in ST and IL. */
 import type { editor, IDisposable, languages } from 'monaco-editor/editor/editor.api';
-import { TEXT_LANGUAGES } from '@/editors/st/language';
-import type { Monaco } from '@/editors/st/monacoLoader';
+import { TEXT_LANGUAGES } from '@/text/language';
+import type { Monaco } from '@/text/monacoLoader';
 import type { LanguageClient } from './client';
 import { registerCodeActions } from './codeActions';
 import {
@@ -12,9 +12,9 @@ import {
   fromSymbol,
   fromTextEdit,
   parseLibraryUri,
-  parsePartUri,
   toPosition,
 } from './convert';
+import { parsePartUri } from '@/project/partUri';
 import type {
   CompletionItem,
   CompletionList,

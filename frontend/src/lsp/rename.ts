@@ -1,6 +1,6 @@
 /** Rename of a symbol in all objects that use it. */
 import type { editor } from 'monaco-editor/editor/editor.api';
-import type { Monaco } from '@/editors/st/monacoLoader';
+import type { Monaco } from '@/text/monacoLoader';
 import { t } from '@/i18n';
 import type { LanguageClient } from './client';
 import { toPosition } from './convert';

@@ -1,13 +1,4 @@
-/** JSON-RPC 2.0 over a WebSocket, one message a text frame; requests are answered, cancelled or fail with the socket. */
-
-export interface RpcSocket {
-  readyState: number;
-  onopen: (() => void) | null;
-  onclose: (() => void) | null;
-  onmessage: ((event: { data: unknown }) => void) | null;
-  send: (text: string) => void;
-  close: () => void;
-}
+/** JSON-RPC 2.0 on one connection, one message a text frame; requests are answered, cancelled or fail with its end. */
 
 export class RpcError extends Error {
   constructor(
@@ -36,24 +27,15 @@ type NotificationHandler = (params: never) => void;
 
 const METHOD_NOT_FOUND = -32601;
 const REQUEST_CANCELLED = -32800;
-const OPEN = 1;
 
 export class RpcConnection {
   private nextId = 1;
+  private ended = false;
   private readonly waiting = new Map<number, Waiting>();
   private readonly handlers = new Map<string, NotificationHandler>();
 
-  constructor(
-    private readonly socket: RpcSocket,
-    private readonly closed: () => void,
-  ) {
-    socket.onmessage = (event) => this.receive(event.data);
-    socket.onclose = () => {
-      for (const { reject } of this.waiting.values()) reject(new RpcError(0, 'The language server is not connected'));
-      this.waiting.clear();
-      this.closed();
-    };
-  }
+  /** `post` answers false where the connection is gone. */
+  constructor(private readonly post: (message: unknown) => boolean) {}
 
   on<Params>(method: string, handler: (params: Params) => void): void {
     this.handlers.set(method, handler);
@@ -66,13 +48,12 @@ export class RpcConnection {
   /** Rejects with RpcError when the server refuses, the socket breaks or the request is cancelled. */
   request<Result>(method: string, params: unknown, cancelled?: (cancel: () => void) => void): Promise<Result> {
     return new Promise<Result>((resolve, reject) => {
-      if (this.socket.readyState !== OPEN) {
+      const id = this.nextId++;
+      if (this.ended || !this.send({ id, method, params })) {
         reject(new RpcError(0, 'The language server is not connected'));
         return;
       }
-      const id = this.nextId++;
       this.waiting.set(id, { resolve: resolve as (result: unknown) => void, reject });
-      this.send({ id, method, params });
       cancelled?.(() => {
         if (!this.waiting.delete(id)) return;
         this.notify('$/cancelRequest', { id });
@@ -81,15 +62,18 @@ export class RpcConnection {
     });
   }
 
-  close(): void {
-    this.socket.close();
+  /** The connection is gone: what waits for an answer gets none. */
+  end(): void {
+    this.ended = true;
+    for (const { reject } of this.waiting.values()) reject(new RpcError(0, 'The language server is not connected'));
+    this.waiting.clear();
   }
 
-  private send(message: Message): void {
-    if (this.socket.readyState === OPEN) this.socket.send(JSON.stringify({ jsonrpc: '2.0', ...message }));
+  private send(message: Message): boolean {
+    return !this.ended && this.post({ jsonrpc: '2.0', ...message });
   }
 
-  private receive(data: unknown): void {
+  receive(data: unknown): void {
     if (typeof data !== 'string') return;
     const message = JSON.parse(data) as Message;
     if (message.method !== undefined && message.id != null) this.refuse(message);
@@ -101,7 +85,7 @@ export class RpcConnection {
   private refuse(message: Message): void {
     const known = ['workspace/configuration', 'client/registerCapability', 'window/workDoneProgress/create'];
     const id = message.id as number;
-    if (known.includes(message.method ?? '')) this.socket.send(JSON.stringify({ jsonrpc: '2.0', id, result: null }));
+    if (known.includes(message.method ?? '')) this.send({ id, result: null });
     else this.send({ id, error: { code: METHOD_NOT_FOUND, message: `unknown method ${message.method ?? ''}` } });
   }
 

@@ -2,16 +2,18 @@
 import type { IDisposable, IPosition, IRange } from 'monaco-editor/editor/editor.api';
 import { keys, queryClient } from '@/api/queries';
 import type { Diagnostic, ObjectSummary } from '@/api/types';
-import { openDocument, type TextDocument } from '@/editors/documents/documents';
-import { useEditorSettings } from '@/editors/settings';
-import type { Monaco } from '@/editors/st/monacoLoader';
+import { openDocument, type TextDocument } from '@/text/documents';
+import { useEditorSettings } from '@/text/settings';
+import type { Monaco } from '@/text/monacoLoader';
 import { openObject } from '@/workbench/docking/dock';
 import { onLanguageChange } from '@/i18n';
 import { showDocumentation } from '@/workbench/libraries/show';
 import { publishDiagnostics } from '@/workbench/messages/store';
-import { treePath } from '@/workbench/tree/model';
+import { treePath } from '@/project/tree';
 import { LanguageClient } from './client';
-import { adviceOf, parseLibraryUri, parsePartUri, type PartAddress } from './convert';
+import { notify } from '@/ui/notices';
+import { adviceOf, elementOf, parseLibraryUri, toneOf } from './convert';
+import { parsePartUri, type PartAddress } from '@/project/partUri';
 import type { Diagnostic as ServerDiagnostic } from './protocol';
 import { registerProviders } from './providers';
 
@@ -25,10 +27,10 @@ const peeked = new Map<string, TextDocument>();
 const MOST_PEEKED = 60;
 
 /** How texts are formatted is the user's choice; the indentation goes with each request. */
-function tellFormat(told: LanguageClient): void {
+function sendFormat(to: LanguageClient): void {
   const { formatKeywords, formatOperators, formatCommas } = useEditorSettings.getState();
   const format = { keywords: formatKeywords, operators: formatOperators, commas: formatCommas };
-  told.notify('workspace/didChangeConfiguration', { settings: { tappet: { format } } });
+  to.notify('workspace/didChangeConfiguration', { settings: { tappet: { format } } });
 }
 
 useEditorSettings.subscribe((now, before) => {
@@ -36,7 +38,7 @@ useEditorSettings.subscribe((now, before) => {
     now.formatKeywords === before.formatKeywords &&
     now.formatOperators === before.formatOperators &&
     now.formatCommas === before.formatCommas;
-  if (client !== null && !same) tellFormat(client);
+  if (client !== null && !same) sendFormat(client);
 });
 
 function nameOf(projectId: string, objectId: string): string {
@@ -48,12 +50,14 @@ function nameOf(projectId: string, objectId: string): string {
 export function languageClient(monaco: Monaco, projectId: string): LanguageClient {
   if (client?.projectId === projectId) return client;
   closeLanguageClient();
-  const made = new LanguageClient(monaco, projectId, publish);
+  const made = new LanguageClient(monaco, projectId, publish, (message) =>
+    notify({ tone: toneOf(message), title: message.message }),
+  );
   client = made;
   const source = (uris: readonly string[]) => provideModels(monaco, uris);
   providers = registerProviders(monaco, made, source);
   made.onConnected(() => {
-    tellFormat(made);
+    sendFormat(made);
     providers.forEach((provider) => provider.dispose());
     providers = registerProviders(monaco, made, source);
   });
@@ -82,6 +86,7 @@ function publish(uri: string, diagnostics: readonly ServerDiagnostic[]): void {
     object_id: objectId,
     object_path: treePath(objects, objectId),
     part,
+    element: elementOf(one),
     line: one.range.start.line + 1,
     column: one.range.start.character + 1,
     end_line: one.range.end.line + 1,

@@ -1,5 +1,5 @@
 /** Names anywhere in the project, and the places that use one: asked of the language server, started when need be. */
-import { loadMonaco } from '@/editors/st/monacoLoader';
+import { loadMonaco } from '@/text/monacoLoader';
 import type { LanguageClient } from './client';
 import type { DocumentSymbol, Location, Position, Range } from './protocol';
 import { languageClient } from './session';

@@ -52,7 +52,7 @@ export function NameCell({ row, session, onToggle }: NameCellProps) {
   );
 }
 
-function SectionIcon({ section, flags }: { section?: string; flags?: string }) {
+function SectionIcon({ section, flags }: { section?: string; flags?: readonly string[] }) {
   const t = useText();
   const look =
     flags?.includes('CONSTANT') === true

@@ -1,9 +1,9 @@
 import { useEffect, useMemo, useRef, useState, type DragEvent, type KeyboardEvent, type ReactNode } from 'react';
 import { useText } from '@/i18n';
-import { Grid, type GridColumn, type GridEditing } from '@/editors/grid/Grid';
-import { useGridSelection, type GridSelection } from '@/editors/grid/useGridSelection';
-import type { MenuEntry } from '@/workbench/ui/Menu';
-import { ContextMenu } from '@/workbench/ui/Menu';
+import { Grid, type GridColumn, type GridEditing } from '@/ui/grid/Grid';
+import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection';
+import type { MenuEntry } from '@/ui/Menu';
+import { ContextMenu } from '@/ui/Menu';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { NameCell } from './NameCell';
 import styles from './OnlineTable.module.css';

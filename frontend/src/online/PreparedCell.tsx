@@ -1,4 +1,4 @@
-import { CellInput } from '@/editors/grid/CellInput';
+import { CellInput } from '@/ui/grid/CellInput';
 import { useText } from '@/i18n';
 import { checkLiteral } from './literal';
 import styles from './OnlineTable.module.css';
@@ -22,7 +22,7 @@ interface PreparedEditorProps {
 
 /**
  * Types a literal; one of the wrong type or range is refused and nothing is prepared (DECL-43). Empty takes it back.
- * Nothing typed is lost while the controller has not told the type yet: Enter is refused until it has.
+ * Nothing typed is lost while the controller has not sent the type yet: Enter is refused until it has.
  */
 export function PreparedEditor({ runtimeId, row, initial, onDone }: PreparedEditorProps) {
   const t = useText();

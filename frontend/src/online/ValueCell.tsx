@@ -1,5 +1,5 @@
 import { useEffect, useState } from 'react';
-import { useEditorSettings } from '@/editors/settings';
+import { useEditorSettings } from '@/text/settings';
 import { useText } from '@/i18n';
 import { formatAll, formatLiteral, formatShort } from './format';
 import { isLeaf, valueKind } from './item';

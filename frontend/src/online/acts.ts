@@ -1,7 +1,7 @@
 /** Write, force and release: what is prepared anywhere goes out together (WAT-07). */
 import { api } from '@/api/client';
 import { t } from '@/i18n';
-import { notify } from '@/workbench/notices';
+import { notify } from '@/ui/notices';
 import { clearPrepared, preparedValues, type PreparedValue } from './prepared';
 
 function order(values: readonly PreparedValue[]) {

@@ -1,34 +1,11 @@
 import { describe, expect, it } from 'vitest';
 import type { RuntimeState } from '@/api/types';
 import { ValueBoard } from './board';
-import { OnlineChannel, type ChannelSocket } from './channel';
+import { FakeSocket, fakeSockets } from '../../tests/fakeSocket';
+import { OnlineChannel } from './channel';
 import type { SubscribedItem } from './item';
 
-class FakeSocket implements ChannelSocket {
-  binaryType = '';
-  readyState = 0;
-  onopen: (() => void) | null = null;
-  onclose: ((event: { code: number; reason: string }) => void) | null = null;
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  sent: { op: string; id: number; expressions?: string[] }[] = [];
-
-  send(text: string) {
-    this.sent.push(JSON.parse(text) as (typeof this.sent)[number]);
-  }
-  close() {
-    this.readyState = 3;
-  }
-  accept() {
-    this.readyState = 1;
-    this.onopen?.();
-  }
-  drop() {
-    this.readyState = 3;
-    this.onclose?.({ code: 1006, reason: '' });
-  }
-  say(message: unknown) {
-    this.onmessage?.({ data: JSON.stringify(message) });
-  }
+class OnlineSocket extends FakeSocket {
   answer(id: number, expressions: string[]) {
     const items: SubscribedItem[] = expressions.map((expression, i) => ({
       expression, offset: i, size: 1, type: 'BOOL', kind: 'bool',
@@ -38,33 +15,19 @@ class FakeSocket implements ChannelSocket {
 }
 
 function setUp() {
-  const sockets: FakeSocket[] = [];
-  const timers: { ms: number; run: () => void }[] = [];
+  const { sockets, timers, environment, elapse } = fakeSockets(() => new OnlineSocket());
   const log: string[] = [];
   const board = new ValueBoard({ now: () => 0, soon: (run) => run() });
   const channel = new OnlineChannel(
     board,
-    () => {
-      const socket = new FakeSocket();
-      sockets.push(socket);
-      return socket;
-    },
+    'ws://host/online',
     {
       state: (state: RuntimeState) => log.push(`state ${state.code_id ?? ''}`),
       forces: (paths) => log.push(`forces ${paths.join()}`),
       lost: () => log.push('lost'),
-      restored: () => log.push('restored'),
-      answered: () => undefined,
     },
-    {
-      after: (ms, run) => {
-        const timer = { ms, run };
-        timers.push(timer);
-        return () => timers.splice(timers.indexOf(timer), 1);
-      },
-    },
+    environment,
   );
-  const elapse = () => timers.splice(0).forEach((timer) => timer.run());
   return { channel, board, sockets, timers, log, elapse };
 }
 
@@ -79,7 +42,7 @@ describe('online channel', () => {
 
   it('ends the old subscription only when the new one is answered', () => {
     const { channel, sockets, board, elapse } = setUp();
-    const socket = sockets[0] as FakeSocket;
+    const socket = sockets[0]!;
     socket.accept();
     const group = channel.watch(['P.a'], 100);
     socket.answer(1, ['P.a']);
@@ -111,13 +74,13 @@ describe('online channel', () => {
     expect(log).toEqual(['lost']);
     elapse();
     sockets[2]?.accept();
-    expect(log).toEqual(['lost', 'restored']);
+    expect(log).toEqual(['lost']);
     expect(sockets[2]?.sent[0]).toMatchObject({ op: 'subscribe', expressions: ['P.a'] });
   });
 
   it('takes a new layout for the same subscription after a download', () => {
     const { channel, sockets, board, log } = setUp();
-    const socket = sockets[0] as FakeSocket;
+    const socket = sockets[0]!;
     socket.accept();
     channel.watch(['P.a', 'P.b'], 100);
     socket.answer(1, ['P.a', 'P.b']);

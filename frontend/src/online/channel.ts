@@ -1,37 +1,20 @@
 /**
- * The online socket of one runtime (`/api/v1/online`): subscriptions, reconnection, states.
+ * The online socket of one runtime (`/api/v1/online`): subscriptions, states, forces; `api/socket.ts` keeps it connected.
  *
  * Views hold groups of expressions; a group is one subscription, so all values of a frame belong to one cycle.
- * A changed group is subscribed anew under a new number, and the old subscription ends when the answer is there:
+ * A changed group is subscribed again under a new number, and the old subscription ends when the answer is there:
  * values never flicker while the user scrolls.
  */
+import { BROWSER_SOCKETS, ReconnectingSocket, type SocketEnvironment } from '@/api/socket';
 import type { ImagePlace, RuntimeState } from '@/api/types';
 import type { ValueBoard } from './board';
 import { readFrame } from './frame';
 import { expressionKey, type SubscribedItem } from './item';
 
-/** The part of WebSocket the channel needs; the tests pass their own. */
-export interface ChannelSocket {
-  binaryType: string;
-  readyState: number;
-  onopen: (() => void) | null;
-  onclose: ((event: { code: number; reason: string }) => void) | null;
-  onmessage: ((event: { data: unknown }) => void) | null;
-  send: (text: string) => void;
-  close: () => void;
-}
-
 export interface ChannelEvents {
   state: (state: RuntimeState) => void;
   forces: (expressions: readonly string[], places: readonly ImagePlace[]) => void;
   lost: () => void;
-  restored: () => void;
-  /** A subscription has been answered: errors of expressions are known now. */
-  answered: (items: readonly SubscribedItem[]) => void;
-}
-
-export interface ChannelTimer {
-  after: (ms: number, callback: () => void) => () => void;
 }
 
 interface Group {
@@ -50,29 +33,33 @@ export interface GroupHandle {
 }
 
 const SETTLE_MS = 40;
-const FIRST_RETRY_MS = 500;
-const LONGEST_RETRY_MS = 8000;
-const OPEN = 1;
 
 export class OnlineChannel {
-  private socket: ChannelSocket | null = null;
+  private readonly socket: ReconnectingSocket;
   private readonly groups = new Set<Group>();
   private readonly byId = new Map<number, Group>();
   /** Subscriptions this very connection knows of. */
   private readonly announced = new Set<number>();
   private nextId = 1;
-  private retryMs = FIRST_RETRY_MS;
-  private cancelRetry: (() => void) | null = null;
-  private closed = false;
-  private lost = false;
 
   constructor(
     readonly board: ValueBoard,
-    private readonly connect: () => ChannelSocket,
+    url: string,
     private readonly events: ChannelEvents,
-    private readonly timer: ChannelTimer,
+    private readonly environment: SocketEnvironment = BROWSER_SOCKETS,
   ) {
-    this.open();
+    this.socket = new ReconnectingSocket(
+      url,
+      {
+        opened: () => this.resubscribe(),
+        message: (data) => this.message(data),
+        lost: () => {
+          this.announced.clear();
+          this.events.lost();
+        },
+      },
+      environment,
+    );
   }
 
   /** Watches expressions until the handle is released; `update` changes what is watched. */
@@ -91,7 +78,7 @@ export class OnlineChannel {
         const wanted = distinct(next);
         if (sameList(wanted, group.expressions)) return;
         group.expressions = wanted;
-        group.cancelUpdate ??= this.timer.after(SETTLE_MS, () => {
+        group.cancelUpdate ??= this.environment.after(SETTLE_MS, () => {
           group.cancelUpdate = null;
           if (this.groups.has(group)) this.subscribe(group);
         });
@@ -101,34 +88,8 @@ export class OnlineChannel {
   }
 
   close(): void {
-    this.closed = true;
-    this.cancelRetry?.();
     for (const group of this.groups) group.cancelUpdate?.();
-    this.socket?.close();
-  }
-
-  private open(): void {
-    const socket = this.connect();
-    this.socket = socket;
-    socket.binaryType = 'arraybuffer';
-    socket.onopen = () => {
-      this.retryMs = FIRST_RETRY_MS;
-      if (this.lost) this.events.restored();
-      this.lost = false;
-      this.resubscribe();
-    };
-    socket.onmessage = (event) => this.message(event.data);
-    socket.onclose = () => this.broken(socket);
-  }
-
-  private broken(socket: ChannelSocket): void {
-    if (this.closed || socket !== this.socket) return;
-    this.socket = null;
-    this.announced.clear();
-    if (!this.lost) this.events.lost();
-    this.lost = true;
-    this.cancelRetry = this.timer.after(this.retryMs, () => this.open());
-    this.retryMs = Math.min(this.retryMs * 2, LONGEST_RETRY_MS);
+    this.socket.close();
   }
 
   private message(data: unknown): void {
@@ -164,7 +125,6 @@ export class OnlineChannel {
       this.board.open(id, items);
     }
     if (group.pending === id) group.pending = null;
-    this.events.answered(items);
   }
 
   private subscribe(group: Group): void {
@@ -175,12 +135,12 @@ export class OnlineChannel {
       group.active = null;
       return;
     }
-    if (this.socket?.readyState !== OPEN) return;
+    if (this.socket.state !== 'open') return;
     const id = this.nextId++;
     group.pending = id;
     this.byId.set(id, group);
     this.announced.add(id);
-    this.send({ op: 'subscribe', id, expressions: group.expressions, interval_ms: group.intervalMs });
+    this.socket.send({ op: 'subscribe', id, expressions: group.expressions, interval_ms: group.intervalMs });
   }
 
   private resubscribe(): void {
@@ -198,11 +158,7 @@ export class OnlineChannel {
   private end(id: number): void {
     this.byId.delete(id);
     this.board.close(id);
-    if (this.announced.delete(id) && this.socket?.readyState === OPEN) this.send({ op: 'unsubscribe', id });
-  }
-
-  private send(message: unknown): void {
-    this.socket?.send(JSON.stringify(message));
+    if (this.announced.delete(id)) this.socket.send({ op: 'unsubscribe', id });
   }
 }
 

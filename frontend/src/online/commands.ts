@@ -1,12 +1,11 @@
 /** Commands on online values: write, force, release, number formats. */
 import { Binary, LockKeyhole, LockKeyholeOpen, PencilLine } from 'lucide-react';
-import { setEditorSettings, useEditorSettings } from '@/editors/settings';
+import { NUMBER_FORMATS, setEditorSettings, useEditorSettings, type NumberFormat } from '@/text/settings';
 import { contextChanged, registerCommands, type Command, type Enablement } from '@/workbench/commands';
 import type { CommandContext } from '@/workbench/context';
 import { useOnline } from '@/workbench/onlineSession';
 import { allOf, atLeast } from '@/workbench/rights';
 import { forcePrepared, releaseForces, writePrepared } from './acts';
-import { NUMBER_FORMATS, type NumberFormat } from './format';
 import { clearPrepared, preparedValues, usePrepared } from './prepared';
 
 const mayOperate = (context: CommandContext): Enablement => {

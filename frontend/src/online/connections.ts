@@ -2,28 +2,16 @@
 import { socketUrl } from '@/api/client';
 import { connectionLost, forcesReceived, runtimeStateReceived, useOnline } from '@/workbench/onlineSession';
 import { BROWSER_CLOCK, ValueBoard } from './board';
-import { OnlineChannel, type ChannelSocket } from './channel';
+import { OnlineChannel } from './channel';
 
 const channels = new Map<string, OnlineChannel>();
 
 function openChannel(runtimeId: string): OnlineChannel {
-  return new OnlineChannel(
-    new ValueBoard(BROWSER_CLOCK),
-    () => new WebSocket(socketUrl('/online', { runtime: runtimeId })) as unknown as ChannelSocket,
-    {
-      state: (state) => runtimeStateReceived(runtimeId, state),
-      forces: (expressions, places) => forcesReceived(runtimeId, expressions, places),
-      lost: () => connectionLost(runtimeId),
-      restored: () => undefined,
-      answered: () => undefined,
-    },
-    {
-      after: (ms, callback) => {
-        const timer = setTimeout(callback, ms);
-        return () => clearTimeout(timer);
-      },
-    },
-  );
+  return new OnlineChannel(new ValueBoard(BROWSER_CLOCK), socketUrl('/online', { runtime: runtimeId }), {
+    state: (state) => runtimeStateReceived(runtimeId, state),
+    forces: (expressions, places) => forcesReceived(runtimeId, expressions, places),
+    lost: () => connectionLost(runtimeId),
+  });
 }
 
 /** The channel of a runtime, null while no application is logged in to it. */

@@ -1,9 +1,7 @@
 /** Values as text: IEC literals in the number format of the view, short enough to stand still. */
+import type { NumberFormat } from '@/text/settings';
 import type { PlcValue, SubscribedItem } from './item';
 import { valueKind, type ValueKind } from './item';
-
-export const NUMBER_FORMATS = ['dec', 'hex', 'bin', 'sci'] as const;
-export type NumberFormat = (typeof NUMBER_FORMATS)[number];
 
 type FormatItem = Pick<SubscribedItem, 'kind' | 'type' | 'size' | 'enum' | 'bit'>;
 

@@ -14,7 +14,7 @@ export interface SubscribedItem {
   readonly bit?: number | null;
   readonly error?: string | null;
   /** Space separated of CONSTANT, RETAIN, PERSISTENT. */
-  readonly flags?: string;
+  readonly flags?: readonly string[];
   readonly section?: string;
   /** Integer kind below an enumeration. */
   readonly base?: string;

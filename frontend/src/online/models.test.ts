@@ -173,7 +173,7 @@ describe('literals', () => {
 });
 
 describe('prepared values', () => {
-  it('toggle as the field has it (DECL-44, EX-01)', () => {
+  it('toggle as the field has it (DECL-44, declaration EX-01)', () => {
     const sequence = (current: boolean) => {
       const seen: (string | null)[] = [];
       let prepared: string | null = null;

@@ -41,7 +41,7 @@ export function clearPrepared(runtimeId: string, written?: readonly PreparedValu
     if (written === undefined) return { values: { ...values, [runtimeId]: {} } };
     for (const value of written) {
       const key = expressionKey(value.expression);
-      // A value typed anew while the old one was on its way stays prepared.
+      // A value typed again while the old one was on its way stays prepared.
       if (now[key]?.literal === value.literal) delete now[key];
     }
     return { values: { ...values, [runtimeId]: now } };

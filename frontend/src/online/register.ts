@@ -3,28 +3,13 @@ import { Eye, LockKeyhole } from 'lucide-react';
 import { lazy } from 'react';
 import { useOnline } from '@/workbench/onlineSession';
 import { registerPanel } from '@/workbench/panels';
-import { useProject } from '@/workbench/project';
+import { useProject } from '@/project/openProject';
 import { registerValueCommands } from './commands';
 import { followSessions } from './connections';
 import { followProject, WATCH_LISTS } from './watch/lists';
 
 const WatchPanel = lazy(() => import('./watch/WatchPanel'));
 const ForcesPanel = lazy(() => import('./watch/ForcesPanel'));
-
-for (const list of WATCH_LISTS) {
-  registerPanel({
-    id: `watch${String(list)}`,
-    title: 'watch.title',
-    titleValues: { number: list },
-    icon: Eye,
-    component: WatchPanel,
-    props: { list },
-    position: 'bottom',
-    order: 20 + list,
-    initial: list === 1,
-    submenu: 'watch.menu',
-  });
-}
 
 function useForceCount() {
   const applicationId = useProject((state) => state.applicationId);
@@ -35,17 +20,34 @@ function useForceCount() {
   return count === 0 ? null : { text: String(count), tone: 'forced' as const };
 }
 
-registerPanel({
-  id: 'forces',
-  title: 'forces.title',
-  icon: LockKeyhole,
-  component: ForcesPanel,
-  position: 'bottom',
-  order: 26,
-  initial: true,
-  useBadge: useForceCount,
-});
+export function registerOnline(): void {
+  for (const list of WATCH_LISTS) {
+    registerPanel({
+      id: `watch${String(list)}`,
+      title: 'watch.title',
+      titleValues: { number: list },
+      icon: Eye,
+      component: WatchPanel,
+      props: { list },
+      position: 'bottom',
+      order: 20 + list,
+      initial: list === 1,
+      submenu: 'watch.menu',
+    });
+  }
 
-registerValueCommands();
-followSessions();
-followProject();
+  registerPanel({
+    id: 'forces',
+    title: 'forces.title',
+    icon: LockKeyhole,
+    component: ForcesPanel,
+    position: 'bottom',
+    order: 26,
+    initial: true,
+    useBadge: useForceCount,
+  });
+
+  registerValueCommands();
+  followSessions();
+  followProject();
+}

@@ -3,7 +3,7 @@ import { Copy, Eye, LockKeyhole, PencilLine } from 'lucide-react';
 import type { t as Text } from '@/i18n';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { runCommand } from '@/workbench/run';
-import type { MenuEntry } from '@/workbench/ui/Menu';
+import type { MenuEntry } from '@/ui/Menu';
 import { prepare, preparedLiteral } from './prepared';
 import type { OnlineRow } from './treeRows';
 import { addToList, useWatchLists, WATCH_LISTS } from './watch/lists';

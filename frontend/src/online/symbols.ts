@@ -14,7 +14,7 @@ export interface SymbolChild {
   readonly kind: string;
   readonly leaf: boolean;
   readonly section?: string;
-  readonly flags?: string;
+  readonly flags?: readonly string[];
 }
 
 export type SymbolSource = (path: string) => Promise<readonly SymbolChild[]>;

@@ -3,8 +3,8 @@ import { valueKind } from './item';
 import { prepare, preparedLiteral, toggledLiteral } from './prepared';
 
 /** Whether a variable may be written at all: constants that the compiler replaced may not (DECL-47). */
-export function isWritable(flags: string | undefined): boolean {
-  return !(flags ?? '').split(' ').includes('CONSTANT');
+export function isWritable(flags: readonly string[] | undefined): boolean {
+  return !(flags ?? []).includes('CONSTANT');
 }
 
 /** Takes a BOOL to its next prepared value (DECL-44); false when the variable is none. */

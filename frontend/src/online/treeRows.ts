@@ -12,7 +12,7 @@ export interface OnlineRoot {
   readonly kind?: string;
   readonly leaf?: boolean;
   readonly section?: string;
-  readonly flags?: string;
+  readonly flags?: readonly string[];
   readonly address?: string;
   readonly comment?: string;
   /** There is no value to ask for: a local of a function, an instance that is not chosen. */

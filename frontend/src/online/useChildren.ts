@@ -6,7 +6,7 @@ import { useSymbols } from './useLive';
 
 const NOTHING: ChildrenByPath = new Map();
 
-/** Components of all opened rows; they are read when a row opens, and anew for another application. */
+/** Components of all opened rows; they are read when a row opens, and again for another application. */
 export function useChildren(
   session: OnlineSession | null,
   roots: readonly OnlineRoot[],

@@ -1,20 +1,16 @@
+import { holdsValues } from '@/project/kinds';
 import { useQueries } from '@tanstack/react-query';
 import { useMemo } from 'react';
 import { api } from '@/api/client';
 import { keys, useObjects } from '@/api/queries';
 import type { ProjectObject, TextData } from '@/api/types';
-import { joinComments } from '@/editors/declaration/comments';
-import { parseDeclaration } from '@/editors/declaration/parse';
-
-const OWNERS = new Set(['pou', 'gvl', 'persistent']);
+import { joinComments } from '@/iec/declaration/comments';
+import { parseDeclaration } from '@/iec/declaration/parse';
 
 /** Comment of the declaration of a variable, for paths of two parts such as `PLC_PRG.iCount` or `GVL.x`. */
 export function useComments(projectId: string | null): (expression: string) => string | undefined {
   const { data: objects } = useObjects(projectId);
-  const owners = useMemo(
-    () => (objects ?? []).filter((o) => OWNERS.has(o.kind) && (o.kind !== 'pou' || o.subkind === 'program')),
-    [objects],
-  );
+  const owners = useMemo(() => (objects ?? []).filter(holdsValues), [objects]);
   const texts = useQueries({
     queries: owners.map((o) => ({
       queryKey: keys.object(projectId ?? '', o.id),

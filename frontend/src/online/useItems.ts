@@ -7,7 +7,7 @@ export interface ItemFacts {
   kind: string;
   leaf: boolean;
   section?: string;
-  flags?: string;
+  flags?: readonly string[];
   error?: string;
 }
 

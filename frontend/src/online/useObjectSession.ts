@@ -1,8 +1,8 @@
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { useOnline, type OnlineSession } from '@/workbench/onlineSession';
-import { useProject } from '@/workbench/project';
-import { ancestorOfKind } from '@/workbench/tree/model';
+import { useProject } from '@/project/openProject';
+import { applicationOf } from '@/project/tree';
 
 /**
  * The online session that shows an object's values: of the application it belongs to, or of the active one for
@@ -11,6 +11,6 @@ import { ancestorOfKind } from '@/workbench/tree/model';
 export function useObjectSession(projectId: string | null, object: ObjectSummary | undefined): OnlineSession | null {
   const { data: objects } = useObjects(projectId);
   const active = useProject((state) => state.applicationId);
-  const own = object && objects ? (ancestorOfKind(objects, object.id, 'application')?.id ?? active) : active;
+  const own = object && objects ? (applicationOf(objects, object.id)?.id ?? active) : active;
   return useOnline((state) => (own === null ? null : (state.sessions[own] ?? null)));
 }

@@ -1,7 +1,7 @@
 /**
  * The command registry: everything a menu, a tool bar button, a key or the palette can do is a command.
  *
- * Register at module level of your room's `register.ts` (imported once by `app/rooms.ts`):
+ * Register in the function of your room's `register.ts`, which `app/rooms.ts` calls:
  *
  *     registerCommand({
  *       id: 'online.writeValues',
@@ -24,7 +24,7 @@
 import { create } from 'zustand';
 import type { TextKey, TextValues } from '@/i18n';
 import type { CommandContext } from './context';
-import type { IconComponent } from './types';
+import type { IconComponent } from '@/icons/IconComponent';
 
 export type MenuId = 'file' | 'edit' | 'view' | 'project' | 'build' | 'online' | 'debug' | 'tools' | 'window' | 'help';
 

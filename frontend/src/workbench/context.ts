@@ -1,17 +1,15 @@
 /**
  * What commands look at to know whether they may run: one plain snapshot of the stores.
  *
- * `commandContext()` builds it now; components that show commands use `useCommandContext()`, which follows every store
- * that the snapshot is made of.
+ * `commandContext()` builds it now; components that show commands use `useCommandContext()`.
  */
-import { keys, queryClient, useObjects } from '@/api/queries';
+import { keys, queryClient } from '@/api/queries';
 import type { DeviceData, ObjectSummary, ProjectObject, Role } from '@/api/types';
-import { useSession } from '@/app/session';
-import { useRegistry } from './commands';
+import { useSession } from '@/session/session';
 import { useOnline, type OnlineSession } from './onlineSession';
-import { useProject } from './project';
+import { useProject } from '@/project/openProject';
 import { useSelection } from './selection';
-import { ancestorOfKind } from './tree/model';
+import { deviceOf } from '@/project/tree';
 
 export interface ActiveEditor {
   panelId: string;
@@ -50,7 +48,7 @@ export function commandContext(): CommandContext {
   const objects = (projectId && queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId))) || NO_OBJECTS;
   const selection = useSelection.getState();
   const editor = selection.editors.find((entry) => entry.panelId === selection.activeEditor);
-  const device = ancestorOfKind(objects, applicationId, 'device');
+  const device = deviceOf(objects, applicationId);
   const deviceData =
     projectId && device && queryClient.getQueryData<ProjectObject<DeviceData>>(keys.object(projectId, device.id));
   const chosen = new Set(selection.objectIds);
@@ -74,15 +72,4 @@ export function commandContext(): CommandContext {
     online: (applicationId && useOnline.getState().sessions[applicationId]) || null,
     busy: busy !== null,
   };
-}
-
-/** The context for components: draws again when anything in it may have changed. */
-export function useCommandContext(): CommandContext {
-  useSession();
-  const { projectId } = useProject();
-  useSelection();
-  useOnline();
-  useRegistry((state) => state.version);
-  useObjects(projectId);
-  return commandContext();
 }

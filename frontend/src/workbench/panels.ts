@@ -1,7 +1,7 @@
 /**
  * The panel registry: tool windows of the docks (trees, messages, watch lists ...).
  *
- * Register at module level of your room's `register.ts`:
+ * Register in the function of your room's `register.ts`, which `app/rooms.ts` calls:
  *
  *     registerPanel({
  *       id: 'watch1',
@@ -17,7 +17,7 @@
  */
 import type { ComponentType, LazyExoticComponent } from 'react';
 import type { TextKey, TextValues } from '@/i18n';
-import type { IconComponent } from './types';
+import type { IconComponent } from '@/icons/IconComponent';
 
 export type DockPosition = 'left' | 'right' | 'bottom';
 

@@ -16,6 +16,7 @@ import { useMessageBadge } from './messages/badge';
 import MessagesPanel from './messages/MessagesPanel';
 import { followExceptions } from './online/exception';
 import { registerPanel } from './panels';
+import { registerTests } from './tests/register';
 import TreePanel from './tree/TreePanel';
 
 export function registerWorkbench(): void {
@@ -92,6 +93,7 @@ export function registerWorkbench(): void {
     position: 'right',
     order: 40,
   });
+  registerTests();
   registerFileCommands();
   registerExchangeCommands();
   registerEditCommands();

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { registerCommands, type Command } from './commands';
-import { useNotices } from './notices';
+import { useNotices } from '@/ui/notices';
 import { runCommand } from './run';
 
 const refused = (id: string, quiet?: boolean): Command => ({

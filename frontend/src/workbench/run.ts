@@ -10,9 +10,9 @@ import {
   type Reason,
 } from './commands';
 import { commandContext, type CommandContext } from './context';
-import { dialogOpen } from './dialogs';
+import { dialogOpen } from '@/ui/dialogs';
 import { belongsToField, findByKey, shieldedFromBrowser } from './keys';
-import { guard, notify } from './notices';
+import { guard, notify } from '@/ui/notices';
 
 export function titleOf(command: Command): string {
   return t(command.title, command.titleValues);

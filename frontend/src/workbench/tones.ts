@@ -1,15 +1,15 @@
 import { keys, queryClient } from '@/api/queries';
 import type { DeviceData, ObjectSummary, ProjectObject } from '@/api/types';
 import { onlineTone, type OnlineSession, type OnlineTone } from './onlineSession';
-import { useProject } from './project';
-import { ancestorOfKind } from './tree/model';
+import { useProject } from '@/project/openProject';
+import { deviceOf } from '@/project/tree';
 
 /** Whether the device that carries an application is set to simulation, as far as it has been read. */
 export function isSimulated(applicationId: string): boolean {
   const { projectId } = useProject.getState();
   if (!projectId) return false;
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
-  const device = ancestorOfKind(objects, applicationId, 'device');
+  const device = deviceOf(objects, applicationId);
   const data = device && queryClient.getQueryData<ProjectObject<DeviceData>>(keys.object(projectId, device.id));
   return data?.data.simulated ?? false;
 }

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tappet.lang.services.documents import Place, Position, Program, Segment, Text, library_text, whole_file
+from tappet.lang.services.documents import (
+    Place,
+    Position,
+    Program,
+    Segment,
+    SourceMap,
+    Text,
+    library_text,
+    whole_file,
+)
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.lang.source import Scope, Source
 
@@ -81,12 +90,10 @@ class Project:
 def split_object(name: str, declaration: str, implementation: str, end: str) -> Text:
     """A text as the project composes it, with the documents `name/declaration` and `name/implementation`."""
     body = declaration.count("\n") + 1
-    count = implementation.count("\n") + 1
     source = Source(name, f"{declaration}\n{implementation}\n{end}", body_line=body, name=name)
-    return Text(
-        source,
-        (
-            Segment(0, f"{name}/declaration", 0, body),
-            Segment(body, f"{name}/implementation", 0, count),
-        ),
+    parts = (("declaration", declaration, 0), ("implementation", implementation, body))
+    segments = (
+        Segment(line, name, part, 0, text.count("\n") + 1, len(text) - text.rfind("\n") - 1)
+        for part, text, line in parts
     )
+    return Text(source, SourceMap(tuple(segments)))

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.lang.lexer import KEYWORDS, tokenize
+from tappet.iec.words import KEYWORDS
+from tappet.lang.lexer import tokenize
 from tappet.lang.services.formatting import Style, format_text, formatting
 from tappet.lang.source import Source
 

@@ -41,7 +41,10 @@ def labels(code: str) -> list[str]:
 @pytest.mark.parametrize(
     ("code", "expected"),
     [
-        ("POU1.|", ["a", "a_visible", "b"]),  # EX-03: only the variable behind the pragma is left out
+        (
+            "POU1.|",
+            ["a", "a_visible", "b"],
+        ),  # language_pragmas EX-03: only the variable behind the pragma is left out
         ("shown := POU1.|", ["a", "a_visible", "b", "own"]),
         ("quiet.|", ["a", "b"]),
         ("shown := quiet.|", ["a", "b"]),

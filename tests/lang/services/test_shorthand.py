@@ -1,4 +1,4 @@
-"""Short forms of declarations (DECL-61..DECL-66, LDEC-142, LDEC-143, declaration.md EX-02)."""
+"""Short forms of declarations (DECL-61..DECL-66, LDEC-142, LDEC-143, declaration EX-02)."""
 
 from __future__ import annotations
 

@@ -64,8 +64,8 @@ def _text(name: str, text: str | None, as_lines: bool) -> str:
     return f'<Single Name="{name}"><Single Name="TextDocument">{held}</Single></Single>'
 
 
-def native(items: Sequence[Item]) -> bytes:
-    """The file with these objects."""
+def native(items: Sequence[Item], tag: str = "List2") -> bytes:
+    """The file with these objects; lists have the tag of the version that wrote it."""
     entries = []
     for item in items:
         path = "".join(f'<Single Type="string">{escape(part)}</Single>' for part in item.path)
@@ -81,6 +81,6 @@ def native(items: Sequence[Item]) -> bytes:
         )
     return (
         '<ExportFile><StructuredView Guid="{21af5390-2942-461a-bf89-951aaf6999f1}">'
-        f'<Single xml:space="preserve"><List2 Name="EntryList">{"".join(entries)}</List2></Single>'
+        f'<Single xml:space="preserve"><{tag} Name="EntryList">{"".join(entries)}</{tag}></Single>'
         "</StructuredView></ExportFile>"
     ).encode()

@@ -12,8 +12,8 @@ from tappet.project.exchange.parts import part_of, st_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.codec import encode
 from tappet.project.model import Project
+from tappet.project.new_project import new_project
 from tappet.project.sources import application_sources
-from tappet.project.templates import new_project
 
 PUMP = (
     b"FUNCTION_BLOCK FB_Pump\nVAR\nEND_VAR\nMETHOD Start : BOOL\nEND_METHOD\n"

@@ -101,6 +101,11 @@ def test_a_part_of_an_application_goes_into_the_application_of_the_project() -> 
     assert any("no_return_type" in entry.text for entry in done.report.entries)
 
 
+def test_entries_in_lists_of_other_versions() -> None:
+    found = [import_files({"one.export": native(WHOLE, tag)}) for tag in ("List2", "List")]
+    assert _paths(found[0].project).keys() == _paths(found[1].project).keys()
+
+
 def test_objects_of_no_application_alone() -> None:
     done = import_files({"one.export": native([Item(5, 0, "pou", "PLC_PRG", "PROGRAM PLC_PRG", "")])})
     assert "Tappet Soft PLC/PLC Logic/Application/PLC_PRG" in _paths(done.project)

@@ -8,7 +8,7 @@ from tappet.project.exchange import import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder import encode
 from tappet.project.model import Project
-from tappet.project.templates import new_project
+from tappet.project.new_project import new_project
 
 
 def same(one: Project, other: Project) -> None:
@@ -42,3 +42,21 @@ def test_graphical_bodies_are_written_back_unchanged() -> None:
     assert kept.encode() in write_plcopen(
         edit.change_data(project, program.id, {"implementation": kept, "language": "LD"})
     )
+
+
+def test_a_persistent_list_in_a_folder_takes_the_imported_variables() -> None:
+    project = new_project("Press")
+    (application,) = project.applications()
+    project, folder = edit.add_object(project, application.id, "folder", "Lists")
+    project, kept = edit.add_object(project, folder.id, "persistent")
+    source = new_project("Other")
+    source, _ = edit.add_object(source, source.applications()[0].id, "persistent", "More")
+    (more,) = source.find_kind("persistent")
+    text = "VAR_GLOBAL PERSISTENT RETAIN\n    nPieces : DINT;\nEND_VAR"
+    content = write_plcopen(edit.change_data(source, more.id, {"declaration": text}))
+    done = import_files({"other.xml": content}, into=project)
+    (joined,) = done.project.find_kind("persistent")
+    assert joined.id == kept.id
+    assert "nPieces" in joined.data.model_dump()["declaration"]
+    (entry,) = [entry for entry in done.report.entries if entry.object_id == kept.id]
+    assert (entry.outcome, entry.object) == ("changed", "More")

@@ -265,6 +265,21 @@ def test_into_a_project_nothing_is_overwritten() -> None:
     assert ("FB_Lamp", "changed") in said(done.report)
 
 
+def test_temporary_variables_of_functions_and_methods_become_variables() -> None:
+    function = "FUNCTION F : INT\nVAR_TEMP // VAR_TEMP\n    t : INT;\nEND_VAR\n"
+    block = "FUNCTION_BLOCK FB\nVAR_TEMP\n    t : INT;\nEND_VAR\n"
+    method = "METHOD M : INT\nVAR_TEMP\n    t : INT;\nEND_VAR\n"
+    whole = (
+        f"{function}F := t;\nEND_FUNCTION\n{block}t := 1;\n{method}M := t;\nEND_METHOD\nEND_FUNCTION_BLOCK\n"
+    )
+    done = import_files({"all.st": whole.encode()})
+    app = "Tappet Soft PLC/PLC Logic/Application"
+    assert "VAR // VAR_TEMP" in text(done.project, f"{app}/F")
+    assert "VAR_TEMP" in text(done.project, f"{app}/FB")
+    assert "VAR_TEMP" not in text(done.project, f"{app}/FB/M")
+    assert {name for name, outcome in said(done.report) if outcome == "changed"} == {"F", "M"}
+
+
 def test_a_function_without_a_return_type_is_marked() -> None:
     head = "// Logs.\nFUNCTION F_Log\nVAR_INPUT\n    sText : STRING;\nEND_VAR\n"
     xml = (

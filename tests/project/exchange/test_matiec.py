@@ -46,6 +46,23 @@ def test_what_means_something_else(written: str, means: str) -> None:
     assert len(notes) == 1
 
 
+def test_comments_do_not_nest() -> None:
+    written = "(* a (* b *) x := 1; (* c *) s := '(*'; // (* d"
+    assert rewritten(written) == ("(* a ( * b *) x := 1; (* c *) s := '(*'; // (* d", [])
+
+
+def test_counters_of_the_standard_come_with_their_library() -> None:
+    for body, counted in (
+        ("<ST><p>n := 1;</p></ST>", False),
+        ("<ST><p>n := SIZEOF(CTU_ULINT);</p></ST>", True),
+    ):
+        done = imported(body.replace("<p>", '<p xmlns="http://www.w3.org/1999/xhtml">'))
+        (manager,) = done.project.find_kind("library_manager")
+        names = [entry["name"] for entry in manager.data.model_dump()["references"]]
+        assert ("IEC_Counters" in names) is counted
+        assert "Standard" in names
+
+
 @pytest.mark.parametrize(
     "body",
     [

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from twincat_project import tcpou
 
-from tappet.project.data import TaskData
 from tappet.project.exchange import import_files
 from tappet.project.exchange.report import ExchangeError
+from tappet.project.kinds.task import TaskData
 
 SOLUTION = b"""
 Microsoft Visual Studio Solution File, Format Version 12.00

@@ -1,11 +1,8 @@
 """The core IR: typed expressions over places in memory, structured statements, functions.
 
-Everything implicit in the source is explicit here: conversions, bounds checks, hidden pointers, evaluation
-order. Expressions and statements are trees; `Goto`/`Label` cover the few jumps of the languages. Nodes are
-compared by identity and may be shared only when they are constants.
-
-Scalars carry their signedness, so one `div` or `lt` serves all. Narrow integer arithmetic is done in 32 bits
-by the lowering (LOPR-03); the IR itself never widens.
+Conversions, checks, hidden pointers and evaluation order are explicit. Nodes are compared by identity; only
+constants may be shared. Scalars carry their signedness; narrow integer arithmetic is done in 32 bits by the
+lowering (LOPR-03), the IR never widens. Imports only `lang`; start with `functions`.
 """
 
 from tappet.core.ir.expressions import (

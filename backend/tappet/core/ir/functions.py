@@ -55,7 +55,7 @@ class Function:
     areas: dict[str, int] = field(default_factory=dict)
     """Bytes of the areas I, Q, M that the body reaches to."""
     assumed: dict[str, object] = field(default_factory=dict)
-    """Effects of callees, virtual ones too, that register variables and inputs of this one rest on."""
+    """Effects of callees, virtual ones too, that register variables and inputs of this one depend on."""
     promoted_bases: set[str] = field(default_factory=set)
     """Data objects and block types whose exposure touches variables that this function keeps in registers."""
     subscripted: dict[Base, set[int]] = field(default_factory=dict)
@@ -124,6 +124,6 @@ class Module:
 
     @property
     def catches_faults(self) -> bool:
-        """Whether some code goes on behind a fault (`__TRY`): where a pointer that leads nowhere ends in one,
+        """Whether some code continues after a fault (`__TRY`): where an invalid pointer ends in one,
         memory has to be as the text says."""
         return GUARD in self.externals

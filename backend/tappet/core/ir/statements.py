@@ -107,7 +107,8 @@ class Switch(Stmt):
 class For(Stmt):
     """Counting loop: `counter := start`; while counter <= stop (>= if step < 0): body, counter += step.
 
-    `stop` is evaluated before each pass. `step` is an expression when it is no constant. The counter wraps.
+    `stop` is evaluated before each pass. `step` is an expression when it is no constant: it has the width of
+    the counter, and its own sign, as a counter without sign may count down. The counter wraps.
     """
 
     counter: Place
@@ -119,7 +120,7 @@ class For(Stmt):
     line: int = 0
     """Line of the head, for the code of check and increment."""
     fixed: bool = False
-    """Nothing in the body writes the counter; set by `loops`."""
+    """Nothing in the loop writes the counter, and `stop` does not read it; set by `loops`."""
 
 
 @dataclass(eq=False, slots=True)

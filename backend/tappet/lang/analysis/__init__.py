@@ -5,7 +5,7 @@ Imports only `lang`. Start reading at `result` (what analysis leaves for code ge
 """
 
 from tappet.lang.analysis.result import Analysis, AnalysisOptions, ConfiguredAddress, carried_type
-from tappet.lang.analysis.run import analyse, go_on, prepare
+from tappet.lang.analysis.run import analyse, prepare, resume
 from tappet.lang.analysis.tasks import check_tasks
 
 __all__ = [
@@ -15,6 +15,6 @@ __all__ = [
     "analyse",
     "carried_type",
     "check_tasks",
-    "go_on",
     "prepare",
+    "resume",
 ]

@@ -11,7 +11,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis import conversion, folding
 from tappet.lang.analysis.context import Body
 from tappet.lang.source import Span
-from tappet.lang.symbols import BuiltinSymbol
+from tappet.lang.symbols import BuiltinSymbol, PouSymbol
 from tappet.lang.types import Elementary, Kind, Type
 
 _DURATION_TO_LONG = {
@@ -31,6 +31,8 @@ def require(b: Body, e: ast.Expr, target: Type) -> bool:
         return False
     if e.untyped:
         return _adapt(b, e, target)
+    if e.__class__ is ast.Call and as_zero(e, target):
+        return True
     if source is target:
         return True
     if target.__class__ is t.Reference:
@@ -54,6 +56,17 @@ def require(b: Body, e: ast.Expr, target: Type) -> bool:
         return True
     complain(b, e.span, source, target, code)
     return code[0] == "W"
+
+
+def as_zero(e: ast.Expr, target: Type) -> bool:
+    """A call without result is the 0 of the type that its context asks for, if there is one."""
+    base = t.value_type(target)
+    if not (isinstance(e, ast.Call) and isinstance(e.target, PouSymbol) and isinstance(base, Elementary)):
+        return False
+    if e.target.return_type is not None or e.type is None:
+        return False
+    e.type = base
+    return True
 
 
 def complain(b: Body, span: Span, source: Type, target: Type, code: str) -> None:
@@ -86,6 +99,8 @@ def conversion_hint(source: Type, target: Type) -> str:
     if isinstance(from_, t.Pointer):
         return "Read the target of the pointer with '^'."
     if isinstance(to, t.Pointer):
+        if to.ref_to:
+            return f"Write REF(...) of a variable of type '{to.base}', or NULL."
         return "Take the address with ADR(...)."
     if isinstance(to, t.Interface) and isinstance(from_, t.FunctionBlock):
         return f"'{from_}' does not implement '{to}'."
@@ -156,8 +171,9 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
             return False
         complain(b, e.span, source, target, conversion.ERROR)
         return False
-    nothing = isinstance(base, t.Interface) and e.constant == 0
-    if e.constant.__class__ is int and (nothing or isinstance(base, t.Pointer)):
+    zero_only = isinstance(base, t.Interface) or (isinstance(base, t.Pointer) and base.ref_to)
+    addressed = isinstance(base, (t.Interface, t.Pointer)) and (e.constant == 0 or not zero_only)
+    if e.constant.__class__ is int and addressed:
         e.type = t.LWORD
         e.constant = folding.wrap(e.constant, t.LWORD)
         return True
@@ -165,8 +181,22 @@ def _adapt(b: Body, e: ast.Expr, target: Type) -> bool:
         if isinstance(e.constant, (bytes, str)):
             _check_string_length(b, e, base, e.constant)
         return True
+    if isinstance(base, t.String) and narrow(b, e):
+        return _adapt(b, e, target)
     complain(b, e.span, source, target, conversion.ERROR)
     return False
+
+
+def narrow(b: Body, e: ast.Expr) -> bool:
+    """Makes a STRING of a literal in double quotes, which some systems take for one; others are left."""
+    if not isinstance(e, ast.Literal) or not isinstance(e.constant, str) or not e.untyped:
+        return False
+    b.report("W1152", e.span, text=e.text if len(e.text) < 40 else f"{e.text[:37]}...")
+    e.constant = e.constant.encode(
+        "latin-1" if e.constant <= "\xff" or e.constant.isascii() else "utf-8", "replace"
+    )
+    e.type = t.String(max(1, len(e.constant)))
+    return True
 
 
 def adapt_choice(e: ast.Call, target: Type) -> bool:

@@ -37,9 +37,11 @@ class Address:
 
 @dataclass(frozen=True, slots=True)
 class IncompleteAddress:
-    """`%I*`: the area is known, the place comes from VAR_CONFIG or the I/O mapping."""
+    """`%I*`, or `%QW0.0.8192.0`: the area is known, the place comes from VAR_CONFIG or the I/O mapping."""
 
     area: str
+    levels: str = ""
+    """An address of more levels than byte and bit, which names a channel of a device: the same everywhere."""
 
 
 def locate(b: Body, text: str, span: Span) -> Address | IncompleteAddress | None:
@@ -52,6 +54,8 @@ def locate(b: Body, text: str, span: Span) -> Address | IncompleteAddress | None
     if match[4]:
         return IncompleteAddress(area)
     numbers = [int(n) for n in match[3].split(".")]
+    if len(numbers) > 2:
+        return IncompleteAddress(area, text.upper())
     byte_mode = b.session.options.byte_addressing
     bit: int | None = None
     if letter in ("X", ""):
@@ -88,10 +92,11 @@ def text_of_place(area: str, offset: int, type_: Type, byte_mode: bool) -> str:
 
 
 def operand(b: Body, e: ast.Name) -> VarSymbol | None:
-    """The anonymous variable that an address used as operand stands for (LDEC-61)."""
+    """The anonymous variable that an address used as operand denotes (LDEC-61)."""
     place = locate(b, e.name, e.span)
     if isinstance(place, IncompleteAddress):
-        b.report("E0608", e.span)
+        hint = f"Declare a variable AT {place.levels} and use it." if place.levels else ""
+        b.report("E0608", e.span, hint=hint)
         return None
     if place is None:
         return None

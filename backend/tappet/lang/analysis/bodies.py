@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import inf
 from time import monotonic
+from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.analysis import program
@@ -14,11 +15,13 @@ from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.statements import check_jumps, statements
 from tappet.lang.analysis.suppression import kept
-from tappet.lang.analysis.words import Words
 from tappet.lang.diagnostics import Diagnostic, with_severity
 from tappet.lang.rules import LIBRARY_POU_RULES, POU_RULES, coding_checks
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol
+
+if TYPE_CHECKING:
+    from tappet.lang.analysis.edits.identifiers import Identifiers
 
 
 @dataclass(slots=True)
@@ -33,11 +36,13 @@ class State:
     """Of each body, by id() of its symbol."""
     texts: dict[int, list[Diagnostic]] = field(default_factory=dict)
     """What coding rules report about the declarations and comments of a text, by id() of its unit."""
-    words: dict[str, Words] = field(default_factory=dict)
+    identifiers: dict[str, Identifiers] = field(default_factory=dict)
     """Of the texts, by uri, where an edit of declarations has asked for them."""
     waiting: dict[int, PouSymbol] = field(default_factory=dict)
     """Bodies that have to be analysed still, by id() of their symbol; their records are those of before."""
 
+    outer: frozenset[int] = frozenset()
+    """id() of the POUs of a library snapshot: what concerns them alone has been checked."""
     coding_waiting: dict[int, PouSymbol] = field(default_factory=dict)
     """Bodies that have to be looked at by the coding rules only."""
 
@@ -66,6 +71,7 @@ class State:
 def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     """Resolves and checks the statements of one POU, method, action or accessor."""
     record = Record()
+    body.begin()
     session.named.pop(id(pou), None)
     session.aggregates = False
     session.diagnostics, session.accounted = record.messages, None
@@ -87,7 +93,7 @@ def analyse_body(session: Session, pou: PouSymbol, body: Body) -> Record:
     for e in body.unreadable:
         body.report("E0424", e.span, name=e.name, what="Get", verb="read")
     body.unreadable.clear()
-    if node.language == "SFC":  # what a chart becomes has the same expression in several places
+    if len(record.messages) + len(record.coding) > 1:  # a lowered body may hold an expression twice
         record.messages[:] = dict.fromkeys(record.messages)
         record.coding[:] = dict.fromkeys(record.coding)
     record.aggregates = session.aggregates
@@ -146,7 +152,7 @@ def finish(state: State) -> Analysis:
     session.called = set().union(*(record.called for record in records))
     session.operands = set().union(*(record.operands for record in records))
     session.diagnostics = []
-    program.check(session, state.found, state.declarations)
+    program.check(session, state.found, state.declarations, state.outer)
     _coding_rules(state)
     found = session.diagnostics
     for record in records:

@@ -284,19 +284,16 @@ def _time(type_: Elementary) -> Resolve:
     return resolve
 
 
-for _name, _op in (("ADD", "+"), ("MUL", "*"), ("AND", "AND"), ("OR", "OR"), ("XOR", "XOR")):
-    OPERATORS[_name] = _expand(_op, MANY)
-for _name, _op in (("SUB", "-"), ("DIV", "/"), ("MOD", "MOD"), ("EXPT", "**")):
-    OPERATORS[_name] = _expand(_op, 2)
-for _name, _op in (("GT", ">"), ("GE", ">="), ("EQ", "="), ("NE", "<>"), ("LE", "<="), ("LT", "<")):
-    OPERATORS[_name] = _expand(_op, 2)
-for _name, _op in (("ANDN", "AND"), ("ORN", "OR"), ("XORN", "XOR")):
-    OPERATORS[_name] = _expand(_op, MANY, negate=True)
-for _name in folding.MATHEMATICS:
-    OPERATORS[_name] = _mathematics
-for _name in ("SHL", "SHR", "ROL", "ROR"):
-    OPERATORS[_name] = _shift
-OPERATORS |= {
+_FORMS = {"ADD": "+", "MUL": "*", "AND": "AND", "OR": "OR", "XOR": "XOR"}
+_PAIRS = {"SUB": "-", "DIV": "/", "MOD": "MOD", "EXPT": "**"}
+_COMPARISONS = {"GT": ">", "GE": ">=", "EQ": "=", "NE": "<>", "LE": "<=", "LT": "<"}
+_NEGATED = {"ANDN": "AND", "ORN": "OR", "XORN": "XOR"}
+OPERATIONS: dict[str, Resolve] = {
+    **{name: _expand(op, MANY) for name, op in _FORMS.items()},
+    **{name: _expand(op, 2) for name, op in (_PAIRS | _COMPARISONS).items()},
+    **{name: _expand(op, MANY, negate=True) for name, op in _NEGATED.items()},
+    **dict.fromkeys(folding.MATHEMATICS, _mathematics),
+    **dict.fromkeys(("SHL", "SHR", "ROL", "ROR"), _shift),
     "NOT": _not,
     "MOVE": _move,
     "AND_THEN": _expand("AND_THEN", MANY),

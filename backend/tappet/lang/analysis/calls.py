@@ -6,14 +6,17 @@ from collections.abc import Sequence
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import conversion
+from tappet.lang.analysis import conversion, named_operands
 from tappet.lang.analysis.adaptation import complain, require
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import EXPRESSIONS, place_or_name, text_of, value
-from tappet.lang.analysis.places import is_place, mark_written, writable
+from tappet.lang.analysis.expressions import place_or_name, text_of, value
+from tappet.lang.analysis.pins import pin_of_iec
+from tappet.lang.analysis.places import is_input, is_place, mark_written, note_output, writable
+from tappet.lang.analysis.result import yields_reference
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.type_conversions import find_operator
 from tappet.lang.any_type import accepts, is_any
+from tappet.lang.heritage import has_unknown_base
 from tappet.lang.rules import EXPRESSION_RULES
 from tappet.lang.source import Span
 from tappet.lang.symbols import PouSymbol, PropertySymbol, Storage, Symbol, TypeSymbol, VarSymbol
@@ -41,7 +44,10 @@ def _resolve(b: Body, e: ast.Call) -> None:
             resolve = find_operator(key)
             if resolve is not None:
                 callee.type = None
-                resolve(b, e, key)
+                if any(arg.name is not None for arg in e.args):
+                    _named_operator(b, e, key)
+                else:
+                    resolve(b, e, key)
                 callee.symbol = e.target
                 return
         elif symbol.__class__ is VarSymbol and symbol.storage is Storage.RESULT:
@@ -51,16 +57,20 @@ def _resolve(b: Body, e: ast.Call) -> None:
                 callee.symbol = own
                 _bind(b, e, own)
                 return
+    b.callee = callee
     type_ = place_or_name(b, callee)
     symbol = getattr(callee, "symbol", None)
     if isinstance(symbol, PouSymbol):
         if symbol.kind == "FUNCTION_BLOCK":
             b.report("E0516", callee.span, name=symbol.name)
-            _evaluate_arguments(b, e.args)
+            evaluate_arguments(b, e.args)
         else:
             if symbol.pou is not None and symbol.pou.attributes:
                 b.warn_obsolete(callee.span, symbol.pou.attributes)
-            _bind(b, e, symbol)
+            if named_operands.enabled(e, symbol):
+                _when_enabled(b, e, symbol)
+            else:
+                _bind(b, e, symbol)
         return
     if isinstance(type_, t.FunctionBlock):
         target = type_.pou.symbol if type_.pou is not None else None
@@ -71,7 +81,32 @@ def _resolve(b: Body, e: ast.Call) -> None:
     known = not (isinstance(symbol, VarSymbol) and symbol.type is None)  # else its type has been reported
     if type_ is not None or (symbol is not None and known):
         b.report("E0501", callee.span, name=text_of(callee), hint=_hint(b, callee, symbol, type_))
-    _evaluate_arguments(b, e.args)
+    evaluate_arguments(b, e.args)
+
+
+def _named_operator(b: Body, e: ast.Call, name: str) -> None:
+    if named_operands.enabled(e, None):
+        _when_enabled(b, e, None)
+        return
+    args = named_operands.ordered(b, e, name)
+    if args is None:
+        evaluate_arguments(b, e.args)
+        return
+    b.report("W1148", e.span, name=name)
+    inner = ast.Call(span=e.span, callee=e.callee, args=args)
+    _resolve(b, inner)
+    named_operands.mean(e, inner)
+
+
+def _when_enabled(b: Body, e: ast.Call, target: PouSymbol | None) -> None:
+    """A call with EN or ENO, which `target` does not declare; None: of an operator."""
+    b.report("W1150", e.span, name=text_of(e.callee))
+    inner = named_operands.without_enable(e)
+    if target is None:
+        _resolve(b, inner)
+    else:
+        _bind(b, inner, target)
+    named_operands.when_enabled(b, e, inner)
 
 
 def _hint(b: Body, callee: ast.Expr, symbol: Symbol | None, type_: Type | None) -> str:
@@ -94,7 +129,8 @@ def _pass_accumulator(e: ast.Call, accumulator: ast.Argument, target: PouSymbol)
         e.args = [accumulator, *e.args] if takes else e.args[1:]
 
 
-def _evaluate_arguments(b: Body, args: Sequence[ast.Argument]) -> None:
+def evaluate_arguments(b: Body, args: Sequence[ast.Argument]) -> None:
+    """Resolves arguments that no parameters are known for."""
     for arg in args:
         arg.parameter = None
         if arg.value is not None:
@@ -116,6 +152,9 @@ def _bind(b: Body, e: ast.Call, target: PouSymbol) -> None:
         callee = e.callee
         if isinstance(callee, ast.Member) and callee.base.type is not None:
             mark_written(b, callee.base)
+    if has_unknown_base(target.owner if target.kind == "ACTION" else target):
+        evaluate_arguments(b, e.args)  # the inputs of the base are not known
+        return
     bind_arguments(b, e.args, parameters, target.name, e.span, target.kind)
 
 
@@ -146,7 +185,7 @@ def bind_arguments(
             if named and positional < len(inputs) and id(inputs[positional]) in given:
                 b.report("E0512", arg.span)
                 positional += 1
-                _evaluate_arguments(b, [arg])
+                evaluate_arguments(b, [arg])
                 continue
             if positional >= len(inputs):
                 if positional == len(inputs):
@@ -158,7 +197,7 @@ def bind_arguments(
                     )
                     b.report("E0503", arg.span, callee=callee, expected=len(inputs), actual=count, hint=hint)
                 positional += 1
-                _evaluate_arguments(b, [arg])
+                evaluate_arguments(b, [arg])
                 continue
             parameter = inputs[positional]
             positional += 1
@@ -168,11 +207,11 @@ def bind_arguments(
                 positional += 1
             if by_name is None:
                 by_name = {p.name.upper(): p for p in parameters}
-            found = by_name.get(name.upper())
+            found = by_name.get(name.upper()) or pin_of_iec(b, name, parameters, callee, arg.span)
             if found is None:
                 hint = b.suggest(name, [(k, Symbol(p.name)) for k, p in by_name.items()]).partition(" (")[0]
                 b.report("E0502", arg.span, name=name, callee=callee, hint=hint + "?" if hint else "")
-                _evaluate_arguments(b, [arg])
+                evaluate_arguments(b, [arg])
                 continue
             parameter = found
         if id(parameter) in given:
@@ -241,6 +280,10 @@ def _output(b: Body, target: ast.Expr, source: Type | None) -> None:
     type_ = value(b, target)
     if type_ is None or source is None or not writable(b, target):
         return
+    if isinstance(getattr(target, "symbol", None), PropertySymbol) and not yields_reference(target):
+        hint = "An output cannot be assigned to a property: use a variable."
+        b.report("E0305", target.span, name=text_of(target), hint=hint)
+        return
     source = source.base if isinstance(source, t.Reference) else source
     code = conversion.verdict(source, type_)
     if code:
@@ -259,8 +302,7 @@ def bind_reference(b: Body, content: ast.Expr, type_: t.Reference) -> None:
     assert own is not None
     if own == type_.base:
         return
-    blocks = isinstance(own, t.FunctionBlock) and isinstance(type_.base, t.FunctionBlock)
-    if blocks and conversion.verdict(own, type_.base) == conversion.OK:
+    if conversion.refers(own, type_.base) or conversion.same_shape(own, type_.base):
         return
     b.report("E0301", content.span, source=own, target=type_, hint="A reference needs exactly its type.")
 
@@ -275,15 +317,26 @@ def _in_out(b: Body, content: ast.Expr, parameter: VarSymbol, type_: Type, calle
     ):
         b.report("E0508", content.span)
         return
+    texts = isinstance(own, t.String) and isinstance(type_, t.String) and own.wide == type_.wide
     if constant and not is_place(content):
-        require(b, content, type_)
+        if not (texts and isinstance(content, ast.Literal)):  # the whole literal is handed over
+            require(b, content, type_)
         return
     if not is_place(content) or (not constant and _protected(content)):
         b.report("E0506", content.span, name=parameter.name, callee=callee)
         return
     mark_written(b, content)
-    if not _passes(own, type_):
+    if not constant:
+        _note_written(b, content)
+    if not (constant and texts) and not _passes(own, type_):
         b.report("E0507", content.span, name=parameter.name, target=type_, source=own)
+
+
+def _note_written(b: Body, content: ast.Expr) -> None:
+    """A variable AT %I* may be written by what it is passed to."""
+    symbol = getattr(content, "symbol", None)
+    if isinstance(symbol, VarSymbol) and symbol.area == "I":
+        note_output(b, symbol, content)
 
 
 def _protected(content: ast.Expr) -> bool:
@@ -291,7 +344,7 @@ def _protected(content: ast.Expr) -> bool:
     e = content
     while True:
         symbol = getattr(e, "symbol", None)
-        if isinstance(symbol, VarSymbol) and ("CONSTANT" in symbol.flags or symbol.area == "I"):
+        if isinstance(symbol, VarSymbol) and ("CONSTANT" in symbol.flags or is_input(symbol)):
             return True
         if isinstance(e, ast.Member) or (isinstance(e, ast.Index) and not isinstance(e.base.type, t.Pointer)):
             e = e.base
@@ -307,22 +360,14 @@ def _passes(own: Type, formal: Type) -> bool:
         if formal.open_dims:
             same = own.open_dims == formal.open_dims or len(own.bounds) == formal.open_dims
             return same and own.element == formal.element
-        return False
+        return conversion.same_shape(own, formal)
     if isinstance(formal, t.String) and isinstance(own, t.String):
         return own.wide == formal.wide and own.length >= formal.length
     if isinstance(formal, t.FunctionBlock) and isinstance(own, t.FunctionBlock):
         return conversion.derives(own, formal)
     if isinstance(formal, t.Struct) and isinstance(own, t.Struct):
-        base: t.Struct | None = own
-        while base is not None:
-            if base is formal:
-                return True
-            base = base.base
-        return False
+        return conversion.refers(own, formal)
     if isinstance(formal, t.Pointer) and isinstance(own, t.Pointer):
         return formal.base is None or own.base is None
     formal_base, own_base = t.value_type(formal), t.value_type(own)
     return isinstance(formal_base, Elementary) and formal_base == own_base
-
-
-EXPRESSIONS[ast.Call] = call

@@ -38,6 +38,8 @@ from tappet.lang.symbols import (
     TypeSymbol,
     VarSymbol,
 )
+from tappet.lang.system_structures import TWINCAT_TYPES
+from tappet.lang.variable_info import MEMORY_AREA_SYMBOL, VAR_INFO_SYMBOL
 
 _OWNED = frozenset({"METHOD", "ACTION", "TRANSITION"})
 
@@ -78,7 +80,10 @@ def _add_system_interface(session: Session) -> None:
         "TYPE_CLASS": TYPE_CLASS_SYMBOL,
         "EXCEPTIONCODE": EXCEPTION_CODE_SYMBOL,
     }
+    members["VAR_INFO"] = VAR_INFO_SYMBOL
+    members["MEMORY_AREA"] = MEMORY_AREA_SYMBOL
     members["ANYTYPE"] = TypeSymbol("AnyType", type=ANY_TYPES["ANY"])
+    session.levels.system.update(TWINCAT_TYPES)
     session.levels.system["__SYSTEM"] = NamespaceSymbol("__System", members=members)
 
 

@@ -68,14 +68,8 @@ def collect_variables(
                 session.report("E0404", source.uri, block.span)
             else:
                 what = f"a {kind.lower().replace('_', ' ')}"
-                session.report(
-                    "E0405",
-                    source.uri,
-                    block.span,
-                    section=section,
-                    what=what,
-                    hint="Use VAR or an own object.",
-                )
+                hint = "Use VAR or an own object."
+                session.report("E0405", source.uri, block.span, section=section, what=what, hint=hint)
         access = next(iter(block.flags & ACCESS), "")
         if access and (section != "VAR" or kind not in ("PROGRAM", "FUNCTION_BLOCK")):
             what = f"a {kind.lower().replace('_', ' ')}"

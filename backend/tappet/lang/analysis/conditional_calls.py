@@ -9,7 +9,7 @@ from __future__ import annotations
 from tappet.lang import ast
 from tappet.lang.analysis import calls
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import EXPRESSIONS, value
+from tappet.lang.analysis.expressions import Handler, value
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.analysis.type_conversions import find_operator
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol
@@ -53,4 +53,4 @@ def _conditional(b: Body, e: ast.Call, accumulator: ast.Argument) -> None:
     e.target = BuiltinSymbol("SEL", return_type=carried_type(selection))
 
 
-EXPRESSIONS[ast.Call] = _call
+HANDLERS: dict[type, Handler] = {ast.Call: _call}

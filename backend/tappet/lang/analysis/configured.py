@@ -21,6 +21,8 @@ from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Type
 
+_CHANNEL_BYTES = 8
+"""Room for what an address of several levels names: the widest channel."""
 _LISTED = 20
 """Variables that the message about free places lists."""
 
@@ -147,19 +149,24 @@ def _allocate(session: Session, found: Collected, left: list[_Incomplete]) -> No
     ends = _fixed_ends(session, found)
     byte_mode = session.options.byte_addressing
     placed: dict[str, list[tuple[_Incomplete, str]]] = {}
+    channels: dict[str, int] = {}
     for entry in left:
         variable = entry.variable
         type_, area, source, span = variable.type, variable.area, variable.source, variable.span
         if type_ is None or area is None or source is None or span is None:
             continue
-        step = max(type_.align, 1)
+        channel = _channel(variable)
+        size = type_.size if channel is None else max(type_.size, _CHANNEL_BYTES)
+        step = max(type_.align, 1) if channel is None else _CHANNEL_BYTES
         offset = (ends[area] + step - 1) // step * step
+        if channel is not None:
+            offset = channels.setdefault(channel, offset)
         address = addresses.text_of_place(area, offset, type_, byte_mode)
         limit = session.options.area_limits[area]
         if offset + type_.size > limit:
             session.report("E0604", source.uri, span, address=address, limit=limit)
             continue
-        ends[area] = offset + type_.size
+        ends[area] = max(ends[area], offset + size)
         session.analysis.configured.append(
             ConfiguredAddress(entry.path, entry.owner.upper(), entry.offset, type_, area, offset, None)
         )
@@ -176,6 +183,12 @@ def _allocate(session: Session, found: Collected, left: list[_Incomplete]) -> No
         session.report(
             "W1303", uri, first.variable.span, related, path=first.path, address=address, more=more
         )
+
+
+def _channel(variable: VarSymbol) -> str | None:
+    """The address of several levels that a variable is declared at: all variables there share one place."""
+    address = variable.decl.address if variable.decl is not None else None
+    return address.upper() if address and not address.endswith("*") else None
 
 
 def _fixed_ends(session: Session, found: Collected) -> dict[str, int]:

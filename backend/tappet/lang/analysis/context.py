@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from tappet.lang import ast
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
-from tappet.lang.analysis.scope import Levels, suggestion
+from tappet.lang.analysis.scope import Fits, Levels, suggestion
 from tappet.lang.attributes import attribute
 from tappet.lang.diagnostics import Diagnostic, Related, report
 from tappet.lang.source import Source, Span
@@ -93,15 +93,19 @@ class Session:
     """What the declarations of each text have named, by its uri."""
     values_of_project: bool = False
     """Whether a value for a parameter of a library names what the project declares."""
+    named_outside: frozenset[str] = frozenset()
+    """Where libraries are analysed for an application: names that its objects have, upper case."""
+    extended_outside: frozenset[str] = frozenset()
+    """The same: names of blocks that it extends."""
     accounted: str | None = None
     """Text whose declarations name what is named now."""
     made: dict[str, dict[Key, Any]] = field(default_factory=dict)
-    """Symbols and types that stand for what each text declares, by its uri."""
+    """Symbols and types of what each text declares, by its uri."""
     before: dict[str, dict[Key, Any]] = field(default_factory=dict)
     """The same, from before an edit, of the texts that are being declared again."""
 
     def stand_for(self, made: Made, uri: str, owner: str = "") -> Made:
-        """`made`; or what stood for the same before an edit, with the content of `made`, as others refer to
+        """`made`; or what denoted the same before an edit, with the content of `made`, as others refer to
         it."""
         key = (made.__class__, owner, made.name.upper())  # type: ignore[attr-defined]
         earlier = self.before.get(uri)
@@ -151,6 +155,7 @@ class Body:
     __slots__ = (
         "assigned",
         "called",
+        "callee",
         "held",
         "jumps",
         "labels",
@@ -178,11 +183,17 @@ class Body:
         self.names = session.levels.seen_by(source)
         self.values = session.levels.values_seen_by(source)
         """Of the names of types: what they mean where a value stands."""
+        self.begin()
+
+    def begin(self) -> None:
+        """Forget what was found in the statements: they are resolved, for the first time or again."""
         self.loops = 0
         self.labels: dict[str, Span] = {}
         self.jumps: list[ast.Jump] = []
         self.loop_variables: list[Symbol] = []
         self.called: list[tuple[PouSymbol, str, Span]] = []
+        self.callee: ast.Expr | None = None
+        """What the call being resolved calls."""
         self.assigned: ast.Expr | None = None
         """The value of the assignment being resolved: `__NEW` is legal only there."""
         self.loop_writes: list[tuple[Symbol, Span]] = []
@@ -206,12 +217,13 @@ class Body:
         key = name.upper()
         return self.locals.get(key) or self.values.get(key) or self.names.get(key)
 
-    def suggest(self, name: str, *tables: Iterable[tuple[str, Symbol]]) -> str:
-        """Advice with the closest name of the tables, by default of all that is visible here."""
+    def suggest(self, name: str, *tables: Iterable[tuple[str, Symbol]], fits: Fits | None = None) -> str:
+        """Advice with the nearest name of the tables, by default of all that is visible here; what `fits`
+        goes before the rest."""
         if self.session.suggestions >= SUGGESTION_LIMIT:
             return ""
         self.session.suggestions += 1
-        return suggestion(name, *(tables or (self.locals.items(), self.names.items())))
+        return suggestion(name, *(tables or (self.locals.items(), self.names.items())), fits=fits)
 
     @property
     def block(self) -> PouSymbol | None:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tappet.lang import types as t
+from tappet.lang.heritage import is_unknown_at_heart
 from tappet.lang.types import Elementary, Kind, Type
 
 SIGN_TO_UNSIGNED = "W1001"
@@ -29,6 +30,8 @@ NUMBERS: tuple[Elementary, ...] = (
     t.REAL, t.LREAL,
 )  # fmt: skip
 INTEGERS = NUMBERS[:12]
+SIGNED = {n.size: n for n in INTEGERS if n.kind is Kind.SIGNED}
+"""Signed integers by their size in bytes."""
 EXACT_IN_REAL = 2
 """Largest integer size in bytes whose values REAL holds exactly; LREAL holds twice as much."""
 
@@ -59,6 +62,8 @@ _VERDICTS: dict[tuple[str, str], str] = {
 
 def implements(block: t.FunctionBlock, interface: t.Interface) -> bool:
     """Whether a function block, or a base of it, implements the interface or one that extends it."""
+    if is_unknown_at_heart(block):
+        return True
     walk: t.FunctionBlock | None = block
     while walk is not None:
         if walk.pou is not None:
@@ -74,6 +79,8 @@ def extends(derived: t.Interface | None, base: t.Interface) -> bool:
     """Whether an interface is another one or extends it."""
     if derived is None:
         return False
+    if is_unknown_at_heart(derived):
+        return True
     todo = [derived]
     seen: set[int] = set()
     while todo:
@@ -89,12 +96,21 @@ def extends(derived: t.Interface | None, base: t.Interface) -> bool:
 
 def derives(block: t.FunctionBlock, base: t.FunctionBlock) -> bool:
     """Whether a function block is another one or extends it."""
-    walk: t.FunctionBlock | None = block
+    return refers(block, base)
+
+
+def refers(source: Type | None, target: Type | None) -> bool:
+    """Whether what refers to `target` may refer to a variable of type `source`: one that begins like it."""
+    if source == target:
+        return True
+    if not isinstance(source, (t.FunctionBlock, t.Struct)):
+        return False
+    walk = source.base
     while walk is not None:
-        if walk is base:
+        if walk is target:
             return True
         walk = walk.base
-    return False
+    return is_unknown_at_heart(source) and source.__class__ is target.__class__
 
 
 def verdict(source: Type, target: Type) -> str:
@@ -138,6 +154,8 @@ def _to_subrange(source: Type, target: t.Subrange) -> str:
 
 def _to_pointer(source: Type, target: t.Pointer) -> str:
     base = t.value_type(source)
+    if target.ref_to:
+        return OK if isinstance(base, t.Pointer) and refers(base.base, target.base) else ERROR
     if isinstance(base, t.Pointer):
         return OK
     if isinstance(base, Elementary) and base.is_integer and base.size >= 4:
@@ -153,8 +171,23 @@ def _to_interface(source: Type, target: t.Interface) -> str:
     return ERROR
 
 
-def _same(source: Type, target: Type) -> str:
-    return OK if source == target else ERROR
+def _to_array(source: Type, target: t.Array) -> str:
+    return OK if same_shape(source, target) else ERROR
+
+
+def _to_struct(source: Type, target: t.Struct) -> str:
+    """A derived structure gives the part that its base has."""
+    return OK if refers(source, target) else ERROR
+
+
+def same_shape(source: Type, target: Type) -> bool:
+    """Whether two arrays have the same elements in the same order, whatever their bounds are."""
+    if not isinstance(source, t.Array) or not isinstance(target, t.Array):
+        return source == target
+    if source.open_dims or target.open_dims:
+        return source == target
+    lengths = [tuple(high - low for low, high in array.bounds) for array in (source, target)]
+    return lengths[0] == lengths[1] and same_shape(source.element, target.element)
 
 
 def _to_block(source: Type, target: t.FunctionBlock) -> str:
@@ -168,8 +201,8 @@ _BY_TARGET: dict[type, Callable[[Any, Any], str]] = {
     t.Subrange: _to_subrange,
     t.Pointer: _to_pointer,
     t.Interface: _to_interface,
-    t.Array: _same,
-    t.Struct: _same,
+    t.Array: _to_array,
+    t.Struct: _to_struct,
     t.FunctionBlock: _to_block,
 }
 

@@ -48,6 +48,11 @@ class Declarations(TypeReferences):
 
     # -- variables
 
+    def __post_init__(self) -> None:
+        self.session.resolve = self.resolve
+        self.session.type_of = self.type_of
+        self.session.complete = self.complete
+
     def resolve(self, symbol: Symbol) -> None:
         """Gives a variable its type, and its value when it is a constant; an enumeration value its number; a
         type name its type."""
@@ -69,7 +74,8 @@ class Declarations(TypeReferences):
     def _resolve(self, variable: VarSymbol, body: Body) -> None:
         decl = variable.decl
         assert decl is not None
-        type_ = self.type_of(body, decl.type_ref, f"{variable.owner or ''}_{variable.name}")
+        name = f"{variable.owner or ''}_{variable.name}"
+        type_ = self.type_of(body, decl.type_ref, name, by_address=variable.section == "VAR_IN_OUT")
         variable.type = type_
         decl.init = decl.initial or self.alias_initial(body, decl.type_ref)
         if type_ is None:

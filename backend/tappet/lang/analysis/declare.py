@@ -141,7 +141,7 @@ def _fill(session: Session, found: Collected, declarations: Declarations) -> Non
     analysis.pous = [pou for pou, _ in found.pous]
     analysis.types = {s.name.upper(): s.type for s, _, _ in found.types if s.type is not None}
     analysis.interfaces = {i.name.upper(): i for i, _, _ in found.interfaces}
-    _make_unique(found)
+    _make_unique(found, session.named_outside)
     for pou in analysis.pous:
         if pou.kind == "PROGRAM":
             analysis.programs.setdefault(pou.qualified_name.upper(), pou)
@@ -160,10 +160,10 @@ def _fill(session: Session, found: Collected, declarations: Declarations) -> Non
         analysis.scope = session.levels.seen_by(source)
 
 
-def _make_unique(found: Collected) -> None:
+def _make_unique(found: Collected, named_outside: frozenset[str]) -> None:
     """Objects of one name in several scopes get different link names: the outer ones carry their
     namespace."""
-    seen: set[str] = set()
+    seen = set(named_outside)
     order = {Scope.APPLICATION: 0, Scope.POUS: 1, Scope.LIBRARY: 2}
     entries: list[PouSymbol | GvlSymbol] = [p for p, _ in found.pous]
     entries += [g for g, _ in found.gvls]

@@ -11,7 +11,8 @@ from tappet.lang import types as t
 from tappet.lang.access import home_of, may_use
 from tappet.lang.analysis import addresses, conversion, folding, operators
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol, describe
+from tappet.lang.analysis.scope import AmbiguousSymbol, Fits, QualifiedSymbol, describe
+from tappet.lang.heritage import has_unknown_base
 from tappet.lang.rules import BINARY_RULES
 from tappet.lang.symbols import (
     EnumValueSymbol,
@@ -70,14 +71,18 @@ def value(b: Body, e: ast.Expr) -> Type | None:
 
 
 def _no_value(b: Body, e: ast.Expr, target: Symbol) -> None:
-    """Reports a call without result where a value is needed."""
+    """A call without result gives 0 where a value is needed."""
     if isinstance(target, PouSymbol) and target.pou is not None and target.pou.return_type is not None:
         return  # its type is faulty, which has been reported
-    b.report("E0325", e.span, name=target.name)
+    if not isinstance(target, PouSymbol) or target.kind not in ("FUNCTION", "METHOD"):
+        b.report("E0325", e.span, name=target.name)
+        return
+    b.report("W1147", e.span, name=target.name)
+    e.type = t.USINT  # until the context asks for another
 
 
 def not_a_value(b: Body, e: ast.Expr, symbol: Symbol) -> None:
-    """Reports a name that stands for an object instead of a value."""
+    """Reports a name that denotes an object instead of a value."""
     if isinstance(symbol, PropertySymbol):
         return
     if isinstance(symbol, PouSymbol):
@@ -106,7 +111,7 @@ def _literal(b: Body, e: ast.Literal) -> None:
     e.untyped = False
     e.is_constant = True
     content = e.constant = e.value
-    if content is None and e.kind != "null":
+    if content is None:
         clear(e)  # not readable, which the lexer has reported
         return
     if e.prefix is not None:
@@ -124,8 +129,6 @@ def _literal(b: Body, e: ast.Literal) -> None:
     elif kind == "string" or kind == "wstring":
         e.type = t.String(max(1, len(content)) if isinstance(content, (bytes, str)) else 1, kind == "wstring")
         e.untyped = True
-    elif kind == "null":
-        e.type, e.constant, e.untyped = t.USINT, 0, True
     else:
         e.type = _LITERAL_TYPES.get(kind)
         e.untyped = kind in _ADAPTING
@@ -205,7 +208,7 @@ def check_use(b: Body, e: ast.Name | ast.Member | ast.NamedType, symbol: Symbol)
 
 
 def resolve_variable(b: Body, e: ast.Name | ast.Member, symbol: VarSymbol) -> None:
-    """Fills a node that stands for a variable."""
+    """Fills a node that denotes a variable."""
     if symbol.access:
         check_use(b, e, symbol)
     session = b.session
@@ -252,7 +255,25 @@ def _unknown_name(b: Body, e: ast.Name, key: str) -> None:
             e.symbol = symbol
             e.type = symbol.type
         return
-    b.report("E0201", e.span, name=e.name, hint=b.suggest(e.name))
+    if is_null(e):
+        e.type, e.constant, e.is_constant, e.untyped = t.USINT, 0, True, True
+        return
+    if not has_unknown_base(b.block):
+        b.report("E0201", e.span, name=e.name, hint=b.suggest(e.name, fits=_fits(b, e)))
+
+
+def _fits(b: Body, e: ast.Name) -> Fits:
+    """What kind of thing is looked for where an unknown name stands: one to call, or one with a value."""
+    if b.callee is e:
+        return lambda s: (
+            isinstance(s, PouSymbol) or (isinstance(s, VarSymbol) and isinstance(s.type, t.FunctionBlock))
+        )
+    return lambda s: not isinstance(s, (PouSymbol, TypeSymbol))
+
+
+def is_null(e: ast.Expr) -> bool:
+    """Whether `e` is the NULL of pointers, references and interfaces: nothing declared has its name."""
+    return isinstance(e, ast.Name) and e.symbol is None and e.name.upper() == "NULL"
 
 
 def text_of(e: ast.Expr) -> str:
@@ -362,6 +383,8 @@ def _super(b: Body, e: ast.Super) -> None:
     block = b.block
     if block is None or block.kind != "FUNCTION_BLOCK":
         b.report("E0214", e.span, name="SUPER")
+    elif has_unknown_base(block):
+        return
     elif block.base is None or block.base.instance is None:
         b.report("E0215", e.span, name=block.name)
     else:
@@ -415,22 +438,20 @@ def _error(b: Body, e: ast.ErrorExpr) -> None:
 
 
 NAMING = frozenset({ast.Name, ast.Member})
-"""Nodes that may stand for an object instead of a value."""
+"""Nodes that may denote an object instead of a value."""
 
-EXPRESSIONS.update(
-    {
-        ast.Literal: _literal,
-        ast.Name: _name,
-        ast.Index: _index,
-        ast.Deref: _deref,
-        ast.This: _this,
-        ast.Super: _super,
-        ast.Unary: _unary,
-        ast.Binary: _binary,
-        ast.ArrayInit: _aggregate,
-        ast.StructInit: _aggregate,
-        ast.Repeat: _aggregate,
-        ast.TypeOperand: _type_operand,
-        ast.ErrorExpr: _error,
-    }
-)
+HANDLERS: dict[type, Handler] = {
+    ast.Literal: _literal,
+    ast.Name: _name,
+    ast.Index: _index,
+    ast.Deref: _deref,
+    ast.This: _this,
+    ast.Super: _super,
+    ast.Unary: _unary,
+    ast.Binary: _binary,
+    ast.ArrayInit: _aggregate,
+    ast.StructInit: _aggregate,
+    ast.Repeat: _aggregate,
+    ast.TypeOperand: _type_operand,
+    ast.ErrorExpr: _error,
+}

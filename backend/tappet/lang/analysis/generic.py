@@ -12,16 +12,12 @@ from typing import Any
 
 from tappet.lang import ast
 from tappet.lang.analysis.conversion import RANGES
+from tappet.lang.ast.fields import resolved_fields
 
 LIMIT = 30
 """Blocks whose values come from the values of others: one that names itself with another value never ends."""
 _DEPTH = 50
 """Constants from constants."""
-_RESOLVED = frozenset(
-    {"type", "symbol", "constant", "is_constant", "untyped", "operand_type", "parameter", "init", "bit"}
-    | {"target", "expansion", "number", "chosen", "call", "carried", "accumulator"}
-)
-"""Fields that analysis fills in, as far as they have a default."""
 _OPERATIONS: dict[str, Callable[[int, int], int]] = {
     "+": lambda a, b: a + b,
     "-": lambda a, b: a - b,
@@ -257,8 +253,9 @@ def _copied(value: Any, known: dict[int, Any]) -> Any:
     made = known.get(id(value))
     if made is None:
         made = known[id(value)] = object.__new__(type(value))
+        filled = resolved_fields(type(value))
         for item in fields(value):
-            resolved = item.name in _RESOLVED
+            resolved = item.name in filled
             if resolved and item.default is not MISSING:
                 setattr(made, item.name, item.default)
             elif resolved and item.default_factory is not MISSING:

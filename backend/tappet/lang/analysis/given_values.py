@@ -6,7 +6,7 @@ from tappet.lang import ast
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.lexer import ID, lex
-from tappet.lang.parameter_lists import told_at_reference
+from tappet.lang.parameter_lists import reported_at_reference
 from tappet.lang.source import GivenValue, Scope, Source
 from tappet.lang.symbols import VarSymbol
 from tappet.lang.types import Type
@@ -32,13 +32,13 @@ def initialise_parameter(body: Body, variable: VarSymbol, decl: ast.VarDecl, typ
         reason = "it is no constant"
     if reason is not None:
         session.diagnostics.append(
-            told_at_reference("E0904", body.source, variable.owner or "", given, type_, reason)
+            reported_at_reference("E0904", body.source, variable.owner or "", given, type_, reason)
         )
         if decl.own_initial is not None:
             initialise(body, decl.own_initial, type_)
         return decl.own_initial
     session.diagnostics += [
-        told_at_reference("W1412", body.source, variable.owner or "", given, type_, message.message)
+        reported_at_reference("W1412", body.source, variable.owner or "", given, type_, message.message)
         for message in own
     ]
     return value
@@ -58,6 +58,6 @@ def _names(value: str) -> list[str]:
 
 
 def _of_project(view: Body, name: str) -> bool:
-    """Whether an edit of the project can change what a name stands for."""
+    """Whether an edit of the project can change what a name denotes."""
     symbol = view.lookup(name)
     return symbol is None or symbol.source is None or symbol.source.scope is not Scope.LIBRARY

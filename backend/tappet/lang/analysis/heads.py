@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import repeat
+
 from tappet.lang import ast
 from tappet.lang.access import home_of, may_use
 from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.same_names import check_inherited, check_result
-from tappet.lang.analysis.scope import describe
+from tappet.lang.analysis.scope import Fits, describe, suggestion
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import (
@@ -37,6 +39,7 @@ def link(session: Session, found: Collected, declarations: Declarations) -> None
     for pou, _ in found.pous:
         _break_cycle(session, pou)
     extended = {id(p.base) for p, _ in found.pous if p.base is not None}
+    extended |= {id(p) for p, _ in found.pous if p.name.upper() in session.extended_outside}
     view = _Views(session, found, declarations, extended)
     for pou, _ in found.pous:
         view.block(pou)
@@ -67,13 +70,15 @@ def _link_interface(
     session: Session, interface: InterfaceSymbol, declaration: ast.Interface, source: Source
 ) -> None:
     interface.bases = []
-    for name in declaration.extends:
-        base = _find(session, source, name, declaration.name_span)
+    for name, span in zip(
+        declaration.extends, declaration.extends_spans or repeat(declaration.name_span), strict=False
+    ):
+        base = _find(session, source, name, span)
         if isinstance(base, InterfaceSymbol):
             interface.bases.append(base)
         else:
-            hint = f"'{name}' is a {describe(base)}." if base is not None else ""
-            session.report("E0217", source.uri, declaration.name_span, name=name, hint=hint)
+            hint = _wrong_interface(session, source, name, base)
+            session.report("E0217", source.uri, span, name=name, hint=hint)
 
 
 def _inherit_interface(interface: InterfaceSymbol, depth: int) -> None:
@@ -99,17 +104,30 @@ def _link_pou(session: Session, pou: PouSymbol) -> None:
             if base.pou is not None and "FINAL" in base.pou.modifiers:
                 session.report("E0426", source.uri, node.name_span, name=base.name)
         elif base is None:
-            session.report("E0216", source.uri, node.name_span, name=node.extends, hint="")
+            hint = _near(session, source, node.extends, lambda s: isinstance(s, PouSymbol))
+            session.report("E0216", source.uri, node.extends_span, name=node.extends, hint=hint)
         else:
             what = pou.kind.lower().replace("_", " ")
             session.report("E0417", source.uri, node.name_span, name=pou.name, base=base.name, what=what)
-    for name in node.implements:
-        interface = _find(session, source, name, node.name_span)
+    for name, span in zip(node.implements, node.implements_spans or repeat(node.name_span), strict=False):
+        interface = _find(session, source, name, span)
         if isinstance(interface, InterfaceSymbol):
             pou.interfaces.append(interface)
         else:
-            hint = f"'{name}' is a {describe(interface)}." if interface is not None else ""
-            session.report("E0217", source.uri, node.name_span, name=name, hint=hint)
+            hint = _wrong_interface(session, source, name, interface)
+            session.report("E0217", source.uri, span, name=name, hint=hint)
+
+
+def _wrong_interface(session: Session, source: Source, name: str, found: Symbol | None) -> str:
+    if found is not None:
+        return f"'{name}' is a {describe(found)}."
+    return _near(session, source, name, lambda s: isinstance(s, InterfaceSymbol))
+
+
+def _near(session: Session, source: Source, name: str, fits: Fits) -> str:
+    """Advice with a near name of the kind that is needed."""
+    known = session.levels.seen_by(source).items()
+    return suggestion(name, [(key, symbol) for key, symbol in known if fits(symbol)])
 
 
 def _break_cycle(session: Session, pou: PouSymbol) -> None:

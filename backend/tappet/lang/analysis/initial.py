@@ -9,7 +9,8 @@ from tappet.lang import types as t
 from tappet.lang.analysis.adaptation import require
 from tappet.lang.analysis.calls import bind_reference
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import clear, value
+from tappet.lang.analysis.expressions import clear, evaluate, value
+from tappet.lang.heritage import is_unknown_at_heart
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Type
 
@@ -113,7 +114,12 @@ def _named_repeat(b: Body, e: ast.Call) -> ast.Expr:
     """`N(7)` with a constant N looks like a call to the parser; only its name tells that it is a
     repetition."""
     callee = e.callee
-    if isinstance(callee, ast.Name) and isinstance(b.lookup(callee.name), VarSymbol):
+    if isinstance(callee, ast.Member):
+        messages = len(b.session.diagnostics)
+        evaluate(b, callee)
+        del b.session.diagnostics[messages:]  # it is resolved again
+    symbol = b.lookup(callee.name) if isinstance(callee, ast.Name) else getattr(callee, "symbol", None)
+    if isinstance(symbol, VarSymbol) and (isinstance(callee, ast.Name) or "CONSTANT" in symbol.flags):
         values = [arg.value for arg in e.args if arg.value is not None and arg.name is None]
         return ast.Repeat(span=e.span, count=callee, values=values)
     return e
@@ -192,8 +198,9 @@ def _field(
         symbol = target.pou.symbol.locals.get(key)
     if not isinstance(symbol, VarSymbol):
         names = [m.name for m in target.members.values() if not m.name.startswith("__")]
-        told = isinstance(target, t.Struct) and (not names or key in target.unknown)
-        if not told:
+        reported = isinstance(target, t.Struct) and (not names or key in target.unknown)
+        reported = reported or is_unknown_at_heart(target)
+        if not reported:
             hint = f"Its members are: {', '.join(names[:8])}{' ...' if len(names) > 8 else ''}."
             b.report("E0204", field.span, name=field.name, type=target, hint=hint)
         return None

@@ -6,7 +6,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import conversion
 from tappet.lang.analysis.adaptation import require, retype
-from tappet.lang.analysis.builtins import OPERATORS, Resolve, count_fits, finish, operands
+from tappet.lang.analysis.builtins import Resolve, count_fits, finish, operands
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import evaluate, place_or_name, text_of, value
 from tappet.lang.analysis.fb_init import bind_fb_init
@@ -16,14 +16,19 @@ from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, TypeSymbol, VarSymbol
 from tappet.lang.types import Elementary, Type
+from tappet.lang.variable_info import VAR_INFO
 
 _UNSIGNED = (t.USINT, t.UINT, t.UDINT, t.ULINT)
 
 
 def named_type(b: Body, e: ast.Expr) -> Type | None:
-    """The type that an operand names (`INT`, a user type, an FB, POINTER TO one), None when it names none."""
+    """The type that an operand names (`INT`, a user type, an FB, POINTER TO one, STRING(20)), None when it
+    names none."""
     if isinstance(e, ast.TypeOperand):
         return b.session.type_of(b, e.ref, "")
+    text = _text_type(e)
+    if text is not None:
+        return b.session.type_of(b, text, "")
     if isinstance(e, ast.Name) and not e.leading_dot:
         key = e.name.upper()
         if key in b.locals:
@@ -47,6 +52,17 @@ def named_type(b: Body, e: ast.Expr) -> Type | None:
             e.symbol = symbol
         return symbol.instance
     return None
+
+
+def _text_type(e: ast.Expr) -> ast.StringType | None:
+    """`STRING(20)` or `STRING[20]`, which reads like a call or an element."""
+    inner = e.callee if isinstance(e, ast.Call) else e.base if isinstance(e, ast.Index) else None
+    if not isinstance(inner, ast.Name) or inner.name.upper() not in ("STRING", "WSTRING"):
+        return None
+    lengths = [arg.value for arg in e.args] if isinstance(e, ast.Call) else getattr(e, "indices", [])
+    if len(lengths) != 1:
+        return None
+    return ast.StringType(span=e.span, wide=inner.name.upper() == "WSTRING", length=lengths[0])
 
 
 def _only_argument(b: Body, e: ast.Call, name: str) -> ast.Expr | None:
@@ -108,6 +124,29 @@ def _adr(b: Body, e: ast.Call, name: str) -> None:
         return
     mark_written(b, operand)
     finish(e, name, [None], t.Pointer(type_))
+
+
+def _varinfo(b: Body, e: ast.Call, name: str) -> None:
+    operand = _only_argument(b, e, name)
+    if operand is None or value(b, operand) is None:
+        return
+    inner = operand.base if isinstance(operand, ast.Member) and operand.bit is not None else operand
+    if not is_place(inner):
+        b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
+        return
+    finish(e, name, [None], VAR_INFO)
+
+
+def _ref(b: Body, e: ast.Call, name: str) -> None:
+    """`REF(x)` of IEC 61131-3: what a REF_TO is assigned."""
+    operand = _only_argument(b, e, name)
+    if operand is None or value(b, operand) is None:
+        return
+    if not is_place(operand):
+        b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
+        return
+    mark_written(b, operand)
+    finish(e, "ADR", [None], t.Pointer(operand.type, ref_to=True))
 
 
 def _adrinst(b: Body, e: ast.Call, name: str) -> None:
@@ -174,7 +213,8 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
     assert operand is not None
     type_ = _made_type(b, operand)
     if type_ is None:
-        b.report("E0202", operand.span, name=text_of(operand), hint="__NEW needs a type.")
+        if not isinstance(operand, ast.TypeOperand):  # else what is unknown in it has been reported
+            b.report("E0202", operand.span, name=text_of(operand), hint="__NEW needs a type.")
         return
     length = e.args[1].value if len(e.args) > 1 else None
     count = t.UDINT if length is None else _count(b, length)
@@ -186,27 +226,26 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
         made_of = made_of.element
     if isinstance(made_of, t.FunctionBlock):
         _check_dynamic(b, operand, made_of)
-    elif not isinstance(type_, (t.Struct, t.Array)) and length is None:
-        b.report("E0520", e.span, type=type_)
     finish(e, name, [None, count][: len(e.args)], t.Pointer(type_))
 
 
 def _made_type(b: Body, operand: ast.Expr) -> Type | None:
     """The type that `__NEW` makes a value of; of `FB(...)` the block, whose FB_Init gets the arguments."""
-    named = operand.callee if isinstance(operand, ast.Call) else operand
+    made = operand if isinstance(operand, ast.Call) and _text_type(operand) is None else None
+    named = made.callee if made is not None else operand
     type_ = named_type(b, named)
-    if type_ is None:
+    if type_ is None and not isinstance(named, ast.TypeOperand):
         evaluate(b, named)
         type_ = named_type(b, named)
     block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou is not None else None
-    if not isinstance(operand, ast.Call):
+    if made is None:
         return type_
-    operand.type = operand.constant = operand.target = operand.expansion = None
-    operand.is_constant = operand.untyped = False
+    made.type = made.constant = made.target = made.expansion = None
+    made.is_constant = made.untyped = False
     if not isinstance(block, PouSymbol):
         return None
-    for parameter in bind_fb_init(b, operand.args, block, operand.span):
-        b.report("E0504", operand.span, name=parameter.name, callee=f"{block.name}.FB_Init")
+    for parameter in bind_fb_init(b, made.args, block, made.span):
+        b.report("E0504", made.span, name=parameter.name, callee=f"{block.name}.FB_Init")
     return type_
 
 
@@ -244,7 +283,8 @@ def _delete(b: Body, e: ast.Call, name: str) -> None:
         hint = "Write the pointer that __NEW gave."
         b.report("E0323", operand.span, op=name, what="a pointer", given=f"'{operand.type}'", hint=hint)
         return
-    writable(b, operand)
+    if not isinstance(operand, ast.This):
+        writable(b, operand)
     finish(e, name, [None], None)
 
 
@@ -369,31 +409,31 @@ def _exchange(b: Body, e: ast.Call, name: str) -> None:
     finish(e, name, [pointer, *([pointer.base] * (wanted - 1))], result)
 
 
-OPERATORS.update(
-    {
-        "SIZEOF": _sizeof,
-        "XSIZEOF": _sizeof,
-        "ADR": _adr,
-        "ADRINST": _adrinst,
-        "BITADR": _bitadr,
-        "INDEXOF": _indexof,
-        "LOWER_BOUND": _bound,
-        "UPPER_BOUND": _bound,
-        "__ISVALIDREF": _isvalidref,
-        "__NEW": _new,
-        "__DELETE": _delete,
-        "__QUERYINTERFACE": _query,
-        "__QUERYPOINTER": _query,
-        "__CALL": _system(_call_address),
-        "__SETJMP": _system(_fixed((t.LWORD,), t.DINT)),
-        "__LONGJMP": _system(_fixed((t.LWORD, t.DINT), None)),
-        "__FRAME_ADDRESS": _system(_fixed((), t.LWORD)),
-        "__MEMCPY": _system(_fixed((t.LWORD, t.LWORD, t.LWORD), None)),
-        "__MEMSET": _system(_fixed((t.LWORD, t.BYTE, t.LWORD), None)),
-        "__LOAD_ACQUIRE": _system(_load),
-        "__STORE_RELEASE": _system(_store),
-        "__XADD": _system(_exchange),
-        "__COMPARE_AND_SWAP": _system(_exchange),
-        "__FENCE": _system(_fixed((), None)),
-    }
-)
+OPERATIONS: dict[str, Resolve] = {
+    "SIZEOF": _sizeof,
+    "XSIZEOF": _sizeof,
+    "ADR": _adr,
+    "REF": _ref,
+    "__VARINFO": _varinfo,
+    "ADRINST": _adrinst,
+    "BITADR": _bitadr,
+    "INDEXOF": _indexof,
+    "LOWER_BOUND": _bound,
+    "UPPER_BOUND": _bound,
+    "__ISVALIDREF": _isvalidref,
+    "__NEW": _new,
+    "__DELETE": _delete,
+    "__QUERYINTERFACE": _query,
+    "__QUERYPOINTER": _query,
+    "__CALL": _system(_call_address),
+    "__SETJMP": _system(_fixed((t.LWORD,), t.DINT)),
+    "__LONGJMP": _system(_fixed((t.LWORD, t.DINT), None)),
+    "__FRAME_ADDRESS": _system(_fixed((), t.LWORD)),
+    "__MEMCPY": _system(_fixed((t.LWORD, t.LWORD, t.LWORD), None)),
+    "__MEMSET": _system(_fixed((t.LWORD, t.BYTE, t.LWORD), None)),
+    "__LOAD_ACQUIRE": _system(_load),
+    "__STORE_RELEASE": _system(_store),
+    "__XADD": _system(_exchange),
+    "__COMPARE_AND_SWAP": _system(_exchange),
+    "__FENCE": _system(_fixed((), None)),
+}

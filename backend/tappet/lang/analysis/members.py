@@ -9,14 +9,16 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Body
 from tappet.lang.analysis.expressions import (
-    EXPRESSIONS,
     NAMING,
+    Handler,
     evaluate,
     resolve_object,
     resolve_variable,
     text_of,
     value,
 )
+from tappet.lang.analysis.pins import pin_of_iec
+from tappet.lang.heritage import has_unknown_base, is_open, is_unknown_at_heart
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -75,7 +77,7 @@ def _member_of_struct(b: Body, e: ast.Member, type_: t.Struct) -> None:
         b.session.complete(type_)
         found = type_.members.get(e.name.upper())
     if found is None or found.decl is None or not isinstance(found.decl.symbol, VarSymbol):
-        if type_.members and e.name.upper() not in type_.unknown:
+        if type_.members and e.name.upper() not in type_.unknown and not is_unknown_at_heart(type_):
             _unknown_member(b, e, type_, [m.name for m in type_.members.values()])
         return
     resolve_variable(b, e, found.decl.symbol)
@@ -104,6 +106,12 @@ def _member_of_pou(b: Body, e: ast.Member, pou: PouSymbol, inside: bool) -> None
             return
     member = find_member(pou, key)
     if member is None:
+        pin = pin_of_iec(b, e.name, pou.parameters, pou.name, e.name_span)
+        if pin is not None:
+            resolve_variable(b, e, pin)
+            return
+        if has_unknown_base(pou):
+            return
         names = [v.name for v in pou.locals.values() if v.section != "VAR_TEMP"]
         walk: PouSymbol | None = pou
         while walk is not None:
@@ -135,6 +143,8 @@ def _member_of_interface(b: Body, e: ast.Member, type_: t.Interface) -> None:
         return
     key = e.name.upper()
     found: Symbol | None = symbol.properties.get(key) or symbol.methods.get(key)
+    if found is None and is_open(symbol):
+        return
     if found is None:
         _unknown_member(
             b, e, type_, [m.name for m in (*symbol.methods.values(), *symbol.properties.values())]
@@ -165,12 +175,20 @@ def _member_of_object(b: Body, e: ast.Member, symbol: Symbol) -> None:
     elif isinstance(symbol, PouSymbol):
         if symbol.kind == "PROGRAM":
             _member_of_pou(b, e, symbol, False)
-        elif symbol.kind == "FUNCTION_BLOCK" and find_member(symbol, key) is not None:
-            resolve_object(b, e, find_member(symbol, key) or symbol)
+        elif symbol.kind == "FUNCTION_BLOCK" and (member := _member_of_own(b, symbol, key)) is not None:
+            resolve_object(b, e, member)
         elif symbol.kind == "FUNCTION_BLOCK" and (constant := _constant_of(b, symbol, key)) is not None:
             resolve_variable(b, e, constant)
         else:
             b.report("E0204", e.name_span, name=e.name, type=symbol.name, hint="Use an instance of it.")
+
+
+def _member_of_own(b: Body, block: PouSymbol, key: str) -> Symbol | None:
+    """A method, property or action named by its block, for the own instance; elsewhere there is none."""
+    walk = b.block
+    while walk is not None and walk is not block:
+        walk = walk.base
+    return find_member(block, key) if walk is not None else None
 
 
 def _constant_of(b: Body, block: PouSymbol, key: str) -> VarSymbol | None:
@@ -258,4 +276,4 @@ _MEMBER_OF: dict[type, Callable[[Body, ast.Member, Any], None]] = {
     t.Pointer: _member_of_pointer,
 }
 
-EXPRESSIONS[ast.Member] = _member
+HANDLERS: dict[type, Handler] = {ast.Member: _member}

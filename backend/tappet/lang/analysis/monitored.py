@@ -8,13 +8,11 @@ from __future__ import annotations
 
 from tappet.lang import ast
 from tappet.lang.attributes import attribute
-from tappet.lang.source import Source
+from tappet.lang.source import Source, Span
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 
-SHOWN = "monitored property"
-"""Attribute of such a variable; its value is the name under which it is watched."""
-CALLED = "monitored by call"
-"""Attribute of one that Get is called for; its value is the name of the variable that asks for it."""
+_REQUEST_FLAGS = frozenset({"HIDDEN", "NO_COPY"})
+"""The request is not shown, and an online change does not copy it."""
 _HOMES = {"FUNCTION_BLOCK": Storage.INSTANCE, "PROGRAM": Storage.PROGRAM}
 
 
@@ -33,23 +31,25 @@ def keeping_variables(owner: PouSymbol, property_: ast.Property, source: Source)
         return []
     span = property_.name_span
     name = monitoring_name(owner.name, property_.name)
-    marks = [ast.Pragma(span=span, text=SHOWN, attribute=SHOWN, value=property_.name)]
     if asked == "variable":
-        return [_variable(owner, source, home, name, property_.type_ref, marks)]
-    asking = f"{name}?"
-    marks.append(ast.Pragma(span=span, text=CALLED, attribute=CALLED, value=asking))
-    quiet = [ast.Pragma(span=span, text=mark, attribute=mark) for mark in ("hide", "no_copy")]
-    return [
-        _variable(owner, source, home, name, property_.type_ref, marks),
-        _variable(owner, source, home, asking, ast.NamedType(span=span, name="BYTE"), quiet),
-    ]
+        kept = ast.Monitored(property_.name)
+        return [_variable(owner, source, home, name, span, property_.type_ref, kept)]
+    kept = ast.Monitored(property_.name, f"{name}?")
+    request = _variable(owner, source, home, f"{name}?", span, ast.NamedType(span=span, name="BYTE"))
+    request.flags = _REQUEST_FLAGS
+    return [_variable(owner, source, home, name, span, property_.type_ref, kept), request]
 
 
 def _variable(
-    owner: PouSymbol, source: Source, home: Storage, name: str, ref: ast.TypeRef, marks: list[ast.Pragma]
+    owner: PouSymbol,
+    source: Source,
+    home: Storage,
+    name: str,
+    span: Span,
+    ref: ast.TypeRef,
+    monitored: ast.Monitored | None = None,
 ) -> VarSymbol:
-    span = marks[0].span
-    decl = ast.VarDecl(name=name, name_span=span, span=span, type_ref=ref, attributes=marks)
+    decl = ast.VarDecl(name=name, name_span=span, span=span, type_ref=ref, monitored=monitored)
     symbol = VarSymbol(
         name, source, span, storage=home, home=home, section="VAR", owner=owner.qualified_name, decl=decl
     )

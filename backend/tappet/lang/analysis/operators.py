@@ -8,7 +8,7 @@ from collections.abc import Callable
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import constant_overflow, conversion, folding
-from tappet.lang.analysis.adaptation import adapt_choice, complain, retype
+from tappet.lang.analysis.adaptation import adapt_choice, as_zero, complain, narrow, retype
 from tappet.lang.analysis.context import Body
 from tappet.lang.types import Elementary, Kind, Type
 
@@ -29,6 +29,8 @@ def unary(b: Body, e: ast.Unary) -> None:
     e.constant = None
     if operand.type is None:
         return
+    if e.op == "NOT" and operand.__class__ is ast.Call:
+        as_zero(operand, t.BOOL)
     base = t.value_type(operand.type)
     if e.op == "NOT":
         if not isinstance(base, Elementary) or not (base.is_integer or base is t.BOOL):
@@ -107,6 +109,9 @@ def binary(b: Body, e: ast.Binary) -> None:
         if e.op in COMPARISONS:
             e.type = t.BOOL
         return
+    for side, other in ((left, right), (right, left)):
+        if side.__class__ is ast.Call:
+            as_zero(side, t.BOOL if e.op in ("AND_THEN", "OR_ELSE") else other.type)  # type: ignore[arg-type]
     op = e.op
     if op in COMPARISONS:
         _comparison(b, e, left, right)
@@ -212,6 +217,9 @@ def _special_arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr)
 
 
 def _pointer_arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr, lt: Type, rt: Type) -> None:
+    if _refers(lt) or _refers(rt):
+        _incompatible(b, e, left, right, "A REF_TO is compared with = and <>; arithmetic needs a POINTER TO.")
+        return
     if isinstance(lt, t.Pointer) and isinstance(rt, t.Pointer):
         if e.op == "-":
             e.type, e.operand_type = t.UDINT, t.LINT
@@ -315,7 +323,7 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
             return
         if _bool_with_number(b, e, left, right, lt, rt):
             return
-    elif isinstance(lt, t.String) and isinstance(rt, t.String) and lt.wide == rt.wide:
+    elif isinstance(lt, t.String) and isinstance(rt, t.String) and _same_width(b, left, right, lt, rt):
         e.operand_type = lt if lt.length >= rt.length else rt
         return
     elif _holds_address(lt, rt) and _addresses(e, left, right, lt, rt):
@@ -340,11 +348,21 @@ def _bool_with_number(
     return False
 
 
+def _same_width(b: Body, left: ast.Expr, right: ast.Expr, lt: t.String, rt: t.String) -> bool:
+    return lt.wide == rt.wide or narrow(b, left if lt.wide else right)
+
+
+def _refers(type_: Type) -> bool:
+    return isinstance(type_, t.Pointer) and type_.ref_to
+
+
 def _holds_address(lt: Type, rt: Type) -> bool:
     return isinstance(lt, (t.Pointer, t.Interface)) or isinstance(rt, (t.Pointer, t.Interface))
 
 
 def _addresses(e: ast.Binary, left: ast.Expr, right: ast.Expr, lt: Type, rt: Type) -> bool:
+    if e.op in _ORDER and (_refers(lt) or _refers(rt)):
+        return False
     for side, own, other in ((left, lt, rt), (right, rt, lt)):
         if isinstance(own, (t.Pointer, t.Interface, t.FunctionBlock)):
             continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Body, DirectWrite
-from tappet.lang.analysis.expressions import text_of
+from tappet.lang.analysis.expressions import is_null, text_of
 from tappet.lang.analysis.result import yields_reference
 from tappet.lang.symbols import (
     EnumValueSymbol,
@@ -19,7 +19,7 @@ from tappet.lang.symbols import (
 
 
 def is_place(e: ast.Expr) -> bool:
-    """Whether `e` stands for memory (no literal, no computed value, no bit, no property but by reference)."""
+    """Whether `e` denotes memory (no literal, no computed value, no bit, no property but by reference)."""
     while True:
         if isinstance(e, ast.Name):
             return isinstance(e.symbol, VarSymbol) or yields_reference(e)
@@ -73,7 +73,7 @@ def writable(b: Body, target: ast.Expr) -> bool:
                     return False
                 if base.type is None:
                     return _variable_writable(b, target, e, symbol)
-                if "CONSTANT" in symbol.flags and not _is_own_input(base, symbol):
+                if "CONSTANT" in symbol.flags and not _is_own_input(b, base, symbol):
                     b.report("E0305", target.span, name=text_of(target), hint="It is a constant.")
                     return False
                 written.add(id(symbol))
@@ -104,8 +104,16 @@ def _unreadable(e: ast.Expr) -> bool:
     return isinstance(e, ast.ErrorExpr) or (isinstance(e, ast.Member) and not e.name)
 
 
+def is_input(symbol: VarSymbol) -> bool:
+    """Whether a variable lies at a fixed address of the inputs; AT %I* it has memory of its own."""
+    return symbol.area == "I" and symbol.home is Storage.DIRECT
+
+
 def note_output(b: Body, symbol: VarSymbol, target: ast.Expr) -> None:
     """Notes that a variable or operand at an address is written."""
+    if symbol.area == "I":
+        b.report("W1304", target.span, name=symbol.name)
+        return
     if symbol.home is Storage.DIRECT and symbol.area is not None and symbol.type is not None:
         first = 8 * symbol.offset + (symbol.bit or 0)
         last = first + (1 if symbol.bit is not None else 8 * symbol.type.size)
@@ -114,12 +122,14 @@ def note_output(b: Body, symbol: VarSymbol, target: ast.Expr) -> None:
 
 def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -> bool:
     if symbol is None:
+        if is_null(e):
+            b.report("E0305", target.span, name=text_of(target), hint="It is a constant.")
         return False
     if isinstance(symbol, VarSymbol):
         if "CONSTANT" in symbol.flags:
             b.report("E0305", target.span, name=text_of(target), hint="It is a constant.")
             return False
-        if symbol.area == "I":
+        if is_input(symbol):
             b.report("E0306", target.span, name=symbol.name)
             return False
         b.session.written.add(id(symbol))
@@ -154,10 +164,20 @@ def _variable_writable(b: Body, target: ast.Expr, e: ast.Expr, symbol: object) -
     return False
 
 
-def _is_own_input(base: ast.Expr, symbol: VarSymbol) -> bool:
-    """Whether a method writes a constant input of its block behind THIS^; CODESYS takes that."""
-    through_this = isinstance(base, ast.Deref) and isinstance(base.base, ast.This)
-    return through_this and symbol.section == "VAR_INPUT"
+def _is_own_input(b: Body, base: ast.Expr, symbol: VarSymbol) -> bool:
+    """Whether a method writes a constant input of its block behind THIS^, or FB_Init one of an instance in
+    its block; CODESYS takes that."""
+    if symbol.section != "VAR_INPUT":
+        return False
+    if isinstance(base, ast.Deref) and isinstance(base.base, ast.This):
+        return True
+    if b.pou is None or b.pou.name.upper() != "FB_INIT" or b.pou.owner is None:
+        return False
+    while isinstance(base, (ast.Member, ast.Index)):
+        base = base.base
+    if isinstance(base, ast.Deref):
+        return isinstance(base.base, ast.This)
+    return isinstance(base, ast.Name) and base.symbol is b.pou.owner.locals.get(base.name.upper())
 
 
 def _access_allowed(b: Body, e: ast.Member, symbol: VarSymbol) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.collected import Collected
@@ -10,23 +12,30 @@ from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.fb_init import bind_fb_init
 from tappet.lang.analysis.members import find_member
+from tappet.lang.heritage import has_unknown_base
 from tappet.lang.rules import PROGRAM_RULES
 from tappet.lang.source import Source, Span
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol, PropertySymbol, VarSymbol
 from tappet.lang.types import Type
 
 
-def check(session: Session, found: Collected, declarations: Declarations) -> None:
-    """Runs all checks of the whole program."""
-    _recursion(session, found)
+def check(session: Session, found: Collected, declarations: Declarations, outer: frozenset[int]) -> None:
+    """Runs all checks of the whole program; `outer`: id() of POUs that `check_pous` has checked already."""
     _hidden_objects(session)
-    for pou, _ in found.pous:
-        _interfaces(session, pou)
-        _overrides(session, pou)
+    check_pous(session, found, declarations, outer)
     place_incomplete(session, found, declarations)
-    _external_types(session, found, declarations)
     for rule in PROGRAM_RULES:
         rule(session)
+
+
+def check_pous(session: Session, found: Collected, declarations: Declarations, outer: frozenset[int]) -> None:
+    """What concerns POUs and what they call, extend and implement, those of `outer` left out."""
+    pous = [pou for pou, _ in found.pous if id(pou) not in outer]
+    _recursion(session, pous, outer)
+    for pou in pous:
+        _interfaces(session, pou)
+        _overrides(session, pou)
+    _external_types(pous, found, declarations)
 
 
 def _hidden_objects(session: Session) -> None:
@@ -40,10 +49,10 @@ def _hidden_objects(session: Session) -> None:
 # -- recursion --------------------------------------------------------------------------------------
 
 
-def _recursion(session: Session, found: Collected) -> None:
+def _recursion(session: Session, pous: Iterable[PouSymbol], outer: frozenset[int]) -> None:
     """Reports every cycle of calls once, with the chain (POU-02)."""
-    finished: set[int] = set()
-    for pou, _ in found.pous:
+    finished = set(outer)
+    for pou in pous:
         for start in pou.with_children():
             if id(start) not in finished:
                 _search(session, start, finished)
@@ -53,7 +62,7 @@ def _search(session: Session, start: PouSymbol, finished: set[int]) -> None:
     path: list[PouSymbol] = [start]
     on_path = {id(start): 0}
     stack = [iter(session.calls.get(id(start), ()))]
-    told: set[tuple[int, int]] = set()
+    reported: set[tuple[int, int]] = set()
     while stack:
         step = next(stack[-1], None)
         if step is None:
@@ -65,9 +74,9 @@ def _search(session: Session, start: PouSymbol, finished: set[int]) -> None:
         target, _, span = step
         if id(target) in on_path:
             edge = (id(path[-1]), id(target))
-            if edge in told:
+            if edge in reported:
                 continue
-            told.add(edge)
+            reported.add(edge)
             _report_recursion(session, path, path[on_path[id(target)] :], span)
         elif id(target) not in finished:
             path.append(target)
@@ -95,7 +104,7 @@ def _charted(pou: PouSymbol) -> bool:
 
 def _interfaces(session: Session, pou: PouSymbol) -> None:
     node, source = pou.pou, pou.source
-    if node is None or source is None or "ABSTRACT" in node.modifiers:
+    if node is None or source is None or "ABSTRACT" in node.modifiers or has_unknown_base(pou):
         return
     for interface in pou.interfaces:
         for key, head in interface.methods.items():
@@ -143,7 +152,7 @@ def _overrides(session: Session, pou: PouSymbol) -> None:
 def _compare(session: Session, own: PouSymbol, base: PouSymbol, base_name: str) -> None:
     """A method that overrides or implements another one has its parameters and result."""
     reason = ""
-    if own.return_type != base.return_type:
+    if _differ(own.return_type, base.return_type, own, base):
         reason = f"it returns '{own.return_type}' instead of '{base.return_type}'"
     elif len(own.parameters) != len(base.parameters):
         reason = f"it has {len(own.parameters)} parameters instead of {len(base.parameters)}"
@@ -151,7 +160,7 @@ def _compare(session: Session, own: PouSymbol, base: PouSymbol, base_name: str) 
         for mine, other in zip(own.parameters, base.parameters, strict=True):
             if mine.name.upper() != other.name.upper() or mine.section != other.section:
                 reason = f"parameter '{mine.name}' is '{other.name}' there"
-            elif mine.type != other.type:
+            elif mine.type is not None and other.type is not None and mine.type != other.type:
                 reason = f"parameter '{mine.name}' is '{mine.type}' instead of '{other.type}'"
             else:
                 continue
@@ -160,6 +169,14 @@ def _compare(session: Session, own: PouSymbol, base: PouSymbol, base_name: str) 
         session.report(
             "E0419", own.source.uri, own.span, what="Method", name=own.name, base=base_name, reason=reason
         )
+
+
+def _differ(mine: Type | None, other: Type | None, own: PouSymbol, base: PouSymbol) -> bool:
+    """Whether two results differ; not when one has a type that is unknown, which has been reported."""
+    for found, pou in ((mine, own), (other, base)):
+        if found is None and pou.pou is not None and pou.pou.return_type is not None:
+            return False
+    return mine != other
 
 
 def _compare_property(session: Session, own: PropertySymbol, head: PropertySymbol, interface: str) -> None:
@@ -213,9 +230,9 @@ def _bind_fb_init(
         body.report("E0421", span, name=parameter.name, variable=variable.name, type=block.name)
 
 
-def _external_types(session: Session, found: Collected, declarations: Declarations) -> None:
+def _external_types(pous: Iterable[PouSymbol], found: Collected, declarations: Declarations) -> None:
     """VAR_EXTERNAL must repeat the type of the global variable (LDEC-27)."""
-    for pou, _ in found.pous:
+    for pou in pous:
         for entry in pou.with_children():
             body = declarations.bodies[id(entry)]
             for variable in found.own[id(entry)].externals:

@@ -1,10 +1,10 @@
 """What analysis hands to code generation, the monitor and the editors.
 
-The contract, construct by construct. "Symbol" and "type" are the fields after `# resolved` in `ast`.
+The contract, construct by construct. "Symbol" and "type" are the fields marked `resolved` in `ast`.
 
 Expressions
     `type` is the static type for checks; it is never a `Reference`: a Name, Member or Call whose symbol's
-    type (return type) is a Reference stands for the object referred to. It is None only below a reported
+    type (return type) is a Reference denotes the object referred to. It is None only below a reported
     error. `is_constant` / `constant`: the folded value, already wrapped to `carried_type(expr)`; emit it
     without looking at the operands. NaN and infinities occur. `untyped` is of interest to analysis only.
     Values: lowering computes an expression in `carried_type(expr)` and converts from there to whatever the
@@ -147,8 +147,8 @@ class Redeclared:
 
     texts: frozenset[str]
     """Uris of the texts that were declared again."""
-    things: frozenset[int]
-    """id() of all symbols and types that stand for the declarations of these texts, or stood for them."""
+    entities: frozenset[int]
+    """id() of all symbols and types of the declarations of these texts, present and former."""
     bodies: list[PouSymbol]
     """POUs, methods and accessors whose bodies were analysed again."""
 
@@ -181,7 +181,7 @@ class Analysis:
     continued: bool = False
     """Whether symbols of the previous analysis live on here."""
     is_waiting: bool = False
-    """Whether bodies have not been analysed yet; `go_on` analyses them, and the next analysis tells of
+    """Whether bodies have not been analysed yet; `resume` analyses them, and the next analysis tells of
     them."""
     state: object | None = None
     """What the next analysis may reuse; no business of others."""

@@ -10,27 +10,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tappet.lang import ast
-from tappet.lang.analysis import (
-    calls,
-    conditional_calls,
-    intrinsics,
-    members,
-    selection,
-    whereabouts,
-)
+from tappet.lang.analysis import handlers
 from tappet.lang.analysis.bodies import State, analyse_body, finish
 from tappet.lang.analysis.collect import collect
 from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.declare import all_pous, declare
 from tappet.lang.analysis.generic import expand
-from tappet.lang.analysis.incremental import reanalyse
-from tappet.lang.analysis.redeclare import read_words, redeclare
+from tappet.lang.analysis.libraries import LibrarySnapshot
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
-from tappet.lang.sfc.library import with_types
+from tappet.lang.languages.support import with_libraries
 
-REGISTERED = (calls, conditional_calls, members, intrinsics, selection, whereabouts)
-"""Modules that enter their handlers into the tables when they are imported."""
+handlers.install()
 
 
 def analyse(
@@ -38,6 +29,7 @@ def analyse(
     options: AnalysisOptions | None = None,
     previous: Analysis | None = None,
     first: frozenset[str] | None = None,
+    libraries: LibrarySnapshot | None = None,
 ) -> Analysis:
     """Resolves and checks a program; every message is in `Analysis.diagnostics`. Never raises.
 
@@ -46,31 +38,35 @@ def analyse(
     they declare the same objects, what depends on the edited declarations is analysed. `previous` is used up
     then, its symbols live on in the result (`Analysis.continued`). Where many bodies have to be analysed
     again, those of texts that are not among the uris `first` may wait (`Analysis.is_waiting`): the next
-    analysis, of the same or other units, takes them up.
+    analysis, of the same or other units, takes them up. `libraries` stand around the program: `units` are
+    then those of the application alone.
     """
     options = options or AnalysisOptions()
     earlier = previous.state.units if previous is not None and isinstance(previous.state, State) else ()
-    units = with_types(units, earlier)
+    units = with_libraries([*units, *libraries.units] if libraries is not None else units, earlier)
     plain, units = units, expand(units)
     if previous is not None and units is plain:
+        from tappet.lang.analysis.edits.body_edits import reanalyse
+        from tappet.lang.analysis.edits.declaration_edits import redeclare
+
         again = reanalyse(previous, units, options, first) or redeclare(previous, units, options, first)
         if again is not None:
             return again
-    analysis = Analysis(options)
-    session = Session(options, analysis)
-    found = collect(session, units)
-    declarations = Declarations(session, found)
-    session.resolve = declarations.resolve
-    session.type_of = declarations.type_of
-    session.complete = declarations.complete
-    declare(session, found, declarations, found)
-    state = State(tuple(units), session, found, declarations)
+    if libraries is not None:
+        own = [unit for unit in units if id(unit) not in libraries.unit_ids]
+        state, found = libraries.surround(own, options)
+    else:
+        session = Session(options, Analysis(options))
+        found = collect(session, units)
+        state = State(tuple(units), session, found, Declarations(session, found))
+    session, declarations = state.session, state.declarations
+    declare(session, found, declarations, state.found)
     for pou in all_pous(found):
         state.records[id(pou)] = analyse_body(session, pou, declarations.bodies[id(pou)])
     return finish(state)
 
 
-def go_on(analysis: Analysis, seconds: float) -> bool:
+def resume(analysis: Analysis, seconds: float) -> bool:
     """Analyses bodies that wait, for about so many seconds; whether none waits any more."""
     state = analysis.state
     if isinstance(state, State):
@@ -82,4 +78,6 @@ def go_on(analysis: Analysis, seconds: float) -> bool:
 def prepare(analysis: Analysis) -> None:
     """Reads what the first edit of declarations would have to read of every text."""
     if isinstance(analysis.state, State):
-        read_words(analysis.state)
+        from tappet.lang.analysis.edits.declaration_edits import read_identifiers
+
+        read_identifiers(analysis.state)

@@ -1,4 +1,4 @@
-"""One name stands for one thing in a scope, and in a block with all its bases (LDEC-09)."""
+"""One name denotes one symbol in a scope, and in a block with all its bases (LDEC-09)."""
 
 from __future__ import annotations
 

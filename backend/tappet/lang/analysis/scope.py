@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
+from tappet.lang.nearest import nearest
 from tappet.lang.source import Scope, Source
 from tappet.lang.symbols import (
     EnumValueSymbol,
@@ -99,10 +99,20 @@ class Levels:
     pous: Level = field(default_factory=lambda: Level(""))
     libraries: dict[str, Level] = field(default_factory=dict)
     system: dict[str, Symbol] = field(default_factory=dict)
-    """Names every text sees last, such as `__SYSTEM`."""
+    """Names every text sees last, such as `__SYSTEM`; the one that a single library declares goes first."""
     _tables: dict[str, dict[str, Symbol]] = field(default_factory=dict)
     _values: dict[str, dict[str, Symbol]] = field(default_factory=dict)
     _namespaces: dict[str, NamespaceSymbol] = field(default_factory=dict)
+
+    def around(self, shared: bool) -> Levels:
+        """New levels of an application around the libraries of these; `shared`: with their look-up tables, as
+        no library is added."""
+        levels = Levels(libraries=dict(self.libraries), system=dict(self.system))
+        if shared:
+            self._library_names()
+            levels._tables, levels._values = dict(self._tables), dict(self._values)
+            levels._namespaces = self._namespaces
+        return levels
 
     def of(self, source: Source) -> Level:
         """The level the objects of a source belong to."""
@@ -154,7 +164,7 @@ class Levels:
 
     def renew(self) -> set[str]:
         """Fills the tables of application and POUs view again after lists and enumerations have changed; the
-        names that stand for something else now."""
+        names that denote something else now."""
         changed: set[str] = set()
         for level in (self.pous, self.application):
             level.values = {}
@@ -211,7 +221,7 @@ class Levels:
     def _library_names(self) -> dict[str, Symbol]:
         table = self._tables.get("libraries")
         if table is None:
-            table = dict(self.system)
+            table = {}
             public = [level for level in self.libraries.values() if not level.private]
             for level in public:
                 table.setdefault(level.label.upper(), self._namespace(level))
@@ -228,12 +238,16 @@ class Levels:
                         choice = f"{level.label}.{symbol.name}"
                         choices = old.choices if isinstance(old, AmbiguousSymbol) else [_qualified(old)]
                         table[key] = AmbiguousSymbol(symbol.name, choices=[*choices, choice])
+            for key, symbol in self.system.items():
+                old = table.get(key)
+                if old is None or isinstance(old, AmbiguousSymbol) or _gives_way(old):
+                    table[key] = symbol
             self._tables["libraries"] = table
         return table
 
 
 def _same(old: Symbol | None, new: Symbol | None) -> bool:
-    """Whether a name stands for the same."""
+    """Whether a name denotes the same."""
     if isinstance(old, AmbiguousSymbol) and isinstance(new, AmbiguousSymbol):
         return (old.name, old.choices) == (new.name, new.choices)
     if isinstance(old, QualifiedSymbol) and isinstance(new, QualifiedSymbol):
@@ -242,7 +256,7 @@ def _same(old: Symbol | None, new: Symbol | None) -> bool:
 
 
 def is_type(symbol: Symbol) -> bool:
-    """Whether a name stands for a data type, a function block or an interface: for no value."""
+    """Whether a name denotes a data type, a function block or an interface: no value."""
     if isinstance(symbol, PouSymbol):
         return symbol.kind == "FUNCTION_BLOCK"
     return isinstance(symbol, (TypeSymbol, InterfaceSymbol))
@@ -262,6 +276,11 @@ def _qualified(symbol: Symbol) -> str:
     source = symbol.source
     prefix = (source.namespace or source.library) if source else None
     return f"{prefix}.{symbol.name}" if prefix else symbol.name
+
+
+Fits = Callable[[Symbol], bool]
+_PROPOSED = 8
+"""Near names among which one of the right kind is looked for."""
 
 
 def place_of(symbol: Symbol) -> str:
@@ -292,16 +311,19 @@ def describe(symbol: Symbol) -> str:
     return type(symbol).__name__.removesuffix("Symbol").lower()
 
 
-def suggestion(name: str, *tables: Iterable[tuple[str, Symbol]]) -> str:
-    """`Did you mean 'Speed' (GVL_Drive)?` for the closest known name, '' when none is close."""
+def suggestion(name: str, *tables: Iterable[tuple[str, Symbol]], fits: Fits | None = None) -> str:
+    """`Did you mean 'Speed' (GVL_Drive)?` for the nearest known name, '' when none is near; what `fits` tells
+    to be of the right kind goes first."""
     known: dict[str, Symbol] = {}
     for table in tables:
         for key, symbol in table:
             known.setdefault(key, symbol)
-    close = get_close_matches(name.upper(), known, n=1, cutoff=0.6)
-    if not close:
+    near = nearest(name, known, _PROPOSED)
+    if not near:
         return ""
-    symbol = known[close[0]]
+    if fits is not None:
+        near.sort(key=lambda key: not fits(known[key]))  # stable: the nearest of its kind stays first
+    symbol = known[near[0]]
     if isinstance(symbol, QualifiedSymbol):
         return f"Did you mean '{symbol.choice}'?"
     if isinstance(symbol, AmbiguousSymbol):

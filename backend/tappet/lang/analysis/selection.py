@@ -8,7 +8,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import conversion, folding
 from tappet.lang.analysis.adaptation import require, retype
-from tappet.lang.analysis.builtins import MANY, OPERATORS, finish, operands
+from tappet.lang.analysis.builtins import MANY, Resolve, finish, operands
 from tappet.lang.analysis.context import Body
 from tappet.lang.types import Elementary, Kind, Type
 
@@ -97,7 +97,11 @@ def _common_of_literals(b: Body, found: Sequence[ast.Expr]) -> Type | None:
     first = found[0]
     whole = [x.constant for x in found if x.constant.__class__ is int]
     if len(whole) == len(found) and all(_is_integer(x.type) for x in found):
-        return conversion.smallest_of(whole)
+        smallest = conversion.smallest_of(whole)
+        if smallest is None:
+            left, right = (found[whole.index(pick(whole))].type for pick in (min, max))
+            b.report("E0304", found[-1].span, op="selection", left=left, right=right, hint=_SAME)
+        return smallest
     result = first.type
     for operand in found[1:]:
         wider = _pair(result, operand.type) if result is not None else None
@@ -188,4 +192,10 @@ def _extreme(b: Body, e: ast.Call, name: str) -> None:
     _choose(e, name, [], found, types)
 
 
-OPERATORS |= {"SEL": _sel, "MUX": _mux, "MAX": _extreme, "MIN": _extreme, "LIMIT": _extreme}
+OPERATIONS: dict[str, Resolve] = {
+    "SEL": _sel,
+    "MUX": _mux,
+    "MAX": _extreme,
+    "MIN": _extreme,
+    "LIMIT": _extreme,
+}

@@ -8,12 +8,13 @@ from typing import Any
 
 from tappet.lang import ast
 from tappet.lang import types as t
-from tappet.lang.analysis import conversion
+from tappet.lang.analysis import conversion, folding
 from tappet.lang.analysis.adaptation import require, retype
 from tappet.lang.analysis.calls import bind_reference
+from tappet.lang.analysis.conditions import condition
 from tappet.lang.analysis.context import Body
-from tappet.lang.analysis.expressions import EXPRESSIONS, evaluate, place_or_name, text_of, value
-from tappet.lang.analysis.places import note_output, writable
+from tappet.lang.analysis.expressions import EXPRESSIONS, Handler, evaluate, place_or_name, text_of, value
+from tappet.lang.analysis.places import is_input, note_output, writable
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.rules import ASSIGN_RULES, LIST_RULES, STATEMENT_RULES
 from tappet.lang.source import NOWHERE
@@ -72,7 +73,7 @@ def _assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
     b.assigned = None
     if target.__class__ is ast.Name and target.symbol.__class__ is VarSymbol:
         symbol = target.symbol
-        if "CONSTANT" not in symbol.flags and symbol.area != "I":
+        if "CONSTANT" not in symbol.flags and not is_input(symbol):
             b.session.written.add(id(symbol))
             if symbol.area is not None:
                 note_output(b, symbol, target)
@@ -143,17 +144,6 @@ def _expr_stmt(b: Body, s: ast.ExprStmt) -> None:
             b.report("W1144", e.span, name=text_of(e))
 
 
-def condition(b: Body, e: ast.Expr) -> None:
-    """Resolves an expression that decides: it must be BOOL."""
-    type_ = value(b, e)
-    if type_ is None or type_ is t.BOOL:
-        return
-    if e.untyped and retype(e, t.BOOL):
-        return
-    if t.value_type(type_) is not t.BOOL:
-        b.report("E0307", e.span, source=type_)
-
-
 def _if(b: Body, s: ast.If) -> None:
     for test, body in s.branches:
         condition(b, test)
@@ -217,19 +207,34 @@ def _bound(b: Body, bound: ast.Expr, type_: Type | None, base: Elementary) -> No
 
 
 def _step(b: Body, step: ast.Expr, base: Elementary) -> None:
-    if step.is_constant and step.constant == 0:
+    """The step is added to the variable and keeps its own sign: an unsigned variable may count down."""
+    number = step.constant if step.is_constant else None
+    if number == 0:
         b.report("E0809", step.span)
         return
     if step.untyped:
-        signed = (
-            conversion.smallest_integer(-(1 << (8 * base.size - 1))) if base.kind is not Kind.SIGNED else base
-        )
-        number = step.constant
-        fitting = signed if isinstance(number, int) and number < 0 and signed is not None else base
-        if not retype(step, fitting):
+        if not _reaches(number, base) or not retype(step, _type_of_step(number, base)):
             b.report("E0808", step.span, source=step.type, target=base)
         return
-    require(b, step, base)
+    own = t.value_type(step.type) if step.type is not None else None
+    if isinstance(own, Elementary) and own.kind is Kind.SIGNED:
+        if not _reaches(number, base):
+            require(b, step, conversion.SIGNED[base.size])
+    else:
+        require(b, step, base)
+
+
+def _reaches(number: object, base: Elementary) -> bool:
+    """Whether a constant step leads from one value of the variable to another one."""
+    if not isinstance(number, int):
+        return False
+    return folding.fits(abs(number) if base.kind is not Kind.SIGNED else number, base)
+
+
+def _type_of_step(number: object, base: Elementary) -> Elementary:
+    """Type of an untyped step: that of the variable, or a signed one for a step down."""
+    found = conversion.smallest_integer(number) if isinstance(number, int) and number < 0 else None
+    return base if found is None or base.kind is Kind.SIGNED else found
 
 
 def _case(b: Body, s: ast.Case) -> None:
@@ -407,8 +412,8 @@ def check_jumps(b: Body) -> None:
             b.report("W1115", span, name=key)
 
 
-EXPRESSIONS[ast.AssignExpr] = _assign_expr
-EXPRESSIONS[ast.Held] = _held
+HANDLERS: dict[type, Handler] = {ast.AssignExpr: _assign_expr, ast.Held: _held}
+"""Expressions that work like statements."""
 STATEMENTS.update(
     {
         ast.Assign: _assign,

@@ -16,7 +16,7 @@ from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import FunctionBlock
 
 if TYPE_CHECKING:
-    from tappet.lang.analysis.tasks import Task
+    from tappet.iec.task import Task
 
 _AT_ONCE = 8
 """Bytes that are read and written in one piece."""
@@ -134,7 +134,7 @@ def _check(variable: VarSymbol, reaches: Sequence[_Reach], torn: bool) -> Iterat
 
 def _places(reaches: Sequence[_Reach]) -> Iterator[Diagnostic]:
     """Outputs and markers that several tasks write under different names, or by their address."""
-    told: set[tuple[str, int]] = set()
+    reported: set[tuple[str, int]] = set()
     for number, reach in enumerate(reaches):
         for other in reaches[number + 1 :]:
             for one in sorted(reach.outputs):
@@ -142,9 +142,9 @@ def _places(reaches: Sequence[_Reach]) -> Iterator[Diagnostic]:
                     shared = one.area == two.area and one.first < two.last and two.first < one.last
                     same = one.name.upper() == two.name.upper() and not one.name.startswith("%")
                     key = (one.area, max(one.first, two.first))
-                    if not shared or same or key in told:
+                    if not shared or same or key in reported:
                         continue
-                    told.add(key)
+                    reported.add(key)
                     related = [Related(f"task '{other.task}' writes it here", two.uri, two.span)]
                     place = f"%{one.area}X{key[1] // 16}.{key[1] % 16}"
                     tasks = _listed((reach.task, other.task))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from difflib import get_close_matches
-from typing import Protocol
 
+from tappet.iec.task import Task
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import evaluate
@@ -13,6 +12,7 @@ from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.task_access import check_shared
 from tappet.lang.diagnostics import Diagnostic, report, with_severity
+from tappet.lang.nearest import nearest
 from tappet.lang.parser import parse_expression
 from tappet.lang.rules import coding_checks
 from tappet.lang.source import NOWHERE, Scope, Source
@@ -22,50 +22,6 @@ HIGHEST_PRIORITY = 0
 LOWEST_PRIORITY = 31
 _KINDS = ("cyclic", "freewheeling", "event", "status", "external")
 _EVENT_KINDS = ("event", "status", "external")
-
-
-class Watchdog(Protocol):
-    """When a task that takes too long is stopped (TASK-30..TASK-35)."""
-
-    @property
-    def time_ns(self) -> int:
-        """Longest time of a cycle, ns."""
-
-    @property
-    def sensitivity(self) -> int:
-        """Overruns that are tolerated."""
-
-
-class Task(Protocol):
-    """What a check needs to know of a task; the project's and the code package's tasks have it."""
-
-    @property
-    def name(self) -> str:
-        """Unique in the application."""
-
-    @property
-    def kind(self) -> str:
-        """cyclic, freewheeling, event, status or external."""
-
-    @property
-    def interval_ns(self) -> int:
-        """Period of a cyclic task, ns."""
-
-    @property
-    def priority(self) -> int:
-        """0 (highest) to 31."""
-
-    @property
-    def event(self) -> str | None:
-        """Path of the BOOL variable of an event or status task."""
-
-    @property
-    def watchdog(self) -> Watchdog | None:
-        """None when it is off."""
-
-    @property
-    def programs(self) -> Sequence[str]:
-        """Programs in the order of their calls."""
 
 
 def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
@@ -121,7 +77,7 @@ def _check(task: Task, analysis: Analysis) -> list[Diagnostic]:
             if symbol.kind != "PROGRAM":
                 say("E0709", program=program, what=describe(symbol))
             continue
-        close = get_close_matches(program.upper(), analysis.programs, n=1)
+        close = nearest(program, analysis.programs)
         hint = f"Did you mean '{analysis.programs[close[0]].name}'?" if close else "Add the program."
         say("E0701", program=program, hint=hint)
     return found

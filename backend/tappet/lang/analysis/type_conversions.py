@@ -12,6 +12,8 @@ from tappet.lang.types import Elementary, Kind, Type
 
 _DEFAULT_STRING = t.String(80)
 _DEFAULT_WSTRING = t.String(80, wide=True)
+_LONGEST = 255
+"""Characters that conversions between STRING and WSTRING take."""
 _GENERIC = frozenset(
     {
         "ANY",
@@ -81,9 +83,11 @@ def _convert(source: Type | None, target: Type) -> Resolve:
                 retype(operand, own)
         elif isinstance(source, t.String):
             if not isinstance(own, t.String) or own.wide != source.wide:
-                require(b, operand, source)
-                return
-            from_ = own
+                if not require(b, operand, source):
+                    e.type = target
+                    return
+                own = t.value_type(operand.type)  # type: ignore[arg-type]
+            from_ = own if isinstance(own, t.String) else source
         else:
             if isinstance(own, t.Pointer) and isinstance(source, Elementary) and source.is_integer:
                 from_ = own
@@ -92,11 +96,20 @@ def _convert(source: Type | None, target: Type) -> Resolve:
                 return
             else:
                 from_ = source
-        finish(e, "CONVERT", [from_], target)
+        finish(e, "CONVERT", [from_], _result(from_, target))
         if operand.is_constant and isinstance(from_, Elementary) and isinstance(target, Elementary):
             _fold_conversion(e, operand.constant, from_, target)
 
     return resolve
+
+
+def _result(source: Type, target: Type) -> Type:
+    """Type of the result: a text keeps the length of its source, so that nothing is cut or read behind it."""
+    if not isinstance(source, t.String) or not isinstance(target, t.String):
+        return target
+    if source.wide == target.wide:
+        return source
+    return t.String(min(source.length, _LONGEST), target.wide)
 
 
 def _fold_conversion(e: ast.Call, content: ast.Constant, source: Elementary, target: Elementary) -> None:

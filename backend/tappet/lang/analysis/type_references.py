@@ -15,13 +15,14 @@ from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.scope import AmbiguousSymbol, describe
 from tappet.lang.any_type import ANY_TYPES
 from tappet.lang.attributes import attribute
+from tappet.lang.heritage import has_unknown_base
 from tappet.lang.symbols import InterfaceSymbol, NamespaceSymbol, PouSymbol, Symbol, TypeSymbol
 from tappet.lang.types import Elementary, Type
 
-STRING_LIMIT = 65535
+STRING_LIMIT = (layout.SIZE_LIMIT >> 1) - 1
+"""Longest STRING in characters: as a WSTRING, it is as large as data may be."""
 DEPTH_LIMIT = 100
 """Types inside types, names of names and constants from constants; deeper ones are an error (E0107)."""
-"""Longest STRING in characters."""
 
 
 @dataclass(slots=True)
@@ -58,12 +59,14 @@ class TypeReferences:
 
     # -- types
 
-    def type_of(self, body: Body, ref: ast.TypeRef, name: str, below_pointer: bool = False) -> Type | None:
+    def type_of(
+        self, body: Body, ref: ast.TypeRef, name: str, below_pointer: bool = False, by_address: bool = False
+    ) -> Type | None:
         """The type that `ref` writes; None after an error. `name` is for structures and enumerations
-        without one."""
+        without one; `by_address`: the variable is no instance of its own, as VAR_IN_OUT."""
         ref.type = None
         if isinstance(ref, ast.NamedType):
-            ref.type = self._named(body, ref, below_pointer)
+            ref.type = self._named(body, ref, below_pointer, by_address)
         elif isinstance(ref, ast.StringType):
             ref.type = self._string(body, ref)
         elif isinstance(ref, ast.ArrayType):
@@ -90,7 +93,9 @@ class TypeReferences:
             symbol = symbol.members.get(part.upper())
         return symbol
 
-    def _named(self, body: Body, ref: ast.NamedType, below_pointer: bool) -> Type | None:
+    def _named(
+        self, body: Body, ref: ast.NamedType, below_pointer: bool, by_address: bool = False
+    ) -> Type | None:
         name = ref.name
         if not name:
             return None
@@ -112,7 +117,7 @@ class TypeReferences:
         if isinstance(symbol, PouSymbol):
             block = self._named_symbol(body, ref.generic) if ref.generic else symbol
             check_values(body, ref, symbol, block)
-            return self._instance(body, ref, symbol, below_pointer)
+            return self._instance(body, ref, symbol, below_pointer, by_address)
         if isinstance(symbol, InterfaceSymbol):
             return symbol.type
         if isinstance(symbol, AmbiguousSymbol):
@@ -131,7 +136,7 @@ class TypeReferences:
         return None
 
     def _instance(
-        self, body: Body, ref: ast.NamedType, symbol: PouSymbol, below_pointer: bool
+        self, body: Body, ref: ast.NamedType, symbol: PouSymbol, below_pointer: bool, by_address: bool
     ) -> Type | None:
         if symbol.kind != "FUNCTION_BLOCK" and not (below_pointer and symbol.instance is not None):
             if not below_pointer:
@@ -142,12 +147,12 @@ class TypeReferences:
         if pou is not None:
             if pou.attributes:
                 body.warn_obsolete(ref.span, pou.attributes)
-            if "ABSTRACT" in pou.modifiers and not below_pointer:
+            if "ABSTRACT" in pou.modifiers and not (below_pointer or by_address):
                 body.report("E0425", ref.span, name=symbol.name)
         return symbol.instance
 
     def symbol_type(self, symbol: TypeSymbol) -> Type | None:
-        """The type a user-defined name stands for."""
+        """The type a user-defined name denotes."""
         entry = self.types.pop(id(symbol), None)
         if entry is None:
             if symbol.type is None and symbol.name in self.resolving:
@@ -186,7 +191,7 @@ class TypeReferences:
         length = self._constant_integer(body, ref.length)
         if length is None:
             return t.String(80, ref.wide)
-        if not 1 <= length <= STRING_LIMIT:
+        if not 0 <= length <= STRING_LIMIT:
             body.report("E0410", ref.length.span, high=STRING_LIMIT, value=length, hint="")
             return t.String(80, ref.wide)
         return t.String(length, ref.wide)
@@ -194,8 +199,8 @@ class TypeReferences:
     def _constant_integer(self, body: Body, e: ast.Expr) -> int | None:
         messages = len(body.session.diagnostics)
         if value(body, e) is None:
-            if len(body.session.diagnostics) == messages:  # the function has no type yet
-                body.report("E0317", e.span)
+            if len(body.session.diagnostics) == messages and not has_unknown_base(body.block):
+                body.report("E0317", e.span)  # the function has no type yet
             return None
         if not e.is_constant:
             body.report("E0317", e.span)
@@ -242,11 +247,11 @@ class TypeReferences:
     def _pointer(self, body: Body, ref: ast.PointerType, name: str) -> Type | None:
         base = self.type_of(body, ref.base, name, below_pointer=True)
         if isinstance(base, t.Reference):
-            body.report("E0407", ref.span, what="POINTER TO REFERENCE")
+            body.report("E0407", ref.span, what=f"{'REF_TO' if ref.ref_to else 'POINTER TO'} REFERENCE")
             return None
         if base is None and not self._names_code(body, ref.base):
             return None
-        return t.Pointer(base)
+        return t.Pointer(base, ref_to=ref.ref_to and base is not None)
 
     def _names_code(self, body: Body, ref: ast.TypeRef) -> bool:
         """Whether a function or a method stands where a type should: something to point to without type."""
@@ -362,7 +367,7 @@ class TypeReferences:
                 struct.base = base
             elif base_symbol is None:
                 hint = body.suggest(declaration.extends)
-                body.report("E0202", declaration.name_span, name=declaration.extends, hint=hint)
+                body.report("E0202", declaration.extends_span, name=declaration.extends, hint=hint)
             else:
                 body.report(
                     "E0417", declaration.name_span, name=name, base=declaration.extends, what="structure"

@@ -1,9 +1,8 @@
 """The syntax tree of the textual languages; the graphical ones are lowered to it as well.
 
-Nodes are mutable dataclasses: the parser fills the syntax, `analysis` fills the fields below the line
-`# resolved` (types, symbols, constant values) exactly once; nobody rewrites the tree afterwards.
-Every node carries the span of its text. Names keep the spelling of the source; look-ups are
-case-insensitive and use the upper-case form.
+Nodes are mutable dataclasses: the parser fills the syntax, `analysis` the fields declared as resolved (types,
+symbols, constant values; see `fields`) exactly once; the tree is not rewritten afterwards. Every node carries
+the span of its text. Names keep the spelling of the source; look-ups use the upper-case form.
 """
 
 from tappet.lang.ast.declarations import (
@@ -13,8 +12,10 @@ from tappet.lang.ast.declarations import (
     EnumType,
     EnumValue,
     GlobalList,
+    Graph,
     InitArguments,
     Interface,
+    Monitored,
     NamedType,
     PointerType,
     Pou,
@@ -106,6 +107,7 @@ __all__ = [
     "ExprStmt",
     "For",
     "GlobalList",
+    "Graph",
     "Held",
     "Hold",
     "If",
@@ -115,6 +117,7 @@ __all__ = [
     "Jump",
     "Literal",
     "Member",
+    "Monitored",
     "Name",
     "NamedType",
     "Node",

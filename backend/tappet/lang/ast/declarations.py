@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from tappet.lang.ast.expressions import Argument, Expr
+from tappet.lang.ast.fields import ELSEWHERE, RESOLVED, RESOLVED_TREE
 from tappet.lang.ast.node import Node, Pragma
 from tappet.lang.ast.statements import Stmt
 from tappet.lang.source import NOWHERE, GivenValue, Source, Span
@@ -19,8 +20,7 @@ if TYPE_CHECKING:
 class TypeRef(Node):
     """A type as written."""
 
-    # resolved
-    type: Type | None = None
+    type: Type | None = field(default=None, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -72,9 +72,10 @@ class ArrayType(TypeRef):
 
 @dataclass(slots=True, kw_only=True)
 class PointerType(TypeRef):
-    """POINTER TO base."""
+    """POINTER TO base, or REF_TO base."""
 
     base: TypeRef
+    ref_to: bool = False
 
 
 @dataclass(slots=True, kw_only=True)
@@ -91,8 +92,7 @@ class EnumValue(Node):
     name: str
     value: Expr | None = None
     comment: str = ""
-    # resolved
-    number: int = 0
+    number: int = field(default=0, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -109,6 +109,16 @@ class StructType(TypeRef):
 
     members: list[VarDecl]
     union: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Monitored:
+    """The property whose value a variable keeps for monitoring."""
+
+    property_name: str
+    """Under which the variable is watched."""
+    request: str | None = None
+    """Name of the variable that asks the task to call Get; None where accessors keep the value."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -128,11 +138,12 @@ class VarDecl(Node):
     """Comment on the same line or the lines above, without its marks."""
     given: GivenValue | None = None
     """What `initial` was read from where a library reference gives a value to this parameter."""
+    monitored: Monitored | None = None
+    """Of a variable that analysis declares for a monitored property."""
     own_initial: Expr | None = None
     """The value of a parameter that `given` took the place of."""
-    # resolved
-    symbol: Symbol | None = None
-    init: Expr | None = None
+    symbol: Symbol | None = field(default=None, metadata=RESOLVED)
+    init: Expr | None = field(default=None, metadata=RESOLVED_TREE)
     """What initialises the variable: `initial`, or the initial value of its alias type, else None."""
 
 
@@ -183,6 +194,14 @@ class Property(Declaration):
 
 
 @dataclass(slots=True, kw_only=True)
+class Graph(Node):
+    """A body that is no list of statements, as its reader found it: a chart, or what is drawn."""
+
+    language: str
+    """Whose reader lowers it."""
+
+
+@dataclass(slots=True, kw_only=True)
 class Pou(Declaration):
     """PROGRAM, FUNCTION, FUNCTION_BLOCK, METHOD, ACTION or TRANSITION (`kind`, the keyword itself)."""
 
@@ -191,6 +210,8 @@ class Pou(Declaration):
     blocks: list[VarBlock] = field(default_factory=list)
     body: list[Stmt] = field(default_factory=list)
     language: str = "ST"
+    graph: Graph | None = None
+    """The body where it is no list of statements, until `lang.lowering` has made it one."""
     extends: str | None = None
     extends_span: Span = NOWHERE
     extends_type: NamedType | None = None
@@ -202,9 +223,8 @@ class Pou(Declaration):
     methods: list[Pou] = field(default_factory=list)
     actions: list[Pou] = field(default_factory=list)
     properties: list[Property] = field(default_factory=list)
-    owner: Pou | None = None
-    # resolved
-    symbol: Symbol | None = None
+    owner: Pou | None = field(default=None, metadata=ELSEWHERE)
+    symbol: Symbol | None = field(default=None, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -215,8 +235,7 @@ class Interface(Declaration):
     extends_spans: list[Span] = field(default_factory=list)
     methods: list[Pou] = field(default_factory=list)
     properties: list[Property] = field(default_factory=list)
-    # resolved
-    symbol: Symbol | None = None
+    symbol: Symbol | None = field(default=None, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -227,8 +246,7 @@ class TypeDecl(Declaration):
     initial: Expr | None = None
     extends: str | None = None
     extends_span: Span = NOWHERE
-    # resolved
-    type: Type | None = None
+    type: Type | None = field(default=None, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -244,5 +262,7 @@ class Unit(Node):
 
     source: Source
     declarations: list[Declaration]
+    graphs: frozenset[str] = frozenset()
+    """Languages of the bodies that were lowered from graphs."""
     copied: bool = False
     """Made for the values of generic constants."""

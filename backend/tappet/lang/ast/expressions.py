@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from tappet.lang.ast.fields import ELSEWHERE, RESOLVED, RESOLVED_TREE
 from tappet.lang.ast.node import Constant, Node
 from tappet.lang.source import NOWHERE, Span
 
@@ -18,13 +19,12 @@ if TYPE_CHECKING:
 class Expr(Node):
     """Base of the expressions."""
 
-    # resolved
-    type: Type | None = None
+    type: Type | None = field(default=None, metadata=RESOLVED)
     """Static type; None after an error that has been reported."""
-    constant: Constant = None
+    constant: Constant = field(default=None, metadata=RESOLVED)
     """Folded value when the expression is constant, else None (use `is_constant`)."""
-    is_constant: bool = False
-    untyped: bool = False
+    is_constant: bool = field(default=False, metadata=RESOLVED)
+    untyped: bool = field(default=False, metadata=RESOLVED)
     """Constant made of literals without type prefix only: it adapts to the type its context needs
     (LOPR-02)."""
 
@@ -35,7 +35,7 @@ class Literal(Expr):
 
     text: str
     kind: str
-    """bool int real string wstring time ltime date tod dt ldate ltod ldt null."""
+    """bool int real string wstring time ltime date tod dt ldate ltod ldt."""
     prefix: str | None = None
     """Type prefix of a typed literal (`INT` in `INT#3`), upper case."""
     value: Constant = None
@@ -48,8 +48,7 @@ class Name(Expr):
 
     name: str
     leading_dot: bool = False
-    # resolved
-    symbol: Symbol | None = None
+    symbol: Symbol | None = field(default=None, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -59,9 +58,8 @@ class Member(Expr):
     base: Expr
     name: str
     name_span: Span = NOWHERE
-    # resolved
-    symbol: Symbol | None = None
-    bit: int | None = None
+    symbol: Symbol | None = field(default=None, metadata=RESOLVED)
+    bit: int | None = field(default=None, metadata=RESOLVED)
     """Bit number for a bit access (also through a named constant)."""
 
 
@@ -86,8 +84,7 @@ class Unary(Expr):
 
     op: str
     operand: Expr
-    # resolved
-    operand_type: Type | None = None
+    operand_type: Type | None = field(default=None, metadata=RESOLVED)
     """Type the operand is converted to before the operation."""
 
 
@@ -99,8 +96,7 @@ class Binary(Expr):
     op: str
     left: Expr
     right: Expr
-    # resolved
-    operand_type: Type | None = None
+    operand_type: Type | None = field(default=None, metadata=RESOLVED)
     """Common type both operands are converted to before the operation."""
 
 
@@ -112,8 +108,7 @@ class Argument(Node):
     name: str | None
     value: Expr | None
     output: bool = False
-    # resolved
-    parameter: Symbol | None = None
+    parameter: Symbol | None = field(default=None, metadata=RESOLVED)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -122,12 +117,11 @@ class Call(Expr):
 
     callee: Expr
     args: list[Argument]
-    accumulator: Argument | None = None
+    accumulator: Argument | None = field(default=None, metadata=ELSEWHERE)
     """The first of `args` when it is the accumulator of IL; analysis leaves it out where nothing takes it."""
-    # resolved
-    target: Symbol | None = None
+    target: Symbol | None = field(default=None, metadata=RESOLVED)
     """PouSymbol for functions, methods, programs and the body of an FB; BuiltinSymbol for operators."""
-    expansion: Expr | None = None
+    expansion: Expr | None = field(default=None, metadata=RESOLVED_TREE)
     """The same in operator form, for operators in functional form: `ADD(a, b)` is `a + b`, `MOVE(x)` is
     `x`."""
 
@@ -181,8 +175,7 @@ class Held(Expr):
     """What the `Hold` of this number has computed: the accumulator of IL."""
 
     slot: int
-    # resolved
-    carried: Type | None = None
+    carried: Type | None = field(default=None, metadata=RESOLVED)
     """Type in which the value is kept."""
 
 

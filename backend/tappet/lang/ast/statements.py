@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tappet.lang.ast.expressions import Call, Expr, Literal
+from tappet.lang.ast.fields import RESOLVED_TREE
 from tappet.lang.ast.node import Node, Pragma
 from tappet.lang.source import NOWHERE, Span
 
@@ -39,8 +40,7 @@ class ExprStmt(Stmt):
     """An expression standing alone (reported as without effect)."""
 
     expr: Expr
-    # resolved
-    call: Call | None = None
+    call: Call | None = field(default=None, metadata=RESOLVED_TREE)
     """The call that is meant where `expr` names what can be called: an action, a program, an instance."""
 
 
@@ -170,8 +170,7 @@ class WhenDeclared(Stmt):
     """STEP, ENTRY or EXIT where only an action may stand."""
     described: Described | None = None
     """What `body` tells about a variable."""
-    # resolved
-    chosen: list[Stmt] = field(default_factory=list)
+    chosen: list[Stmt] = field(default_factory=list, metadata=RESOLVED_TREE)
 
 
 @dataclass(slots=True, kw_only=True)

@@ -6,11 +6,11 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from tappet.iec.words import ENDS
 from tappet.lang.conditional.condition import ConditionError, View, evaluate
 from tappet.lang.conditional.facts import Facts
 from tappet.lang.diagnostics import report
 from tappet.lang.lexer import END, ID, PRAGMA, Lexed, Trivia, lex
-from tappet.lang.parser_core import ENDS
 from tappet.lang.source import Source, Span
 
 Include = Callable[[str], str | None]
@@ -19,17 +19,11 @@ Include = Callable[[str], str | None]
 _DIRECTIVE = re.compile(
     r"\{\s*(IF|ELSIF|ELSE|END_IF|define|undefine|include)\b\s*(.*?)\s*\}$", re.IGNORECASE | re.DOTALL
 )
-_ANY = re.compile(r"\{\s*(IF|ELSIF|ELSE|END_IF|define|undefine|include)\b", re.IGNORECASE)
 _DEFINE = re.compile(r"([^\W\d]\w*)\s*(.*)$", re.DOTALL)
 _MAX_INCLUDES = 20
 _HEADS = ("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "INTERFACE", "TYPE", "METHOD", "ACTION", "PROPERTY")
 _OBJECTS = {head: ENDS[head] for head in _HEADS}
 _ENDS = frozenset(_OBJECTS.values())
-
-
-def has_directives(text: str) -> bool:
-    """Whether a text may hold conditional pragmas at all; most do not."""
-    return _ANY.search(text) is not None
 
 
 @dataclass(slots=True)

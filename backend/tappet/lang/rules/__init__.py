@@ -1,12 +1,14 @@
-"""Checks of good practice, one per file: each opens with what it checks, its source, and samples.
+"""Checks of good practice: a module checks one topic and opens with what it checks, its source, and samples.
 
 Imports only `lang`. `STATEMENT_RULES` run while a body is resolved, the others after it; `RULES` lists all;
-`coding` holds the optional ones. Samples of the docstrings are run by a test and shown in the manual.
+`coding` holds the optional ones. Every module has CODES; analyses that rules share lie in `lang.dataflow`.
+Samples of the docstrings are run by a test and shown in the manual.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from types import ModuleType
@@ -17,8 +19,7 @@ from tappet.lang.rules import coding
 
 def _modules_of(package: ModuleType) -> tuple[ModuleType, ...]:
     names = sorted(m.name for m in iter_modules(package.__path__) if not m.ispkg)
-    found = (import_module(f"{package.__name__}.{name}") for name in names)
-    return tuple(module for module in found if hasattr(module, "CODES"))
+    return tuple(import_module(f"{package.__name__}.{name}") for name in names)
 
 
 RULES = _modules_of(import_module(__name__))
@@ -27,11 +28,21 @@ of these classes of values), `check_expression` with NODES (or OPERATORS: a Bina
 (statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with OWN_CODE_ONLY leaves
 libraries out."""
 
-CODING_RULES = _modules_of(coding)
-"""The optional coding rules: they run when `AnalysisOptions.static` names one of their codes, on what the
-project itself declares. They have `check_pou`, `check_program`, `check_unit` (one text) or `check_tasks`."""
 
-ALL_RULES = RULES + CODING_RULES
+@cache
+def coding_rules() -> tuple[ModuleType, ...]:
+    """The optional coding rules: they run when `AnalysisOptions.static` names one of their codes, on what the
+    project itself declares. They have `check_pou`, `check_program`, `check_unit` (one text) or `check_tasks`.
+
+    They are imported at the first call: most programs are checked without them.
+    """
+    return _modules_of(coding)
+
+
+def all_rules() -> tuple[ModuleType, ...]:
+    """The rules that always run, and the optional ones."""
+    return RULES + coding_rules()
+
 
 Check = Callable[[Any, Any], Any]
 
@@ -73,9 +84,11 @@ PROGRAM_RULES: tuple[Callable[[Any], None], ...] = tuple(
 
 def coding_checks(name: str, chosen: frozenset[str]) -> tuple[Check, ...]:
     """The functions `name` of the coding rules of which a code is switched on."""
+    if not chosen:
+        return ()
     return tuple(
         getattr(rule, name)
-        for rule in CODING_RULES
+        for rule in coding_rules()
         if hasattr(rule, name) and chosen.intersection(rule.CODES)
     )
 
@@ -87,7 +100,7 @@ def chosen_codes(text: str) -> frozenset[str]:
 
     Raises ValueError for a part that names none.
     """
-    known = sorted(code for rule in CODING_RULES for code in rule.CODES)
+    known = sorted(code for rule in coding_rules() for code in rule.CODES)
     chosen: set[str] = set()
     for part in text.replace(",", " ").split():
         if part.lower() == "none":

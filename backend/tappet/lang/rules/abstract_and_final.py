@@ -49,6 +49,7 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import Related
+from tappet.lang.heritage import has_unknown_heritage
 from tappet.lang.symbols import PouSymbol
 
 if TYPE_CHECKING:
@@ -87,6 +88,8 @@ def _check_method(session: Session, pou: PouSymbol, key: str, method: PouSymbol,
 
 
 def _of_interface(pou: PouSymbol, key: str) -> bool:
+    if has_unknown_heritage(pou):
+        return True  # it may be
     walk: PouSymbol | None = pou
     for _ in range(_LONGEST_CHAIN):
         if walk is None:

@@ -1,4 +1,4 @@
-"""The bound of a FOR loop is not the limit of the type of its variable.
+"""The step behind the bound of a FOR loop stays inside the type of its variable.
 
 The variable is compared after the step has been added; at the limit of its type it wraps and the loop never
 ends.
@@ -8,6 +8,20 @@ Source: spec LST-29.
 Passes:
     VAR i : INT; n : DINT; END_VAR
     FOR i := 0 TO 127 DO n := n + 1; END_FOR
+Passes:
+    VAR u : USINT; n : DINT; END_VAR
+    FOR u := 9 TO 1 BY -1 DO n := n + 1; END_FOR
+    FOR u := 0 TO 240 BY 50 DO n := n + 1; END_FOR
+Fails:
+    VAR u : USINT; n : DINT; END_VAR
+    FOR u := 9 TO 0 BY -1 DO       (* W1106: a USINT cannot be -1 *)
+        n := n + 1;
+    END_FOR
+Fails:
+    VAR u : USINT; n : DINT; END_VAR
+    FOR u := 9 TO 1 BY -2 DO       (* W1106: behind 1 comes 255 *)
+        n := n + 1;
+    END_FOR
 Fails:
     VAR i : SINT; n : DINT; END_VAR
     FOR i := 0 TO 127 DO           (* W1106: 127 is the limit of SINT *)
@@ -20,7 +34,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.types import Elementary, Kind, value_type
+from tappet.lang.dataflow.for_loops import iterations, limits, step_of
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
@@ -31,18 +45,13 @@ NODES = (ast.For,)
 
 def check_statement(b: Body, s: ast.For) -> None:
     """Reports a constant bound that leaves no room for one more step."""
-    type_ = s.variable.type
-    bound = s.stop.constant
-    if type_ is None or not isinstance(bound, int):
+    known, step, bound = limits(s), step_of(s), s.stop.constant
+    if known is None or step is None or not isinstance(bound, int):
         return
-    base = value_type(type_)
-    if not isinstance(base, Elementary) or not base.is_integer:
-        return
-    step = 1 if s.step is None else s.step.constant
-    if not isinstance(step, int) or step == 0:
-        return
-    signed = base.kind is Kind.SIGNED
-    bits = 8 * base.size
-    low, high = (-(1 << (bits - 1)), (1 << (bits - 1)) - 1) if signed else (0, (1 << bits) - 1)
-    if (step == 1 and bound == high) or (step == -1 and bound == low):
-        b.report("W1106", s.stop.span, bound=bound, type=type_)
+    found = iterations(s)
+    if found is None:
+        endless = bound == (known[1] if step > 0 else known[0])
+    else:
+        endless = found.any and not known[0] <= found.last + step <= known[1]
+    if endless:
+        b.report("W1106", s.stop.span, bound=bound, type=s.variable.type)

@@ -7,6 +7,9 @@ Source: spec LTYP-150.
 Passes:
     VAR i : INT; a : ARRAY[1..10] OF INT; END_VAR
     FOR i := 1 TO 10 DO a[i] := 0; END_FOR
+Passes:
+    VAR u : USINT; a : ARRAY[1..10] OF INT; END_VAR
+    FOR u := 10 TO 0 BY -3 DO a[u] := 0; END_FOR   (* 10, 7, 4, 1 *)
 Fails:
     VAR i : INT; a : ARRAY[1..10] OF INT; END_VAR
     FOR i := 0 TO 10 DO a[i] := 0; END_FOR   (* W1125: 0 is no index of a *)
@@ -17,6 +20,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
+from tappet.lang.dataflow.for_loops import iterations
 from tappet.lang.types import Array
 from tappet.lang.walk import own_expressions
 
@@ -30,11 +34,10 @@ _GUARDS = (ast.If, ast.Case, ast.Try)
 
 def check_statement(b: Body, s: ast.For) -> None:
     """Reports constant bounds of a loop that lie outside the bounds of an array."""
-    low, high = s.start.constant, s.stop.constant
-    variable = s.variable
-    if not isinstance(variable, ast.Name) or not isinstance(low, int) or not isinstance(high, int):
+    variable, found = s.variable, iterations(s)
+    if not isinstance(variable, ast.Name) or found is None or not found.any:
         return
-    low, high = min(low, high), max(low, high)
+    low, high = found.interval
     for inner in s.body:
         if isinstance(inner, (*_GUARDS, ast.Exit, ast.Continue, ast.Return)):
             return

@@ -5,6 +5,12 @@ Source: spec LST-28.
 Passes:
     VAR i, n : INT; END_VAR
     FOR i := 10 TO 1 BY -1 DO n := n + i; END_FOR
+Passes:
+    VAR u : USINT; n : INT; END_VAR
+    FOR u := 10 TO 1 BY -1 DO n := n + u; END_FOR
+Fails:
+    VAR u : USINT; n : INT; END_VAR
+    FOR u := 1 TO 10 BY -1 DO n := n + u; END_FOR   (* W1136: never runs *)
 Fails:
     VAR i, n : INT; END_VAR
     FOR i := 10 TO 1 DO n := n + i; END_FOR   (* W1136: never runs *)
@@ -15,6 +21,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
+from tappet.lang.dataflow.for_loops import iterations
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
@@ -26,13 +33,10 @@ NODES = (ast.For,)
 def check_statement(b: Body, s: ast.For) -> None:
     """Reports bounds in the wrong direction."""
     if not isinstance(s.start, _WRITTEN) or not isinstance(s.stop, _WRITTEN):
-        return  # a named constant may make a loop of no turns on purpose
-    low, high = s.start.constant, s.stop.constant
-    step = 1 if s.step is None else s.step.constant
-    if not isinstance(low, int) or not isinstance(high, int) or not isinstance(step, int):
-        return
-    if (step > 0 and high < low) or (step < 0 and high > low):
-        b.report("W1136", s.stop.span, low=low, high=high, step=step)
+        return  # a named constant may make a loop of no iterations on purpose
+    found = iterations(s)
+    if found is not None and not found.any:
+        b.report("W1136", s.stop.span, low=found.first, high=found.bound, step=found.step)
 
 
 _WRITTEN = (ast.Literal, ast.Unary)

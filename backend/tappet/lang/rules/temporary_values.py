@@ -71,8 +71,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
+from tappet.lang.dataflow.flow import Liveness, Reaching
 from tappet.lang.diagnostics import Related
-from tappet.lang.rules.flow import Liveness, Reaching
 from tappet.lang.symbols import VarSymbol
 from tappet.lang.types import Elementary, Enum, Pointer, Subrange
 from tappet.lang.walk import statements
@@ -102,17 +102,17 @@ def check_pou(b: Body) -> None:
         related = [Related("declared here", b.uri, watched[key].name_span)]
         b.report("W1134", name.span, related, name=name.name)
     liveness = Liveness(watched, body)
-    told: set[int] = set()
+    reported: set[int] = set()
     for target in reversed(liveness.dead):
         key = id(target.symbol)
         unused = key not in liveness.read
-        if (unused and key not in told) or (not unused and not _begins(body, target)):
+        if (unused and key not in reported) or (not unused and not _begins(body, target)):
             b.report("W1135", target.span, name=target.name)
-        told.add(key)
+        reported.add(key)
 
 
 def temporaries(b: Body) -> dict[int, ast.VarDecl]:
-    """The simple variables of a body that begin each call anew, by id() of their symbol."""
+    """The simple variables of a body that begin each call uninitialised, by id() of their symbol."""
     pou = b.pou
     watched: dict[int, ast.VarDecl] = {}
     if pou is None or pou.pou is None or not pou.pou.body:

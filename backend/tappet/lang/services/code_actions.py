@@ -91,10 +91,10 @@ def code_actions(
             if key not in seen:
                 seen.add(key)
                 found.append(action)
-    told = {action.report.code: action for action in found if action.edits and action.preferred}
+    reported = {action.report.code: action for action in found if action.edits and action.preferred}
     return found + [
         together
-        for action in told.values()
+        for action in reported.values()
         for together in _all_of_kind(snapshot, document, action, offering)
     ]
 

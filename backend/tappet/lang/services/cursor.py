@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from tappet.iec.words import POU_HEADS, SECTIONS
 from tappet.lang import ast
 from tappet.lang.lexer import COMMENT, END, ID, PRAGMA, STRING, Lexed
-from tappet.lang.parser_core import POU_HEADS, SECTIONS
 from tappet.lang.parser_declarations import Parser
 from tappet.lang.services.documents import Position
 from tappet.lang.source import Source, Span

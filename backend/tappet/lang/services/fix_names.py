@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from difflib import get_close_matches
 
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol
+from tappet.lang.nearest import nearest
 from tappet.lang.services import describe
 from tappet.lang.services.cursor import chain_before, enclosing_call, operand
 from tappet.lang.services.expected_type import type_for
@@ -18,7 +18,6 @@ from tappet.lang.source import Span, split_lines
 from tappet.lang.symbols import GvlSymbol, InterfaceSymbol, NamespaceSymbol, PouSymbol, Symbol, TypeSymbol
 
 _PROPOSED = 3
-_CLOSE = 0.6
 
 
 def unknown_name(site: Site) -> Iterator[CodeAction]:
@@ -105,7 +104,7 @@ def _spellings(
             table[key] = symbol.choices[0]
         else:
             table[key] = symbol.name
-    for number, key in enumerate(get_close_matches(name.upper(), table, n=_PROPOSED, cutoff=_CLOSE)):
+    for number, key in enumerate(nearest(name, table, _PROPOSED)):
         edit = site.replace(span or site.span, table[key])
         title = f"Replace by '{table[key]}'"
         yield site.action("replace", title, edit, preferred=number == 0, name=table[key])

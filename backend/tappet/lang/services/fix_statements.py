@@ -198,6 +198,6 @@ def _at(site: Site, kind: type[_Node], fits: Callable[[_Node], bool] = lambda no
 
 
 def _operand(site: Site, e: ast.Expr) -> str:
-    """An operand as it can stand for the operation that it was part of."""
+    """An operand as it can replace the operation that it was part of."""
     text = slice_of(site.view.source, e.span)
     return text if isinstance(e, _SIMPLE) else f"({text})"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import Literal
 
+from tappet.iec.words import ENDS, SECTIONS
 from tappet.lang.lexer import PRAGMA
-from tappet.lang.parser_core import ENDS, SECTIONS
 from tappet.lang.services.documents import Position
 from tappet.lang.services.instruction_list import networks
 from tappet.lang.services.results import Fold

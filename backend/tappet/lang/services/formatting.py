@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from tappet.lang.lexer import END, ID, INT, KEYWORDS, NUMBER, STRING, Lexed, Trivia, lex
-from tappet.lang.parser_core import SECTIONS
+from tappet.iec.words import KEYWORDS, SECTIONS
+from tappet.lang.lexer import END, ID, INT, NUMBER, STRING, Lexed, Trivia, lex
 from tappet.lang.parser_variables import ACCESS, BEHIND_NAME
 from tappet.lang.services.documents import Place
 from tappet.lang.services.instruction_list import format_rows, holds_rows
@@ -38,7 +38,7 @@ _BRANCH = {
     "__FINALLY": ("__TRY",),
 }
 _LAST_BRANCH = "CASE ELSE"
-"""Stands for a CASE in its ELSE, where nothing is a label."""
+"""Denotes a CASE in its ELSE, where nothing is a label."""
 _BEGINS_STATEMENT = frozenset([";", "THEN", "ELSE", "DO", "REPEAT", "END_VAR", "__TRY", "__FINALLY"]) | set(
     _CLOSED_BY
 )
@@ -58,11 +58,11 @@ _HEADS = frozenset(
 _FLAGS = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"])
 _NO_BLANK_BEFORE = frozenset([";", ",", ")", "]", ".", "^", ".."])
 _NO_BLANK_AFTER = frozenset(["(", "[", ".", ".."])
-_BINARY = frozenset([":=", "=>", "=", "<>", "<", ">", "<=", ">=", "+", "-", "*", "/", "**", "&"])
-_TIGHT = _BINARY - {":=", "=>"}
+_BINARY = frozenset([":=", "?=", "=>", "=", "<>", "<", ">", "<=", ">=", "+", "-", "*", "/", "**", "&"])
+_TIGHT = _BINARY - {":=", "?=", "=>"}
 """Operators that a style may write without blanks."""
 _OPERAND_END = frozenset(
-    [ID, INT, NUMBER, STRING, "address", ")", "]", "^", "TRUE", "FALSE", "THIS", "SUPER", "NULL"]
+    [ID, INT, NUMBER, STRING, "address", ")", "]", "^", "TRUE", "FALSE", "THIS", "SUPER"]
 )
 _LABEL_PARTS = frozenset([ID, INT, NUMBER, STRING, ".", ",", "..", "-", "+", "*", "(", ")", "TRUE", "FALSE"])
 
@@ -113,7 +113,7 @@ def formatting(document: str, text: str, style: Style = _USUAL) -> list[Edit]:
     """The edits that format a document, one for each line that changes."""
     before, after = text.split("\n"), format_text(text, style).split("\n")
     return [
-        Edit(Place(document, Span(number, 0, number, len(old))), new)
+        Edit(Place(document, "", Span(number, 0, number, len(old))), new)
         for number, (old, new) in enumerate(zip(before, after, strict=True))
         if old != new
     ]
@@ -126,7 +126,7 @@ class _Formatter:
         self.indent = style.indent
         self.lines = text.split("\n")
         self.stack: list[str] = []
-        """Open constructs; 'label' stands for the branch of a CASE that has begun."""
+        """Open constructs; 'label' is the branch of a CASE that has begun."""
         self.at_start = True
         """Whether the next token begins a statement or declaration."""
         self.values = _values_of_types(lexed)
@@ -175,7 +175,7 @@ class _Formatter:
         if first.index < 0 or self.at_start or first.kind in _CLOSED_BY or first.kind == "END_VAR":
             lead = self.indent * width
             self.statement_shift = len(lead.expandtabs(4)) - old
-        else:  # goes on from the line before: keep how it stands to it
+        else:  # continues from the line before: keep how it stands to it
             lead = " " * max(old + self.statement_shift, 0)
         text = lead
         previous: _Piece | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tappet.lang import literals
+from tappet.iec import literals
 from tappet.lang import types as t
 from tappet.lang.lexer import ID, INT, NUMBER, STRING
 from tappet.lang.services import describe

@@ -8,8 +8,8 @@ from itertools import pairwise
 from typing import Final
 
 from tappet.lang import ast
-from tappet.lang.il.operators import INSTRUCTIONS
-from tappet.lang.il.recognise import is_instruction_list
+from tappet.lang.languages.il.operators import INSTRUCTIONS
+from tappet.lang.languages.il.recognise import is_instruction_list
 from tappet.lang.lexer import END, ID, Lexed, lex
 from tappet.lang.parser_core import Core
 from tappet.lang.services.results import Completion, ItemKind
@@ -27,10 +27,11 @@ _PARAMETER = re.compile(r"[^\W\d]\w*\s*(?::=|=>)")
 
 def bodies(unit: ast.Unit) -> Iterator[tuple[int, int, list[ast.Stmt]]]:
     """First line, line behind and statements of every body in IL."""
+    named = any(body.language == "IL" for body in unit.source.bodies)
     for declaration in unit.declarations:
         if isinstance(declaration, ast.Pou):
             for pou in (declaration, *declaration.methods, *declaration.actions):
-                if pou.language == "IL" or (unit.source.language == "IL" and not pou.body):
+                if pou.language == "IL" or (named and not pou.body):
                     first = max((block.span.end_line for block in pou.blocks), default=pou.name_span.line)
                     yield first + 1, pou.span.end_line + 1, pou.body
 

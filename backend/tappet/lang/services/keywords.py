@@ -35,6 +35,7 @@ TYPE_KEYWORDS: Final = (
     ("ARRAY", "ARRAY[${1:0}..${2:9}] OF $0"),
     ("POINTER TO", "POINTER TO $0"),
     ("REFERENCE TO", "REFERENCE TO $0"),
+    ("REF_TO", "REF_TO $0"),
     ("STRING(n)", "STRING(${1:80})"),
 )
 ATTRIBUTES: Final = (
@@ -44,6 +45,7 @@ ATTRIBUTES: Final = (
     ("global_init_slot", "list: order of initialisation, lower is earlier"),
     ("hide", "not shown in lists of components"),
     ("hide_all_locals", "locals are not shown in lists of components"),
+    ("iec_name", "input of a library: its name in IEC 61131-3, accepted with a warning"),
     ("init_on_onlchange", "variable: initialised at every online change"),
     ("initialize_on_call", "input: initialised at every call"),
     ("instance-path", "STRING: initialised with the path of the instance"),

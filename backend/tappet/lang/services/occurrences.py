@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import Analysis
+from tappet.lang.ast.fields import source_fields
 from tappet.lang.services.documents import Position
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import NOWHERE, Source, Span, split_lines
@@ -47,23 +48,9 @@ class Occurrence:
     type: t.Type | None = None
 
 
-_SKIPPED = frozenset(
-    {"owner", "init", "expansion", "accumulator", "symbol", "type", "carried", "chosen", "parameter"}
-    | {"source", "span", "name_span", "target_span"}
-)
-
-
-_child_fields: dict[type[ast.Node], tuple[str, ...]] = {}
-
-
 def children(node: ast.Node) -> Iterator[ast.Node]:
     """The nodes directly below one."""
-    kind = type(node)
-    names = _child_fields.get(kind)
-    if names is None:
-        names = tuple(item.name for item in fields(kind) if item.name not in _SKIPPED)
-        _child_fields[kind] = names
-    for name in names:
+    for name in source_fields(type(node)):
         value = getattr(node, name)
         if isinstance(value, ast.Node):
             yield value

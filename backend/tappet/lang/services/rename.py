@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 
-from tappet.lang.lexer import KEYWORDS
+from tappet.iec.words import KEYWORDS
 from tappet.lang.services.documents import LIBRARY_SCHEME, Position
 from tappet.lang.services.occurrences import Occurrence, occurrence_at, occurrences_of
 from tappet.lang.services.resolution import block_members, is_operator, scope_at
 from tappet.lang.services.results import Edit, ServiceError
 from tappet.lang.services.workspace import Snapshot, View
-from tappet.lang.source import Span, split_lines
+from tappet.lang.source import Span, split_lines, text_at
 from tappet.lang.symbols import EnumValueSymbol, GvlSymbol, NamespaceSymbol, PouSymbol, Symbol, VarSymbol
 from tappet.lang.types import ELEMENTARY, Struct
 
@@ -46,8 +46,17 @@ def rename(snapshot: Snapshot, document: str, position: Position, name: str) -> 
     edits: dict[tuple[str, Span], Edit] = {}
     for index, item in places:
         place = snapshot.program.texts[index].place(item.span)
+        if place.element is not None:
+            raise ServiceError(
+                f"'{_written(view, found)}' is used by element {place.element} of a drawing "
+                f"({snapshot.program.texts[index].source.uri}), where it cannot be renamed from here"
+            )
         edits[place.document, place.span] = Edit(place, name)
     return list(edits.values())
+
+
+def _written(view: View, found: Occurrence) -> str:
+    return text_at(view.source, found.span)
 
 
 def _obstacle(snapshot: Snapshot, found: Occurrence) -> str:

@@ -15,7 +15,7 @@ MAX_PER_DOCUMENT = 500
 
 
 @dataclass(slots=True)
-class Told:
+class Published:
     """The messages of one text as its documents show them, as long as the text and the messages stay: none of
     them names a place in another text."""
 
@@ -45,9 +45,9 @@ def reports(snapshot: Snapshot, only: Collection[str] | None = None) -> dict[str
 
 
 def _of_text(snapshot: Snapshot, text: Text, diagnostics: list[Diagnostic]) -> dict[str, list[Report]]:
-    told: Told | None = snapshot.told.get(text.source.uri)
-    if told is not None and told.diagnostics == diagnostics and told.text == text:
-        return told.reports
+    published: Published | None = snapshot.published.get(text.source.uri)
+    if published is not None and published.diagnostics == diagnostics and published.text == text:
+        return published.reports
     found: dict[str, list[Report]] = {}
     for diagnostic in diagnostics:
         place = text.place(diagnostic.span)
@@ -56,7 +56,7 @@ def _of_text(snapshot: Snapshot, text: Text, diagnostics: list[Diagnostic]) -> d
             entries.append(report_of(snapshot, diagnostic, place))
     uri = text.source.uri
     if all(item.uri == uri for diagnostic in diagnostics for item in diagnostic.related):
-        snapshot.told[uri] = Told(text, diagnostics, found)
+        snapshot.published[uri] = Published(text, diagnostics, found)
     return found
 
 
@@ -70,6 +70,7 @@ def report_of(snapshot: Snapshot, diagnostic: Diagnostic, place: Place) -> Repor
         diagnostic.advice,
         tuple(_related(snapshot, diagnostic)),
         diagnostic.facts,
+        place.element,
     )
 
 

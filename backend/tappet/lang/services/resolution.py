@@ -32,7 +32,7 @@ _LOCAL = frozenset({"VAR", "VAR_TEMP", "VAR_STAT", "VAR_INST"})
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What an expression stands for: a symbol, a value of a type, or both."""
+    """What an expression denotes: a symbol, a value of a type, or both."""
 
     symbol: Symbol | None = None
     type: t.Type | None = None
@@ -138,7 +138,7 @@ def interface_of(type_: t.Type | None) -> InterfaceSymbol | None:
 
 
 def type_of(symbol: Symbol | None) -> t.Type | None:
-    """The type of the value a symbol stands for."""
+    """The type of the value a symbol denotes."""
     type_: t.Type | None = None
     if isinstance(symbol, (VarSymbol, EnumValueSymbol, PropertySymbol)):
         type_ = symbol.type
@@ -148,7 +148,7 @@ def type_of(symbol: Symbol | None) -> t.Type | None:
 
 
 def resolve(scope: Scope, expression: ast.Expr | None) -> Meaning:
-    """What an expression stands for; an empty meaning if it is unknown."""
+    """What an expression denotes; an empty meaning if it is unknown."""
     if isinstance(expression, ast.Name):
         symbol = (
             scope.snapshot.analysis.scope.get(expression.name.upper())

@@ -146,6 +146,8 @@ class Report:
     related: tuple[RelatedReport, ...] = ()
     facts: Mapping[str, str] = field(default_factory=dict, compare=False)
     """What the message is about, as `Diagnostic.facts`."""
+    element: str | None = None
+    """Id of the element in a document that is drawn."""
 
 
 @dataclass(frozen=True, slots=True)

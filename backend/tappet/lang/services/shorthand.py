@@ -1,4 +1,4 @@
-"""Short forms of declarations: Ctrl+Enter in a declaration editor (DECL-61..DECL-66, LDEC-142..LDEC-148).
+"""Short forms of declarations: Ctrl+Enter in a declaration editor (DECL-61..DECL-66, LDEC-142, LDEC-143).
 
 `A B I 2; counts` becomes `A, B: INT := 2; (* counts *)`.
 """
@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 from typing import Final
 
-from tappet.lang.lexer import ADDRESS, ID, INT, KEYWORDS, NUMBER, STRING, lex
+from tappet.iec.words import KEYWORDS
+from tappet.lang.lexer import ADDRESS, ID, INT, NUMBER, STRING, lex
 
 _TYPES: Final = {
     "B": "BOOL", "BOOL": "BOOL", "I": "INT", "INT": "INT", "R": "REAL", "REAL": "REAL", "S": "STRING",
@@ -20,7 +21,7 @@ _WHOLE: Final = re.compile(r"[+-]?\d+")
 
 
 def expand(line: str) -> str | None:
-    """The declaration that a typed line stands for; None when it is no short form: it names nothing, is a
+    """The declaration that a typed line denotes; None when it is no short form: it names nothing, is a
     declaration already, or stands inside one."""
     code, mark, comment = line.partition(";")
     lexed = lex(code, "")

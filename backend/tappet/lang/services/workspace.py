@@ -12,7 +12,8 @@ from functools import cached_property
 from typing import Any
 
 from tappet.lang import ast
-from tappet.lang.analysis import Analysis, AnalysisOptions, analyse, go_on, prepare
+from tappet.lang.analysis import Analysis, AnalysisOptions, analyse, prepare, resume
+from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed, lex
@@ -62,11 +63,19 @@ class View:
 class Snapshot:
     """One analysis of one program."""
 
-    def __init__(self, program: Program, results: list[ParseResult], analysis: Analysis) -> None:
+    def __init__(
+        self,
+        program: Program,
+        results: list[ParseResult],
+        analysis: Analysis,
+        libraries: LibrarySnapshot | None,
+    ) -> None:
         self.program = program
         self.results = results
         self.analysis = analysis
-        self.told: dict[str, Any] = {}
+        self.libraries = libraries
+        """Those of the program, shared with other programs; None: they are analysed with it."""
+        self.published: dict[str, Any] = {}
         """The messages of texts as they were shown last, by uri; goes from snapshot to snapshot."""
         self.derived: dict[str, Any] = {}
         """What services have worked out and keep for their next request."""
@@ -174,7 +183,7 @@ class Workspace:
         return self._unsaved.get(document)
 
     def refresh(self) -> None:
-        """Something has changed: compose the programs anew at the next request."""
+        """Something has changed: compose the programs again at the next request."""
         self.generation += 1
         self._composed = None
 
@@ -192,6 +201,10 @@ class Workspace:
             if any(segment.document == document for text in program.texts for segment in text.segments):
                 return program
         raise ServiceError(f"'{document}' belongs to no application; it is not compiled")
+
+    def is_drawn(self, document: str) -> bool:
+        """Whether a document is drawn: its lines are those of its listing, not those of what is stored."""
+        return any(text.map.is_drawn(document) for program in self.programs() for text in program.texts)
 
     def snapshot(self, document: str) -> Snapshot:
         """The analysis of the program that shows a document, of the texts as they are now."""
@@ -216,9 +229,9 @@ class Workspace:
                     found |= shown
         return found
 
-    def go_on(self, seconds: float) -> bool:
+    def resume(self, seconds: float) -> bool:
         """Work on what `first_snapshots` has left, for so long; whether nothing is left."""
-        return all(go_on(snapshot.analysis, seconds) for snapshot in self._snapshots.values())
+        return all(resume(snapshot.analysis, seconds) for snapshot in self._snapshots.values())
 
     def prepare(self) -> None:
         """Do what the first edit of declarations would have to do for every text."""
@@ -263,20 +276,21 @@ class Workspace:
         started = time.perf_counter()
         settings = AnalysisOptions(static=program.static)
         if last is not None and fresh:
-            results = last.results
+            results, libraries = last.results, last.libraries
         else:
             sources = [text.source for text in program.texts]
             plain = self._parsed.get(program.name, {})
             options = ParseOptions(defines=program.defines, tasks=program.tasks)
-            results = parse_sources(sources, options, plain=plain)
-            self._parsed[program.name] = dict(zip(sources, results, strict=True))
+            results, libraries = read_program(sources, settings, options, plain)
+            self._parsed[program.name] = {r.unit.source: r for r in own_results(results, libraries)}
         previous = last.analysis if last is not None else None
         first = None if documents is None else _sources_of(program, documents)
-        analysis = analyse([result.unit for result in results], settings, previous, first)
+        own = [result.unit for result in own_results(results, libraries)]
+        analysis = analyse(own, settings, previous, first, libraries)
         self.whole_analyses += not analysis.continued
-        snapshot = Snapshot(program, results, analysis)
+        snapshot = Snapshot(program, results, analysis, libraries)
         if last is not None:
-            snapshot.told = last.told
+            snapshot.published = last.published
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation
         self._seconds[program.name] = time.perf_counter() - started

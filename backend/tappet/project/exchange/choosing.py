@@ -9,8 +9,9 @@ from collections.abc import Collection, Iterator
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from tappet.project.declaration_text import subkind_of
+from tappet.project.data import Data
 from tappet.project.exchange.drafts import Batch, Draft
+from tappet.project.kind_registry import kinds
 
 
 class ImportNode(BaseModel):
@@ -35,7 +36,7 @@ def nodes_of(batch: Batch) -> list[ImportNode]:
             key=key,
             parent=parent,
             kind=draft.kind,
-            subkind=subkind_of(str(draft.data.get("declaration", ""))) if draft.kind in _TOLD else None,
+            subkind=_subkind(draft),
             name=draft.name,
             source=draft.source,
             line=draft.line,
@@ -62,8 +63,14 @@ def keep_chosen(batch: Batch, chosen: Collection[str]) -> None:
     batch.complete = False  # what every application has comes with it, chosen or not
 
 
-_TOLD = frozenset(["pou", "dut"])
-"""Kinds whose declaration tells what they are."""
+def _subkind(draft: Draft) -> str | None:
+    """What the declaration says an object is, where it has one."""
+    known = kinds().get(draft.kind)
+    declaration = draft.data.get("declaration")
+    if known is None or not isinstance(declaration, str):
+        return None
+    data: Data = known.data.model_construct(declaration=declaration)
+    return data.subkind
 
 
 def _walk(batch: Batch) -> Iterator[tuple[str, str | None, Draft]]:

@@ -56,7 +56,7 @@ def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> N
             draft.name = _CONFIGURATION  # TwinCAT 2 gives its list no name
         pointers = pointers_of(declaration)
         for item in (draft, *draft.children):
-            _tell_language(item, report)
+            _report_language(item, report)
             say_in_words_of_today(item, pointers, batch.places, report)
         if not move_persistent(draft, kept, report):
             batch.loose.below(path, source).children.append(draft)
@@ -112,7 +112,7 @@ def _flat(text: str) -> str:
     return "".join([*pieces, text[position:]])
 
 
-def _tell_language(draft: Draft, report: ImportReport) -> None:
+def _report_language(draft: Draft, report: ImportReport) -> None:
     """Set the language of a body that is not ST."""
     text = draft.data.get("implementation")
     if not text:

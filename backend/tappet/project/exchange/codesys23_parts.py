@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from tappet.project.declaration_text import words
+from tappet.iec.tokens import words
 from tappet.project.exchange.drafts import Batch, Draft, library_manager, task_configuration
 from tappet.project.exchange.libraries import reference
 from tappet.project.exchange.report import ImportReport

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from tappet.project.declaration_text import Word, words
+from tappet.iec.languages import is_plain_text
+from tappet.iec.tokens import NAME, Word, words
 from tappet.project.exchange.codesys23_places import Places
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.report import ImportReport
-from tappet.project.exchange.text_parts import NAME
 
 _TRUNC = "TRUNC gives INT in CoDeSys 2.3; it became TRUNC_INT"
 _BYTES = "characters in texts that are not of Latin-1 became their bytes, such as $80 for the euro sign"
@@ -44,7 +44,7 @@ def say_in_words_of_today(
     moved: list[str] = []
     for part in ("declaration", "implementation"):
         text = draft.data.get(part)
-        if not text or (part == "implementation" and draft.data.get("language") not in (None, "ST", "IL")):
+        if not text or (part == "implementation" and not is_plain_text(draft.data.get("language", "ST"))):
             continue
         pieces: list[str] = []
         position = 0
@@ -53,7 +53,7 @@ def say_in_words_of_today(
             now, note, end = None, "", word.end
             if word.text == "TRUNC":
                 now, note = "TRUNC_INT", _TRUNC
-            elif word.text == "%" and (found := places.flat(text, word.start)) is not None:
+            elif word.text.startswith("%") and (found := places.flat(text, word.start)) is not None:
                 now, end = found[1], word.start + len(found[0])
                 moved.append(f"{found[0]} became {found[1]}")
             elif word.text.startswith("'"):

@@ -6,17 +6,17 @@ What the texts are is told by the type ids of the objects and, where they say no
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tappet.project.declaration_text import as_parameter_list, read_header
+from tappet.iec.sections import end_keyword, read_header
+from tappet.project.data import CodeData
 from tappet.project.exchange.drafts import (
     Batch,
     Draft,
     body,
     exclude,
     hex_id,
-    library_manager,
     task_configuration,
 )
 from tappet.project.exchange.libraries import reference
@@ -25,37 +25,14 @@ from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.standard_tasks import cycle, priority
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
+from tappet.project.folder.texts import kind_of_text
+from tappet.project.kind_registry import kinds
+from tappet.project.kinds.plc_logic import PLC_LOGIC
+from tappet.project.model import APPLICATION, DEVICE
 
-_FOLDER = "738bea1e99bb4f0490bba7a567e74e3a"
-_DEVICE = "225bfe4773364dbc94194105a7c831fa"
-_LOGIC = "40b404f9e5dc42c6907fc89f4a517386"
-_APPLICATION = "639b491f5557464caf911471bac9f549"
-_TASKS = "ae1de277a2074a289efb456c06bd52f3"
-_TASK = "98a2708a9b184f3182eda1465b24fa2d"
-_LIBRARIES = "adb5cb658e1d4a00b70a375ea27582f3"
-_KINDS = {
-    "6f9dac998de14efc846568ac443b7d08": "pou",
-    "2db5746dd28444259f7f2663a34b0ebc": "dut",
-    "ffbfa93ab94d45fca329229860183b1d": "gvl",
-    "261bd6e6249c4232bb6f84c2fbeef430": "persistent",
-    "6654496c404d479aaad28551054e5f1e": "interface",
-    "f8a58466d7f6439fbbb8d4600e41d099": "method",
-    "f89f767527f146b38abbb7da8e774ffd": "method",
-    "5a3b8626d3e94f3798b566420063d91e": "property",
-    "792f2eb6721e4e64ba20bc98351056db": "accessor",
-    "8ac092e531284e269e7e11016c6684f2": "action",
-    "a10c6218cb94436f91c6e1652575253d": "transition",
-}
-_HEADERS = {
-    "PROGRAM": "pou",
-    "FUNCTION": "pou",
-    "FUNCTION_BLOCK": "pou",
-    "TYPE": "dut",
-    "VAR_GLOBAL": "gvl",
-    "INTERFACE": "interface",
-    "METHOD": "method",
-    "PROPERTY": "property",
-}
+_TRANSITION = "a10c6218cb94436f91c6e1652575253d"
+_TRANSITION_KIND = "transition"
+"""What belongs to a drawn chart; no kind of object is installed for it."""
 _SILENT = frozenset(
     [
         "413e2a7dadb14d2cbe296ae6e4fab820",  # a call of a program, which the task names, too
@@ -77,10 +54,14 @@ _NOT_READ = {
 }
 _CFC = "32d3375ec01041e29e43b2fbf4f2b374"
 _NO_ID = "0" * 32
+_LISTS = ("List2", "List")
+"""Elements that hold a list; which one depends on the version of CODESYS."""
 
 
 @dataclass(slots=True)
-class _Entry:
+class Entry:
+    """An object in the file."""
+
     item: Element
     id: str
     parent: str
@@ -90,6 +71,12 @@ class _Entry:
     path: tuple[str, ...]
     """Names of all that it stands below in the project."""
     held: Element | None
+    kind: str
+    """The kind of object that the type denotes; empty where it says nothing."""
+
+    def value(self, name: str) -> str:
+        """A value of the object."""
+        return _value(self.held, name)
 
 
 def read_native(source: str, content: bytes, batch: Batch, report: ImportReport) -> None:
@@ -100,17 +87,20 @@ def read_native(source: str, content: bytes, batch: Batch, report: ImportReport)
         raise ExchangeError(
             source, "holds no objects; export them in CODESYS with Project > Export", root.line
         )
-    _Reader(source, batch, report, entries).read()
+    NativeReader(source, batch, report, entries).read()
 
 
-def _entries(root: Element) -> Iterator[_Entry]:
-    lists = (item for item in root.walk() if item.tag == "List2" and item.get("Name") == "EntryList")
+def _entries(root: Element) -> Iterator[Entry]:
+    forms = [(kind.name, kind.codesys) for kind in kinds().values()]
+    by_type = {type_id: name for name, form in forms if form is not None for type_id in form.type_ids}
+    by_type[_TRANSITION] = _TRANSITION_KIND
+    lists = (item for item in root.walk() if item.tag in _LISTS and item.get("Name") == "EntryList")
     for item in (item for held in lists for item in held):
         meta = _part(item, "MetaObject")
         if meta is None:
             continue
         path = _part(item, "Path")
-        yield _Entry(
+        yield Entry(
             item,
             hex_id(_value(meta, "Guid")) or "",
             hex_id(_value(item, "ParentSVNodeGuid")) or _NO_ID,
@@ -118,11 +108,14 @@ def _entries(root: Element) -> Iterator[_Entry]:
             hex_id(_value(meta, "TypeGuid")) or "",
             tuple(part.text() for part in path) if path is not None else (),
             _part(item, "Object"),
+            by_type.get(hex_id(_value(meta, "TypeGuid")) or "", ""),
         )
 
 
-class _Reader:
-    def __init__(self, source: str, batch: Batch, report: ImportReport, entries: list[_Entry]) -> None:
+class NativeReader:
+    """Reads a file; kinds read with it what is more than texts."""
+
+    def __init__(self, source: str, batch: Batch, report: ImportReport, entries: list[Entry]) -> None:
         self.source = source
         self.batch = batch
         self.report = report
@@ -133,9 +126,10 @@ class _Reader:
         """What stands in no application."""
 
     def read(self) -> None:
-        below_logic = {entry.parent for entry in self.entries if entry.type == _LOGIC}
+        """Take all objects in."""
+        below_logic = {entry.parent for entry in self.entries if entry.kind == PLC_LOGIC.name}
         for entry in self.entries:
-            if entry.type == _DEVICE and entry.id not in below_logic:
+            if entry.kind == DEVICE and entry.id not in below_logic:
                 text = "the device is not read; add it here and map its channels"
                 self.report.add("refused", self.source, text, name=entry.name, line=entry.item.line)
                 continue
@@ -143,7 +137,7 @@ class _Reader:
             if draft is not None and entry.id not in self.drafts:
                 self.drafts[entry.id] = draft
         for entry in self.entries:
-            if entry.type == _APPLICATION and entry.parent not in self.drafts:
+            if entry.kind == APPLICATION and entry.parent not in self.drafts:
                 self.drafts[entry.id] = self.batch.loose  # its device is not in the file
         for entry in self.entries:
             made = self.drafts.get(entry.id)
@@ -155,7 +149,7 @@ class _Reader:
         place = self.batch.pous if applied else self.batch.loose
         place.children += self.pool.children
 
-    def _is_above(self, draft: Draft, entry: _Entry) -> bool:
+    def _is_above(self, draft: Draft, entry: Entry) -> bool:
         """Whether an object stands below itself, which only a faulty file says."""
         seen = {entry.id}
         while (above := self.by_id.get(entry.parent)) is not None:
@@ -168,24 +162,24 @@ class _Reader:
             entry = above
         return False
 
-    def _place(self, entry: _Entry, draft: Draft) -> None:
+    def _place(self, entry: Entry, draft: Draft) -> None:
         parent = self.drafts.get(entry.parent)
-        if draft.kind == "device":
+        if draft.kind == DEVICE:
             self.batch.devices.append(draft)
-        elif draft.kind == "plc_logic":
+        elif draft.kind == PLC_LOGIC.name:
             if parent is not None:
                 parent.children.append(draft)
         elif parent is not None:
             parent.children.append(draft)
-        elif "PLC Logic" in entry.path or draft.kind in ("task_configuration", "library_manager", "task"):
+        elif "PLC Logic" in entry.path or _stands_directly(draft.kind):
             self._add(self._application(entry), draft)
         else:
             self._add(self.pool.below(entry.path, self.source), draft)
 
-    def _application(self, entry: _Entry) -> Draft:
+    def _application(self, entry: Entry) -> Draft:
         """The place in an application that is not in the file itself."""
         names = entry.path[entry.path.index("PLC Logic") + 2 :] if "PLC Logic" in entry.path else ()
-        if entry.type in (_TASK, _TASKS, _LIBRARIES):
+        if _stands_directly(entry.kind):
             names = ()
         return self.batch.loose.below(names, self.source)
 
@@ -197,50 +191,39 @@ class _Reader:
 
     # -- objects
 
-    def _draft(self, entry: _Entry) -> Draft | None:
-        make: dict[str, Callable[[_Entry], Draft]] = {
-            _FOLDER: lambda one: self._plain(one, "folder"),
-            _DEVICE: lambda one: self._plain(one, "device"),
-            _LOGIC: lambda one: self._plain(one, "plc_logic", "PLC Logic"),
-            _APPLICATION: lambda one: self._plain(one, "application"),
-            _TASKS: lambda one: self._plain(one, "task_configuration", "Task Configuration"),
-            _TASK: self._task,
-            _LIBRARIES: self._libraries,
-        }
-        if entry.type in make:
-            return make[entry.type](entry)
+    def _draft(self, entry: Entry) -> Draft | None:
         if entry.type in _SILENT:
             return None
+        name = entry.kind
         declaration = _text(_part(entry.held, "Interface"))
-        kind = _KINDS.get(entry.type)
-        if kind is None and declaration is not None:
+        if not name and declaration is not None:
             header = read_header(declaration)
-            kind = _HEADERS.get(header.keyword) if header is not None else None
-        if kind is None:
+            if end_keyword(declaration) or (header is not None and header.keyword == "VAR_GLOBAL"):
+                name = kind_of_text(declaration) or ""
+        if not name:
             text = _NOT_READ.get(entry.type, "objects of this type are not read")
             self.report.add("refused", self.source, text, name=entry.name, line=entry.item.line)
             return None
-        return self._code(entry, kind, declaration or "")
-
-    def _plain(self, entry: _Entry, kind: str, name: str = "") -> Draft:
-        return Draft(kind, name or entry.name, {}, self.source, entry.item.line, [], entry.id or None)
-
-    def _code(self, entry: _Entry, kind: str, declaration: str) -> Draft:
-        draft = self._plain(entry, kind)
-        if kind not in ("action", "transition"):
-            draft.data = {"declaration": declaration}
-        if kind == "gvl" and _value(entry.held, "IsParameterList").casefold() == "true":
-            draft.data["declaration"] = as_parameter_list(declaration)
-        if kind in ("pou", "method", "accessor", "action", "transition"):
+        draft = Draft(name, entry.name, {}, self.source, entry.item.line, [], entry.id or None)
+        kind = kinds().get(name)
+        if kind is None:
+            draft.data = self._body(entry, draft.name)
+            return draft
+        if kind.naming.style == "fixed" and len(kind.naming.names) == 1:
+            draft.name = kind.naming.names[0]
+        if "declaration" in kind.data.model_fields:
+            draft.data = {"declaration": declaration or ""}
+        if "implementation" in kind.data.model_fields:
             draft.data |= self._body(entry, draft.name)
-        if kind == "pou":
-            mark_without_result(draft, self.report)
+        if kind.codesys is not None and kind.codesys.read is not None:
+            kind.codesys.read(self, entry, draft)
+        mark_without_result(draft, self.report)
         meta = _part(entry.item, "MetaObject")
         if meta is not None and _value(meta, "ExcludeFromBuild", deep=True).casefold() == "true":
             exclude(draft)
         return draft
 
-    def _body(self, entry: _Entry, name: str) -> dict[str, object]:
+    def _body(self, entry: Entry, name: str) -> dict[str, object]:
         held = _part(entry.held, "Implementation")
         if held is None:
             return body("ST", "")
@@ -252,8 +235,8 @@ class _Reader:
         self.report.add("kept", self.source, note, name=name, line=entry.item.line)
         return body(language, xml_text(held))
 
-    def _task(self, entry: _Entry) -> Draft:
-        draft = self._plain(entry, "task")
+    def task(self, entry: Entry, draft: Draft) -> None:
+        """When a task runs and what it calls."""
         held, line = entry.held, entry.item.line
         kind = KINDS.get(_value(held, "Kindoftask").casefold(), "cyclic")
         calls = _part(held, "PouList")
@@ -277,12 +260,9 @@ class _Reader:
             draft.data["watchdog"] = {"enabled": True} | ({"time": time} if time else {})
             if re.fullmatch(r"\d{1,6}", _value(watchdog, "Sensitivity")):
                 draft.data["watchdog"]["sensitivity"] = int(_value(watchdog, "Sensitivity"))
-        return draft
 
-    def _libraries(self, entry: _Entry) -> Draft:
-        holder = Draft("application", "", source=self.source)
-        draft = library_manager(holder)
-        draft.line, draft.id = entry.item.line, entry.id or None
+    def libraries(self, entry: Entry, draft: Draft) -> None:
+        """The references of a library manager."""
         found = draft.data.setdefault("references", [])
         for item in _part(entry.held, "Items") or ():
             text = (
@@ -293,7 +273,12 @@ class _Reader:
             if name.strip() and not any(one["name"] == name.strip() for one in found):
                 namespace = _value(item, "Namespace")
                 found.append(reference(self.source, name.strip(), version, namespace, self.report, item.line))
-        return draft
+
+
+def _stands_directly(kind: str) -> bool:
+    """Whether objects of a kind stand directly in an application, or in one that stands there."""
+    known = kinds().get(kind)
+    return known is not None and not known.placement.in_folders and not issubclass(known.data, CodeData)
 
 
 def _part(item: Element | None, name: str) -> Element | None:

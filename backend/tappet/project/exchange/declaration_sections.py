@@ -9,15 +9,13 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tappet.project.declaration_text import MODIFIERS, SECTION_KEYWORDS, Word, read_header, trivia, words
-from tappet.project.exchange.text_parts import NAME
+from tappet.iec.sections import read_header
+from tappet.iec.tokens import NAME, Word, trivia, words
+from tappet.iec.trivia import attribute_of
+from tappet.iec.words import GENERIC_SECTION, MODIFIERS, SECTIONS
 
 _FLAGS = {"CONSTANT": "constant", "RETAIN": "retain", "NON_RETAIN": "nonretain", "PERSISTENT": "persistent"}
 _OPEN, _CLOSE = frozenset("(["), frozenset(")]")
-_ATTRIBUTE = re.compile(
-    r"\{\s*attribute\s+'(?P<name>(?:\$.|[^'$])*)'(?:\s*:=\s*'(?P<value>(?:\$.|[^'$])*)')?\s*\}",
-    re.IGNORECASE | re.DOTALL,
-)
 _NAMES = re.compile(r"\s*(?:[\w.]+\s*,\s*)*[\w.]+")
 
 
@@ -45,12 +43,12 @@ def read_head(text: str) -> Head:
     """The header of a declaration with what stands before it."""
     header = read_header(text)
     scan = list(words(text))
-    if header is None or not scan or header.keyword in SECTION_KEYWORDS:
+    if header is None or not scan or header.keyword in SECTIONS:
         return Head(Notes())
     notes = read_notes(text, 0, scan[0].start)
     before = [word for word in scan[1:] if word.end <= header.name_start]
-    behind = [word for word in scan if word.start >= header.name_start]
-    end = next((word.start for word in behind if word.text in SECTION_KEYWORDS), len(text))
+    behind = _without_generic_section([word for word in scan if word.start >= header.name_start])
+    end = next((word.start for word in behind if word.text in SECTIONS), len(text))
     bases: dict[str, tuple[str, ...]] = {}
     for word in behind:
         if word.start >= end or word.text == ":":
@@ -62,6 +60,15 @@ def read_head(text: str) -> Head:
     return Head(notes, modifiers, bases.get("EXTENDS", ()), bases.get("IMPLEMENTS", ()))
 
 
+def _without_generic_section(scan: list[Word]) -> list[Word]:
+    """The words of a header without its generic constants."""
+    start = next((i for i, word in enumerate(scan) if word.text == GENERIC_SECTION), None)
+    if start is None:
+        return scan
+    end = next((i for i, word in enumerate(scan) if i > start and word.text == "END_VAR"), len(scan) - 1)
+    return scan[:start] + scan[end + 1 :]
+
+
 def read_notes(text: str, start: int, end: int, *, behind: bool = False) -> Notes:
     """The comments and attributes between two offsets.
 
@@ -71,16 +78,12 @@ def read_notes(text: str, start: int, end: int, *, behind: bool = False) -> Note
     comments: list[str] = []
     attributes = []
     for item in trivia(text, start, end):
-        match = _ATTRIBUTE.fullmatch(item.text)
-        if match is not None:
-            attributes.append((_plain(match["name"]), _plain(match["value"] or "")))
+        attribute = attribute_of(item.text)
+        if attribute is not None:
+            attributes.append((attribute.name, attribute.value or ""))
         elif not item.text.startswith("{") and (item.start >= line_end >= 0):
             comments += _comment_lines(item.text)
     return Notes("\n".join(comments), tuple(attributes))
-
-
-def _plain(text: str) -> str:
-    return re.sub(r"\$(['$])", r"\1", text)
 
 
 def _comment_lines(text: str) -> list[str]:
@@ -117,7 +120,7 @@ def read_sections(text: str) -> list[Section]:
     found: list[Section] = []
     i = 0
     while i < len(scan):
-        if scan[i].text not in SECTION_KEYWORDS:
+        if scan[i].text not in SECTIONS:
             i += 1
             continue
         keyword = scan[i].text
@@ -140,7 +143,7 @@ def return_type(text: str) -> str:
     """The type behind the colon of a header, empty for none."""
     scan = words(text)
     for word in scan:
-        if word.text in SECTION_KEYWORDS:
+        if word.text in SECTIONS:
             return ""
         if word.text == ":":
             line_end = text.find("\n", word.end)

@@ -7,7 +7,7 @@ from typing import Any
 
 from tappet.project.data import CodeData
 from tappet.project.exchange.codesys23_places import Places
-from tappet.project.model import KIND_CLASSES
+from tappet.project.kind_registry import kinds
 
 
 @dataclass(slots=True, eq=False)
@@ -64,9 +64,6 @@ class Batch:
         return not (self.loose.children or self.devices or self.pous.children)
 
 
-GRAPHICAL_LANGUAGES = ("LD", "FBD", "CFC", "SFC")
-
-
 def body(language: str, text: str) -> dict[str, Any]:
     """The data of an implementation."""
     return {"implementation": text, "language": language}
@@ -74,9 +71,22 @@ def body(language: str, text: str) -> dict[str, Any]:
 
 def exclude(draft: Draft) -> None:
     """Leave an object out of the build; what is no code is not in it anyway."""
-    known = KIND_CLASSES.get(draft.kind)
-    if known is not None and isinstance(known.model_fields["data"].default, CodeData):
+    known = kinds().get(draft.kind)
+    if known is not None and issubclass(known.data, CodeData):
         draft.data["exclude_from_build"] = True
+
+
+def has_members(kind: str) -> bool:
+    """Whether what is below an object of a kind are its members: methods and the like."""
+    known = kinds().get(kind)
+    return known is not None and known.compiled.members != "none"
+
+
+def is_implied(kind: str) -> bool:
+    """Whether an importer makes objects of a kind to hold others: at their place there is one, with a fixed
+    name."""
+    known = kinds().get(kind)
+    return known is not None and known.placement.once and known.naming.style == "fixed"
 
 
 def hex_id(text: str) -> str | None:

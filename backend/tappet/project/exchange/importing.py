@@ -12,13 +12,15 @@ from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
 from tappet.project.exchange.codesys23 import read_export
 from tappet.project.exchange.codesys_native import read_native
 from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml, shared_pages
-from tappet.project.exchange.drafts import Batch, Draft, task_configuration
+from tappet.project.exchange.drafts import Batch, Draft, has_members, task_configuration
 from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
 from tappet.project.exchange.placing import Place, empty_project, place
 from tappet.project.exchange.plcopen_read import read_plcopen
 from tappet.project.exchange.report import ExchangeError, ImportReport
+from tappet.project.exchange.simotion import REFUSED, is_unit
 from tappet.project.exchange.split_text import split_text
 from tappet.project.exchange.standard_tasks import read_configurations
+from tappet.project.exchange.temporary_variables import rewrite_temporaries
 from tappet.project.exchange.text_tree import folders_of, is_member, owner_paths, read_member, unmarked
 from tappet.project.exchange.twincat_project import read_project
 from tappet.project.exchange.twincat_types import FOLDER
@@ -85,6 +87,7 @@ def import_files(
     failures = _read_all(files, batch, report)
     if batch.empty:
         _raise_reason(failures, report)
+    rewrite_temporaries(batch, report)
     nodes = nodes_of(batch)
     if chosen is not None:
         keep_chosen(batch, chosen)
@@ -178,7 +181,7 @@ def _owner(path: str | None, folder: tuple[str, ...], batch: Batch) -> Draft | N
         return None
     name = posixpath.splitext(posixpath.basename(path))[0].casefold()
     for draft in batch.loose.below(folder).children:
-        if draft.source == path and draft.name.casefold() == name and draft.kind in ("pou", "interface"):
+        if draft.source == path and draft.name.casefold() == name and has_members(draft.kind):
             return draft
     return None
 
@@ -214,6 +217,8 @@ def _read(
         text, encoding = decode_text(path, content, pages)
         if encoding in PAGE_NAMES:
             report.add("changed", path, f"the file is not UTF-8; it was read as {PAGE_NAMES[encoding]}")
+        if is_unit(text):
+            raise ExchangeError(path, REFUSED)
         owner = _owner(owner_path, folder, batch)
         if ending == ".exp" or _MARKED.search(text):
             read_export(path, text, batch, report)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 from tappet.project.exchange.report import ImportReport
@@ -51,15 +50,3 @@ def take_parameters(
 def _inner(part: Element, tag: str) -> str:
     child = part.child(tag.title())
     return child.text().strip() if child is not None else ""
-
-
-def with_more_parameters(reference: dict[str, Any], other: Iterable[dict[str, Any]]) -> dict[str, Any]:
-    """A reference with the values of others to the same library, for parameters that it gives none."""
-    kept = list(reference.get("parameters", ()))
-    known = {(one["list"].casefold(), one["name"].casefold()) for one in kept}
-    for one in (one for more in other for one in more.get("parameters", ())):
-        key = (one["list"].casefold(), one["name"].casefold())
-        if key not in known:
-            known.add(key)
-            kept.append(one)
-    return reference | {"parameters": kept} if kept else reference

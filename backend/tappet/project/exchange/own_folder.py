@@ -8,8 +8,8 @@ from tappet.project.errors import FolderFormatError
 from tappet.project.exchange.drafts import Batch, Draft
 from tappet.project.exchange.report import ExchangeError
 from tappet.project.folder.codec import decode
-from tappet.project.folder.layout import PROJECT_FILE
 from tappet.project.model import Project, ProjectObject
+from tappet.project.project_file import PROJECT_FILE
 
 
 def project_tops(files: Mapping[str, bytes]) -> list[str]:

@@ -6,8 +6,10 @@ from collections.abc import Collection
 
 from tappet.project.errors import UnknownObjectError
 from tappet.project.folder.filenames import stem_of
-from tappet.project.library_texts import KINDS, text_with_parts
-from tappet.project.model import Project, ProjectObject
+from tappet.project.library_texts import text_with_parts
+from tappet.project.model import Project, ProjectObject, is_pous_root
+from tappet.project.placement import owner_of
+from tappet.project.sources import compiled
 
 
 def part_of(project: Project, ids: Collection[str]) -> Project:
@@ -21,7 +23,7 @@ def part_of(project: Project, ids: Collection[str]) -> Project:
     places: dict[tuple[str | None, bool], int] = {}
     for item in project.walk():
         if item.id in kept:
-            view = item.parent_id, item.kind == "device"
+            view = item.parent_id, is_pous_root(item.parent_id, item.kind)
             index = places.get(view, 0)
             places[view] = index + 1
             objects[item.id] = item.model_copy(update={"index": index})
@@ -35,7 +37,7 @@ def st_files(project: Project) -> dict[str, str]:
     """
     found = {}
     for item in project.walk():
-        if item.kind in KINDS or item.kind == "persistent":
+        if compiled(item).source is not None and not _is_member(project, item):
             names = [above.name for above in project.ancestors(item.id)][::-1]
             found["/".join([*map(stem_of, names), f"{stem_of(item.name)}.st"])] = text_with_parts(
                 project, item
@@ -43,3 +45,9 @@ def st_files(project: Project) -> dict[str, str]:
     if not found:
         raise UnknownObjectError("Nothing of what was chosen is ST text: no POU, type or variable list")
     return found
+
+
+def _is_member(project: Project, item: ProjectObject) -> bool:
+    """Whether the text of an object is a part of the text of its owner."""
+    owner = owner_of(project, item.parent_id)
+    return owner is not None and compiled(owner).members != "none"

@@ -5,25 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
-from tappet.project.declaration_text import rename_header
 from tappet.project.errors import InvalidDataError, InvalidNameError, UnknownObjectError
 from tappet.project.exchange.drafts import Batch, Draft, library_manager, plc_logic, task_configuration
-from tappet.project.exchange.libraries import with_more_parameters
 from tappet.project.exchange.report import ImportReport
-from tappet.project.model import Project, ProjectObject, changed_object, make_object, new_id
+from tappet.project.kind_registry import kind_of, kinds
+from tappet.project.kinds.library_manager import DEFAULT_LIBRARIES
+from tappet.project.model import APPLICATION, DEVICE, FOLDER, Project, ProjectObject, is_pous_root, new_id
 from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
-from tappet.project.placement import DEVICES_VIEW, POUS_VIEW, RULES, check_project, check_spelling, owner_of
-from tappet.project.templates import DEFAULT_DEVICE, DEFAULT_LIBRARIES
+from tappet.project.new_project import DEFAULT_DEVICE
+from tappet.project.object_kind import Merging
+from tappet.project.objects import changed_object, make_object
+from tappet.project.placement import Site, check_project, check_spelling, in_code, owner_of, refusal
 
 _NOT_FREE = re.compile(r"[\x00-\x1f\x7f./\\]+")
 _NOT_IDENTIFIER = re.compile(r"[^A-Za-z0-9_]+", re.ASCII)
-_MERGED = frozenset(["plc_logic", "task_configuration", "library_manager", "folder", "persistent"])
-"""Kinds whose like in the project takes the content instead of getting a twin."""
-
-_REPORTED = frozenset(
-    ["pou", "method", "action", "property", "interface", "dut", "gvl", "persistent", "task", "scene"]
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +51,8 @@ def place(batch: Batch, project: Project, report: ImportReport, where: Place | N
             first.children += batch.loose.children
             batch.loose.children = []
     if batch.loose.children and target is None:
-        device = Draft("device", DEFAULT_DEVICE)
-        application = Draft("application", "Application", children=batch.loose.children)
+        device = Draft(DEVICE, DEFAULT_DEVICE)
+        application = Draft(APPLICATION, "Application", children=batch.loose.children)
         plc_logic(device).children.append(application)
         devices.insert(0, device)
     elif batch.loose.children:
@@ -106,7 +103,7 @@ def _give_defaults(application: Draft) -> None:
 def _applications(device: Draft) -> Iterator[Draft]:
     for logic in device.children:
         if logic.kind == "plc_logic":
-            yield from (item for item in logic.children if item.kind == "application")
+            yield from (item for item in logic.children if item.kind == APPLICATION)
 
 
 class _Placer:
@@ -119,6 +116,8 @@ class _Placer:
         }
         self.objects: dict[str, ProjectObject] = dict(project.objects)
         self._children: dict[str | None, list[str]] = {}
+        self._siblings: dict[tuple[str | None, bool], dict[str, str]] = {}
+        """Names by key below a parent; of the roots those of one view."""
         self._scopes: dict[str | None, dict[str, str]] = {}
         """Owner (None: roots of the POUs view) to the keys of the names in its scope, to their objects."""
         self._owners: dict[str | None, str | None] = {None: None}
@@ -131,7 +130,7 @@ class _Placer:
 
     def outcome(self) -> Project:
         """The project with all that was placed; the report then knows the objects."""
-        self.report.tell_objects(self._placed)
+        self.report.add_objects(self._placed)
         result = replace(self._project, objects=self.objects)
         check_project(result)
         return result
@@ -146,8 +145,8 @@ class _Placer:
             return
         item = self._project.get(parent_id)
         owner = self._owners[parent_id]
-        if item.kind not in ("application", "folder") or (
-            owner is not None and self.objects[owner].kind != "application"
+        if item.kind not in (APPLICATION, FOLDER) or (
+            owner is not None and self.objects[owner].kind != APPLICATION
         ):
             raise UnknownObjectError(
                 f"'{item.name}' takes no imported objects; choose an application, the POUs view or a folder"
@@ -156,15 +155,16 @@ class _Placer:
     def spread(self, draft: Draft, parent_id: str | None) -> None:
         """Place what is below a draft at a place; what cannot be in a folder goes beside it."""
         for child in draft.children:
-            rule = RULES.get(child.kind)
-            beside = rule is not None and not rule.in_folders
+            known = kinds().get(child.kind)
+            beside = known is not None and not known.placement.in_folders
             self.add(child, self._owners[parent_id] if beside else parent_id)
 
     def _enter(self, item: ProjectObject, owner_id: str | None) -> None:
         self.objects[item.id] = item
         self._children.setdefault(item.parent_id, []).append(item.id)
-        self._owners[item.id] = owner_id if item.kind == "folder" else item.id
-        if item.kind not in ("folder", "device"):
+        self._names_beside(item.kind, item.parent_id)[name_key(item.name)] = item.name
+        self._owners[item.id] = owner_id if item.kind == FOLDER else item.id
+        if in_code(item.kind):
             self._scopes.setdefault(owner_id, {}).setdefault(name_key(item.name), item.id)
 
     def note_merged(self, device: Draft, application: Draft, target: str) -> None:
@@ -186,13 +186,14 @@ class _Placer:
 
     def add(self, draft: Draft, parent_id: str | None) -> None:
         """Place a draft and all below it; what cannot be placed is reported."""
-        if draft.kind in _MERGED:
-            there = self._like(draft, parent_id)
+        known = kinds().get(draft.kind)
+        if known is not None and known.merging is not None:
+            there = self._like(draft, known.merging, parent_id)
             if there is not None:
-                self._merge_data(draft, there)
+                self._merge_data(draft, known.merging, there)
                 self.children(draft, there.id)
                 return
-        misplaced = self._misplaced(draft.kind, draft.name, parent_id)
+        misplaced = self._misplaced(draft, parent_id)
         if misplaced:
             self.report.add("refused", draft.source, misplaced, name=draft.name, line=draft.line)
             return
@@ -203,131 +204,114 @@ class _Placer:
             return
         self._enter(item, self._owners[parent_id])
         self._placed.setdefault((draft.source, draft.line), item.id)
-        if draft.kind in _REPORTED and (draft.source, draft.line) not in self._noted:
+        if known is not None and known.reported and (draft.source, draft.line) not in self._noted:
             owner = self.objects.get(self._owners[parent_id] or "")
-            prefix = f"{owner.name}." if owner is not None and owner.kind in ("pou", "interface") else ""
+            kind = kind_of(owner) if owner is not None else None
+            has_members = kind is not None and kind.compiled.members != "none"
+            prefix = f"{owner.name}." if owner is not None and has_members else ""
             self.report.add(
                 "imported", draft.source, name=f"{prefix}{item.name}", line=draft.line, object_id=item.id
             )
         self.children(draft, item.id)
 
-    def _misplaced(self, kind: str, name: str, parent_id: str | None) -> str | None:
-        """Why an object of this kind cannot be below this parent; the rules of `placement`."""
-        rule = RULES.get(kind)
-        owner_id = self._owners[parent_id]
-        owner = self.objects[owner_id] if owner_id is not None else None
-        if rule is None or (owner is not None and owner.kind not in RULES):
+    def _misplaced(self, draft: Draft, parent_id: str | None) -> str | None:
+        """Why an object of this kind cannot be below this parent."""
+        known = kinds().get(draft.kind)
+        site = self._site(parent_id)
+        if known is None or (site.owner is not None and site.owner.kind not in kinds()):
             return None
-        place = owner.kind if owner is not None else DEVICES_VIEW if kind == "device" else POUS_VIEW
-        if place not in rule.parents:
-            return f"a {kind} cannot be below {'the root' if owner is None else f'a {owner.kind}'}"
-        if owner is not None and owner.kind == "pou" and rule.parent_subkinds:
-            subkind = owner.subkind
-            if subkind is not None and subkind not in rule.parent_subkinds:
-                return f"a {subkind} such as '{owner.name}' has no {kind}"
-        if not rule.in_folders and parent_id != owner_id:
-            return f"a {kind} cannot be in a folder"
-        same = [self.objects[item] for item in self._children.get(parent_id, ())]
-        same = [item for item in same if item.kind == kind]
-        if (rule.once and same) or (rule.naming == "fixed" and any(item.name == name for item in same)):
-            return f"there is a {kind} in this place already"
-        return None
+        refused = refusal(known, site)
+        if refused is None and known.naming.style == "fixed":
+            taken = any(item.name == draft.name for item in site.siblings(draft.kind))
+            refused = f"There is a {known.words} '{draft.name}' in this place already" if taken else None
+        return refused
 
-    def _like(self, draft: Draft, parent_id: str | None) -> ProjectObject | None:
-        for child_id in self._children.get(parent_id, ()):
-            item = self.objects[child_id]
-            if item.kind == draft.kind and (
-                draft.kind != "folder" or name_key(item.name) == name_key(_fit_free(draft.name))
-            ):
-                return item
-        return None
+    def _site(self, parent_id: str | None) -> Site:
+        owner_id = self._owners[parent_id]
+        return Site(
+            self.objects[parent_id] if parent_id is not None else None,
+            self.objects[owner_id] if owner_id is not None else None,
+            lambda above: [self.objects[child] for child in self._children.get(above, ())],
+            lambda object_id: self.objects[object_id].name,
+        )
 
-    def _merge_data(self, draft: Draft, there: ProjectObject) -> None:
-        if draft.kind == "persistent":
-            old = there.data.model_dump()["declaration"]
-            joined = "\n".join([old.rstrip("\n"), draft.data.get("declaration", "")])
-            self.objects[there.id] = changed_object(there, data={"declaration": joined})
-            text = f"its variables stand in the persistent list '{there.name}', which was there already"
+    def _like(self, draft: Draft, merging: Merging[Any], parent_id: str | None) -> ProjectObject | None:
+        """The object that takes the content of a draft: of its kind at the place, folders included where the
+        place can have only one."""
+        site = self._site(parent_id)
+        if not merging.by_name:
+            return next((item for item in site.scope if item.kind == draft.kind), None)
+        key = name_key(_fit_free(draft.name))
+        same = (item for item in site.siblings(draft.kind) if item.kind == draft.kind)
+        return next((item for item in same if name_key(item.name) == key), None)
+
+    def _merge_data(self, draft: Draft, merging: Merging[Any], there: ProjectObject) -> None:
+        if merging.join is None:
+            return
+        self.objects[there.id] = changed_object(there, data=merging.join(there.data, draft.data))
+        if merging.note:
+            text = merging.note.format(name=there.name)
             self.report.add(
                 "changed", draft.source, text, name=draft.name, line=draft.line, object_id=there.id
             )
-            return
-        if draft.kind != "library_manager":
-            return
-        old = there.data.model_dump()
-        known = {name_key(reference["name"]) for reference in old["references"]}
-        read = draft.data.get("references", ())
-        more = [item for item in read if name_key(item["name"]) not in known]
-        kept = [
-            with_more_parameters(
-                reference, [item for item in read if name_key(item["name"]) == name_key(reference["name"])]
-            )
-            for reference in old["references"]
-        ]
-        data = {"references": [*kept, *more]}
-        self.objects[there.id] = changed_object(there, data=data)
 
     def _made(self, draft: Draft, parent_id: str | None) -> ProjectObject:
-        name, data = self._fit(draft), dict(draft.data)
+        name = self._fit(draft)
         free = self._free_name(draft.kind, name, parent_id)
-        if free != name:
-            if "declaration" in data and draft.kind not in ("gvl", "persistent"):
-                data["declaration"] = rename_header(data["declaration"], free)
-            self.report.add(
-                "changed",
-                draft.source,
-                f"'{name}' exists already in this place; it was imported as '{free}'",
-                name=draft.name,
-                line=draft.line,
-            )
+        known = kinds().get(draft.kind)
         object_id = draft.id if draft.id is not None and draft.id not in self.objects else new_id()
-        siblings = (self.objects[child].kind for child in self._children.get(parent_id, ()))
-        is_device = draft.kind == "device"
-        index = sum(1 for kind in siblings if parent_id is not None or (kind == "device") == is_device)
-        return make_object(
-            id=object_id, parent_id=parent_id, kind=draft.kind, name=free, index=index, data=data
+        made = make_object(
+            id=object_id,
+            parent_id=parent_id,
+            kind=draft.kind,
+            name=free,
+            index=len(self._names_beside(draft.kind, parent_id)),
+            data=draft.data,
         )
+        if free == name:
+            return made
+        self.report.add(
+            "changed",
+            draft.source,
+            f"'{name}' exists already in this place; it was imported as '{free}'",
+            name=draft.name,
+            line=draft.line,
+        )
+        if known is None or known.renamed is None:
+            return made
+        return changed_object(made, data=known.renamed(made.data, free))
 
     def _fit(self, draft: Draft) -> str:
         """The name of a draft, made fit for its kind where nothing refers to it by name."""
         name = normal_name(draft.name)
-        rule = RULES.get(draft.kind)
-        naming = rule.naming if rule is not None else "free"
-        if naming == "fixed":
-            check_spelling(draft.kind, name)
-            return name
+        known = kinds().get(draft.kind)
+        style = known.naming.style if known is not None else "free"
         try:
             check_spelling(draft.kind, name)
             return name
         except InvalidNameError:
-            if naming == "identifier" and draft.kind not in ("gvl", "persistent", "task", "application"):
+            adapted = known is None or known.naming.from_imports == "adapted" or style == "free"
+            if style == "fixed" or not adapted:
                 raise
-        fit = _fit_free(name) if naming == "free" else _fit_identifier(name)
+        fit = _fit_free(name) if style == "free" else _fit_identifier(name)
         check_spelling(draft.kind, fit)
         text = f"the name '{name[:60]}' is not possible here; it became '{fit}'"
         self.report.add("changed", draft.source, text, name=draft.name, line=draft.line)
         return fit
 
     def _free_name(self, kind: str, name: str, parent_id: str | None) -> str:
-        rule = RULES.get(kind)
-        if rule is not None and rule.naming == "fixed":
+        known = kinds().get(kind)
+        if known is not None and known.naming.style == "fixed":
             return name
-        is_device = kind == "device"
-        taken = [
-            self.objects[child].name
-            for child in self._children.get(parent_id, ())
-            if parent_id is not None or (self.objects[child].kind == "device") == is_device
-        ]
-        if name_key(name) not in {name_key(other) for other in taken}:
-            scope = self._scopes.get(self._owners[parent_id], {})
-            if kind in ("folder", "device") or name_key(name) not in scope:
-                return name
-            taken += [self.objects[other].name for other in scope.values()]
-        elif kind not in ("folder", "device"):
-            taken += [
-                self.objects[item].name for item in self._scopes.get(self._owners[parent_id], {}).values()
-            ]
-        return unique_name(name, taken)
+        taken = self._names_beside(kind, parent_id)
+        scope = self._scopes.get(self._owners[parent_id], {}) if in_code(kind) else {}
+        if name_key(name) not in scope and name_key(name) not in taken:
+            return name
+        return unique_name(name, [*taken.values(), *(self.objects[other].name for other in scope.values())])
+
+    def _names_beside(self, kind: str, parent_id: str | None) -> dict[str, str]:
+        """The names among which one of this kind has to be new."""
+        return self._siblings.setdefault((parent_id, is_pous_root(parent_id, kind)), {})
 
 
 def _fit_free(name: str) -> str:

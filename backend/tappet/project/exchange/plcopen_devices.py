@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from tappet.iec.tokens import NAME
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.plcopen_declarations import added
 from tappet.project.exchange.report import ImportReport
-from tappet.project.exchange.text_parts import NAME
 from tappet.project.exchange.xml_tree import Element
 
 MAPPING_LIST = "IoConfig_Globals_Mapping"

@@ -5,8 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
+from tappet.iec.trivia import unnested
+from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.plcopen_declarations import CODESYS
 from tappet.project.exchange.xml_tree import XHTML, Element
+from tappet.project.kinds.library_manager import LibraryReferenceData
 
 _TOKEN = re.compile(
     r"(?P<skipped>\(\*.*?\*\)|//[^\n]*|'(?:\$.|[^'$])*'|\"(?:\$.|[^\"$])*\")"
@@ -16,6 +19,19 @@ _TOKEN = re.compile(
     r"|(?P<open>\()|(?P<close>\))|(?P<comma>,)",
     re.IGNORECASE | re.DOTALL,
 )
+
+
+COUNTERS = LibraryReferenceData(name="IEC_Counters")
+"""The library with the counters that matiec knows without one."""
+_COUNTER = re.compile(r"\bCT(?:U|D|UD)_U?[DL]INT\b", re.IGNORECASE)
+
+
+def uses_counters(draft: Draft) -> bool:
+    """Whether a text of the draft, or of what is below it, names a counter for DINT, LINT, UDINT or ULINT."""
+    texts = (draft.data.get("declaration"), draft.data.get("implementation"))
+    if any(isinstance(text, str) and _COUNTER.search(text) for text in texts):
+        return True
+    return any(uses_counters(child) for child in draft.children)
 
 
 def is_for_matiec(root: Element) -> bool:
@@ -34,7 +50,7 @@ def rewritten(text: str) -> tuple[str, list[str]]:
     """A body in ST as it means the same here, and what was changed in it.
 
     C code between braces becomes a comment: what it does is not in the program any more. A conversion
-    between times and numbers counts seconds there and milliseconds here.
+    between times and numbers counts seconds there and milliseconds here; comments do not nest there.
     """
     bottom = _Part(None)
     parts = [bottom]
@@ -44,7 +60,9 @@ def rewritten(text: str) -> tuple[str, list[str]]:
         part = parts[-1]
         part.pieces.append(text[position : match.start()])
         position = match.end()
-        if match["pragma"]:
+        if match["skipped"]:
+            part.pieces.append(unnested(match.group()))
+        elif match["pragma"]:
             inner = match.group().replace("(*", "( *").replace("*)", "* )")
             part.pieces.append(f"(* {inner} *)")
             pragmas += 1

@@ -7,11 +7,14 @@ differ in that. Where the export holds the declarations as plain text, these are
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any
 
-from tappet.project.declaration_text import SECTION_KEYWORDS, read_header
+from tappet.iec.languages import is_plain_text
+from tappet.iec.languages import languages as body_languages
+from tappet.iec.sections import read_header
+from tappet.iec.words import SECTIONS
 from tappet.project.exchange.drafts import (
-    GRAPHICAL_LANGUAGES,
     Batch,
     Draft,
     body,
@@ -33,26 +36,27 @@ from tappet.project.exchange.plcopen_declarations import (
 )
 from tappet.project.exchange.plcopen_devices import controllers_below, read_devices
 from tappet.project.exchange.plcopen_libraries import read_libraries
-from tappet.project.exchange.plcopen_matiec import is_for_matiec, rewritten
+from tappet.project.exchange.plcopen_matiec import COUNTERS, is_for_matiec, rewritten, uses_counters
 from tappet.project.exchange.plcopen_tasks import read_task, task_of_instance
 from tappet.project.exchange.plcopen_tree import arrange
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
+from tappet.project.kind_registry import kinds
+from tappet.project.model import DEVICE, FOLDER
 
 TAPPET = "https://github.com/tappet/plcopen/"
 """Where the names of our own additional data begin."""
 PRODUCT = "Tappet"
 """Name of the product in the header of our own exports."""
-_CODE = frozenset(["pou", "dut", "interface", "folder"])
 
 _KEYWORDS = {"program": "PROGRAM", "function": "FUNCTION", "functionblock": "FUNCTION_BLOCK"}
 _CONTAINERS = frozenset(
     ["types", "dataTypes", "pous", "instances", "configurations", "globalVarsList", "Interfaces", "project"]
 )
-_OBJECTS = frozenset(
-    ["pou", "dataType", "union", "globalVars", "Interface", "configuration", "resource", "task"]
-)
+_STRUCTURE = frozenset(["configuration", "resource", "task"])
+_LISTS = "globalvars"
+"""CODESYS's additional data that hold lists of variables."""
 _NO_OBJECTS = frozenset(
     [
         "objectid",
@@ -76,10 +80,12 @@ def read_plcopen(source: str, content: bytes, batch: Batch, report: ImportReport
     if root.tag != "project":
         hint = "export the project as PLCopen XML" if root.tag == "Project" else "expected <project>"
         raise ExchangeError(source, f"is no PLCopen XML: its root is <{root.tag}>; {hint}", root.line)
-    _Reader(source, batch, report).read(root)
+    PlcopenReader(source, batch, report).read(root)
 
 
-class _Reader:
+class PlcopenReader:
+    """Reads a file; kinds read their elements with its parts."""
+
     def __init__(self, source: str, batch: Batch, report: ImportReport) -> None:
         self.source = source
         self.batch = batch
@@ -89,10 +95,12 @@ class _Reader:
         self.devices: list[Draft] = []
         self.by_id: dict[str, Draft] = {}
         self.generic: list[Draft] = []
+        self._readers = _readers()
         self.matiec = False
         """The bodies are for the compiler of Beremiz and OpenPLC."""
 
     def read(self, root: Element) -> None:
+        """Take all objects in."""
         product = root.child("fileHeader")
         self.batch.complete = product is not None and product.get("productName") == PRODUCT
         self.matiec = not self.batch.complete and is_for_matiec(root)
@@ -110,11 +118,14 @@ class _Reader:
                 self._element(item, self.pool)
         for name, item in added(root):
             self._added(name, item, self.pool)
+        if self.matiec and uses_counters(self.pool):
+            manager = library_manager(self.pool)
+            manager.data.setdefault("references", []).append(COUNTERS.model_dump())
         structure = next((item for name, item in added(root) if name == "projectstructure"), None)
         applications = [
             item for device in self.devices for logic in device.children for item in logic.children
         ]
-        filled = any(item.kind in _CODE for found in applications for item in found.children)
+        filled = any(_fills(item) for found in applications for item in found.children)
         if not filled and not self.batch.complete and applications:
             applications[0].children += self.pool.children
             self.pool.children = []
@@ -129,14 +140,9 @@ class _Reader:
 
     def _element(self, item: Element, parent: Draft) -> None:
         tag = item.tag
-        if tag == "pou":
-            self._enter(parent, self._pou(item))
-        elif tag in ("dataType", "union"):
-            self._enter(parent, self._data_type(item))
-        elif tag == "globalVars":
-            self._enter(parent, self._globals(item))
-        elif tag == "Interface":
-            self._enter(parent, self._interface(item))
+        reads = self._readers.get(tag)
+        if reads is not None:
+            self._enter(parent, reads(self, item))
         elif tag == "configuration":
             self._configuration(item)
         elif tag == "resource":
@@ -163,7 +169,7 @@ class _Reader:
         elif item.tag == "Libraries":
             references = library_manager(parent).data.setdefault("references", [])
             references += read_libraries(self.source, item, self.report)
-        elif item.tag in _OBJECTS:
+        elif item.tag in _STRUCTURE or item.tag in self._readers:
             self._element(item, parent)
         elif name not in _NO_OBJECTS:
             text = f"additional data '{name}' are not read"
@@ -206,7 +212,8 @@ class _Reader:
 
     # -- programming objects
 
-    def _pou(self, item: Element) -> Draft:
+    def pou(self, item: Element) -> Draft:
+        """A `pou` element."""
         keyword = _KEYWORDS.get(item.get("pouType").lower(), "PROGRAM")
         draft = self._draft("pou", item, {"declaration": self._declaration(keyword, item)})
         draft.data |= self._body(item, draft.name)
@@ -258,7 +265,7 @@ class _Reader:
         text = plain_text(item)
         if text is not None:
             header = read_header(text)
-            if header is None or header.keyword not in SECTION_KEYWORDS or self.batch.complete:
+            if header is None or header.keyword not in SECTIONS or self.batch.complete:
                 return text
             return "\n".join([*head_lines(keyword, item), text])
         return "\n".join([*head_lines(keyword, item), *sections(item.child("interface"))])
@@ -280,7 +287,7 @@ class _Reader:
         languages = {part.tag for part in parts}
         if not parts and not any(True for found in bodies for _ in added(found)):
             return body("ST", "")
-        if languages in ({"ST"}, {"IL"}):
+        if len(languages) == 1 and is_plain_text(next(iter(languages))):
             language = languages.pop()
             text = "\n".join(exact_text(part) for part in parts)
             if self.matiec and language == "ST":
@@ -288,7 +295,7 @@ class _Reader:
                 for note in notes:
                     self.report.add("changed", self.source, note, name=name, line=item.line)
             return body(language, text)
-        language = next((part.tag for part in parts if part.tag in GRAPHICAL_LANGUAGES), "CFC")
+        language = next((part.tag for part in parts if _is_graphical(part.tag)), "CFC")
         self._kept(item, name, language)
         if len(bodies) == 1:
             return body(language, xml_text(bodies[0]))
@@ -299,11 +306,13 @@ class _Reader:
         text = f"the body in {language} is kept as it is; it cannot be compiled yet"
         self.report.add("kept", self.source, text, name=name, line=item.line)
 
-    def _data_type(self, item: Element) -> Draft:
+    def data_type(self, item: Element) -> Draft:
+        """A `dataType` element."""
         text = plain_text(item)
         return self._draft("dut", item, {"declaration": text if text is not None else data_type_text(item)})
 
-    def _interface(self, item: Element) -> Draft:
+    def interface(self, item: Element) -> Draft:
+        """An `Interface` element."""
         text = plain_text(item)
         if text is None:
             text = "\n".join(head_lines("INTERFACE", item))
@@ -311,7 +320,8 @@ class _Reader:
         self._children(item, draft)
         return draft
 
-    def _globals(self, item: Element) -> Draft:
+    def variable_list(self, item: Element) -> Draft:
+        """A `globalVars` element."""
         text = plain_text(item)
         if text is None:
             mixed = [part for name, held in added(item) if name == "mixedattrsvarlist" for part in held]
@@ -324,7 +334,7 @@ class _Reader:
         if item.get("persistent").lower() in ("true", "1") and draft.name.lower().startswith("persistent"):
             draft.kind = "persistent"
         for name, part in added(item):
-            if name == "object" and part.get("kind") in ("gvl", "persistent"):
+            if name == "object" and _additional(part.get("kind")) == _LISTS:
                 draft.kind = part.get("kind")
         return draft
 
@@ -359,7 +369,7 @@ class _Reader:
     def _resource(self, item: Element, parent: Draft) -> None:
         application = self._draft("application", item)
         application.name = application.name or "Application"
-        if parent.kind != "device":
+        if parent.kind != DEVICE:
             parent = Draft("device", "Device", source=self.source, line=item.line)
             self.devices.append(parent)
         plc_logic(parent).children.append(application)
@@ -379,6 +389,23 @@ class _Reader:
         self._remember(draft)
 
 
+def _readers() -> dict[str, Callable[[PlcopenReader, Element], Draft]]:
+    """What reads an element, by its tag."""
+    forms = [kind.plcopen for kind in kinds().values() if kind.plcopen is not None]
+    return {tag: form.read for form in forms if form.read is not None for tag in form.tags}
+
+
+def _additional(kind: str) -> str:
+    """The additional data of CODESYS that hold objects of a kind; empty where it has none."""
+    known = kinds().get(kind)
+    return known.plcopen.data if known is not None and known.plcopen is not None else ""
+
+
+def _fills(draft: Draft) -> bool:
+    """Whether an object shows that the file keeps code in its application; lists are there in any case."""
+    return draft.kind == FOLDER or _additional(draft.kind) not in ("", _LISTS)
+
+
 def _uses_flags(settings: Element) -> bool:
     """Whether settings of SFC switch a flag on: without one they are what every chart has."""
     return any(item.get("Use").lower() == "true" for item in settings.walk())
@@ -392,3 +419,8 @@ def _json(source: str, item: Element) -> dict[str, Any]:
     if not isinstance(data, dict):
         raise ExchangeError(source, f"the data of '{item.get('name')}' should be a JSON object", item.line)
     return data
+
+
+def _is_graphical(tag: str) -> bool:
+    """Whether an element holds a body in a language that is drawn."""
+    return tag in body_languages() and not is_plain_text(tag)

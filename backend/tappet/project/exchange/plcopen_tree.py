@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tappet.project.exchange.drafts import Draft, hex_id
+from tappet.project.exchange.drafts import Draft, hex_id, is_implied
 from tappet.project.exchange.xml_tree import Element
-from tappet.project.placement import RULES
-
-_IMPLIED = frozenset(["plc_logic", "task_configuration", "library_manager"])
+from tappet.project.kind_registry import kinds
+from tappet.project.model import DEVICE
 
 
 def arrange(
@@ -83,7 +82,7 @@ class _Tree:
         now = self.parents[draft]
         target = owner
         if target is None:
-            target = self.root if draft.kind == "device" else now
+            target = self.root if draft.kind == DEVICE else now
         elif not _may_be_below(draft, target) or self._is_below(target, draft):
             target, folders = now, ()
         now.children = [child for child in now.children if child is not draft]
@@ -100,8 +99,8 @@ class _Tree:
 
 
 def _may_be_below(draft: Draft, owner: Draft) -> bool:
-    rule = RULES.get(draft.kind)
-    return rule is None or owner.kind not in RULES or owner.kind in rule.parents
+    known = kinds().get(draft.kind)
+    return known is None or owner.kind not in kinds() or owner.kind in known.placement.parents
 
 
 def _drop_implied(tops: list[Draft]) -> None:
@@ -109,7 +108,8 @@ def _drop_implied(tops: list[Draft]) -> None:
     waiting = list(tops)
     while waiting:
         item = waiting.pop()
-        for kind in _IMPLIED:
+        implied = {child.kind for child in item.children if is_implied(child.kind)}
+        for kind in implied:
             same = [child for child in item.children if child.kind == kind]
             if len(same) > 1:
                 empty = [

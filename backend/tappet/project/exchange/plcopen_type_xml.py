@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from tappet.project.declaration_text import Word, words
+from tappet.iec.tokens import NAME, Word, words
 from tappet.project.exchange.declaration_sections import (
     Variable,
     assignment,
@@ -13,7 +13,6 @@ from tappet.project.exchange.declaration_sections import (
     read_notes,
 )
 from tappet.project.exchange.plcopen_declarations import CODESYS
-from tappet.project.exchange.text_parts import NAME
 from tappet.project.exchange.xml_tree import XHTML, escape_attribute, escape_text, is_legal
 
 _ELEMENTARY_TYPES = """

@@ -11,15 +11,8 @@ import json
 import uuid
 from collections.abc import Iterator
 
-from tappet.project.data import (
-    AccessorData,
-    ActionData,
-    ApplicationData,
-    BodyData,
-    DeclarationData,
-    DeviceData,
-    TaskData,
-)
+from tappet.iec.languages import is_plain_text
+from tappet.project.data import BodyData, DeclarationData
 from tappet.project.durations import duration_ns
 from tappet.project.exchange.declaration_sections import (
     Head,
@@ -29,6 +22,7 @@ from tappet.project.exchange.declaration_sections import (
     read_sections,
     return_type,
 )
+from tappet.project.exchange.drafts import has_members
 from tappet.project.exchange.plcopen_declarations import CODESYS
 from tappet.project.exchange.plcopen_read import PRODUCT, TAPPET
 from tappet.project.exchange.plcopen_type_xml import (
@@ -49,11 +43,18 @@ from tappet.project.exchange.xml_tree import (
     read_xml,
     xml_text,
 )
-from tappet.project.model import Project, ProjectObject
+from tappet.project.kind_registry import kind_of
+from tappet.project.kinds.accessor import AccessorData
+from tappet.project.kinds.action import ActionData
+from tappet.project.kinds.application import ApplicationData
+from tappet.project.kinds.device import DeviceData
+from tappet.project.kinds.method import MethodData
+from tappet.project.kinds.task import TaskData
+from tappet.project.model import APPLICATION, DEVICE, FOLDER, Project, ProjectObject
+from tappet.project.object_kind import Plcopen
 
 NAMESPACE = "http://www.plcopen.org/xml/tc6_0201"
 _POU_TYPES = {"program": "program", "function": "function", "function_block": "functionBlock"}
-_CODE = frozenset(["pou", "dut", "gvl", "persistent", "interface"])
 _SECTION_TAGS = {
     "VAR": "localVars",
     "VAR_TEMP": "tempVars",
@@ -70,15 +71,18 @@ _DATE = "1980-01-01T00:00:00"
 
 def write_plcopen(project: Project) -> bytes:
     """The project as one XML file; the same project always gives the same bytes."""
-    return _Writer(project).whole().encode()
+    return PlcopenWriter(project).whole().encode()
 
 
-class _Writer(XmlLines):
+class PlcopenWriter(XmlLines):
+    """Writes a project; kinds write their objects with its parts."""
+
     def __init__(self, project: Project) -> None:
         super().__init__()
         self.project = project
 
     def whole(self) -> str:
+        """The document."""
         project = self.project
         self.lines.append('<?xml version="1.0" encoding="utf-8"?>')
         with self.tag("project", xmlns=NAMESPACE):
@@ -99,58 +103,58 @@ class _Writer(XmlLines):
             pool = [item for item in self._code(None) if not self._application_of(item)]
             with self.tag("types"):
                 with self.tag("dataTypes"):
-                    self._objects(pool, "dut")
+                    self._standard(pool, "dataTypes")
                 with self.tag("pous"):
-                    self._objects(pool, "pou")
+                    self._standard(pool, "pous")
             with self.tag("instances"), self.tag("configurations"):
-                for device in project.find_kind("device"):
+                for device in project.find_kind(DEVICE):
                     self._device(device)
             with self.tag("addData"):
                 self._added_code(pool)
                 for item in project.walk():
-                    if item.kind not in _OWN_PLACE:
-                        self._object_data(item, item.data.model_dump(mode="json"))
-                with self._data("projectstructure"), self.tag("ProjectStructure"):
+                    if _form(item) is None:
+                        self.object_data(item, item.data.model_dump(mode="json"))
+                with self.data_of_codesys("projectstructure"), self.tag("ProjectStructure"):
                     self._structure()
         return "\n".join(self.lines) + "\n"
 
     # -- where objects stand
 
     def _application_of(self, item: ProjectObject) -> str | None:
-        above = [found.id for found in self.project.ancestors(item.id) if found.kind == "application"]
+        above = [found.id for found in self.project.ancestors(item.id) if found.kind == APPLICATION]
         return above[0] if above else None
 
     def _code(self, application_id: str | None) -> list[ProjectObject]:
         return [
             item
             for item in self.project.walk()
-            if item.kind in _CODE and self._application_of(item) == application_id
+            if _is_code(item) and self._application_of(item) == application_id
         ]
 
-    def _objects(self, items: list[ProjectObject], kind: str) -> None:
+    def _standard(self, items: list[ProjectObject], container: str) -> None:
+        """The objects that the standard has this container for."""
         for item in items:
-            if item.kind == kind:
-                self._object(item)
+            form = _form(item)
+            if form is not None and form.container == container and form.write is not None:
+                form.write(self, item)
 
-    def _added_code(self, items: list[ProjectObject], kinds: tuple[str, ...] = ()) -> None:
-        """Objects in additional data: lists and interfaces always, the others where `kinds` says so."""
+    def _added_code(self, items: list[ProjectObject], *, in_application: bool = False) -> None:
+        """Objects in additional data: those that the standard has no place for, or none there."""
         for item in items:
-            if item.kind in ("gvl", "persistent"):
-                with self._data("globalvars"):
-                    self._object(item)
-            elif item.kind == "interface" or item.kind in kinds:
-                with self._data({"dut": "datatype"}.get(item.kind, item.kind)):
-                    self._object(item)
+            form = _form(item)
+            if form is not None and form.write is not None and (in_application or not form.container):
+                with self.data_of_codesys(form.data):
+                    form.write(self, item)
 
     def _device(self, device: ProjectObject) -> None:
         assert isinstance(device.data, DeviceData)
-        applications = [item for item in self.project.walk(device.id) if item.kind == "application"]
+        applications = [item for item in self.project.walk(device.id) if item.kind == APPLICATION]
         with self.tag("configuration", name=device.name):
             for application in applications:
                 self._application(application)
             with self.tag("addData"):
-                self._object_id(device)
-                self._object_data(device, device.data.model_dump(mode="json"))
+                self.object_id(device)
+                self.object_data(device, device.data.model_dump(mode="json"))
 
     def _application(self, application: ProjectObject) -> None:
         code = self._code(application.id)
@@ -159,14 +163,14 @@ class _Writer(XmlLines):
                 if isinstance(item.data, TaskData) and self._application_of(item) == application.id:
                     self._task(item, item.data)
             with self.tag("addData"):
-                self._added_code(code, ("dut", "pou"))
-                self._object_id(application)
+                self._added_code(code, in_application=True)
+                self.object_id(application)
                 if application.data != ApplicationData():
-                    self._object_data(application, application.data.model_dump(mode="json"))
+                    self.object_data(application, application.data.model_dump(mode="json"))
 
     def _structure(self, parent_id: str | None = None) -> None:
         for item in self.project.children(parent_id):
-            tag = "Folder" if item.kind == "folder" else "Object"
+            tag = "Folder" if item.kind == FOLDER else "Object"
             if self.project.children(item.id):
                 with self.tag(tag, Name=item.name, ObjectId=_guid(item.id)):
                     self._structure(item.id)
@@ -175,38 +179,29 @@ class _Writer(XmlLines):
 
     # -- programming objects
 
-    def _object(self, item: ProjectObject) -> None:
-        if item.kind == "dut":
-            self._data_type(item)
-        elif item.kind == "interface":
-            self._interface(item)
-        elif item.kind == "pou":
-            self._pou(item)
-        else:
-            self._globals(item)
-
-    def _pou(self, item: ProjectObject) -> None:
+    def pou(self, item: ProjectObject) -> None:
+        """A POU with its actions."""
         assert isinstance(item.data, BodyData)
         kind = _POU_TYPES.get(item.subkind or "", "program")
         children = list(self._members(item))
         actions = [child for child in children if isinstance(child.data, ActionData)]
         with self.tag("pou", name=item.name, pouType=kind):
-            self._interface_of(item.data.declaration, kind == "function")
+            self.interface_of(item.data.declaration, kind == "function")
             if actions:
                 with self.tag("actions"):
                     for action in actions:
                         assert isinstance(action.data, ActionData)
                         with self.tag("action", name=action.name):
-                            self._body(action.data)
+                            self.body(action.data)
                             with self.tag("addData"):
-                                self._build_properties(action)
-                                self._object_id(action)
-            self._body(item.data)
+                                self.build_properties(action)
+                                self.object_id(action)
+            self.body(item.data)
             with self.tag("addData"):
-                self._plain_text(item.data.declaration)
+                self.plain_text(item.data.declaration)
                 self._children(children)
-                self._build_properties(item)
-                self._object_id(item)
+                self.build_properties(item)
+                self.object_id(item)
 
     def _members(self, item: ProjectObject) -> Iterator[ProjectObject]:
         """What is below a POU or interface, its folders included, but not below one of these again."""
@@ -214,47 +209,54 @@ class _Writer(XmlLines):
         while waiting:
             child = waiting.pop()
             yield child
-            if child.kind not in ("pou", "interface"):
+            if not has_members(child.kind):
                 waiting.extend(reversed(self.project.children(child.id)))
 
     def _children(self, children: list[ProjectObject]) -> None:
         for child in children:
-            data = child.data
-            if child.kind == "method" and isinstance(data, BodyData):
-                with self._data("method"), self.tag("Method", name=child.name, ObjectId=_guid(child.id)):
-                    self._interface_of(data.declaration, True)
-                    self._body(data)
-                    self._plain_text_element(data.declaration)
-                    self._added_properties(child)
-            elif child.kind == "property" and isinstance(data, DeclarationData):
-                with self._data("property"):
-                    self._property(child, data)
+            form = _form(child)
+            if form is not None and form.member and form.write is not None:
+                with self.data_of_codesys(form.data):
+                    form.write(self, child)
 
-    def _property(self, item: ProjectObject, data: DeclarationData) -> None:
+    def method(self, item: ProjectObject) -> None:
+        """A method."""
+        data = item.data_as(MethodData)
+        with self.tag("Method", name=item.name, ObjectId=_guid(item.id)):
+            self.interface_of(data.declaration, True)
+            self.body(data)
+            self.plain_text_element(data.declaration)
+            self.added_properties(item)
+
+    def property(self, item: ProjectObject) -> None:
+        """A property with its accessors."""
+        data = item.data_as(DeclarationData)
         with self.tag("Property", name=item.name, ObjectId=_guid(item.id)):
-            self._interface_of(data.declaration, True)
+            self.interface_of(data.declaration, True)
             for accessor in self._members(item):
                 if isinstance(accessor.data, AccessorData):
                     with self.tag(f"{accessor.name}Accessor", ObjectId=_guid(accessor.id)):
-                        self._interface_of(accessor.data.declaration, False)
-                        self._body(accessor.data)
-                        self._plain_text_element(accessor.data.declaration)
-                        self._added_properties(accessor)
-            self._plain_text_element(data.declaration)
-            self._added_properties(item)
+                        self.interface_of(accessor.data.declaration, False)
+                        self.body(accessor.data)
+                        self.plain_text_element(accessor.data.declaration)
+                        self.added_properties(accessor)
+            self.plain_text_element(data.declaration)
+            self.added_properties(item)
 
-    def _interface(self, item: ProjectObject) -> None:
+    def interface(self, item: ProjectObject) -> None:
+        """An interface."""
         assert isinstance(item.data, DeclarationData)
         head = read_head(item.data.declaration)
         with self.tag("Interface", name=item.name, ObjectId=_guid(item.id)):
-            self._plain_text_element(item.data.declaration)
+            self.plain_text_element(item.data.declaration)
             with self.tag("addData"):
                 self._head_data(head)
                 self._children(list(self._members(item)))
-                self._build_properties(item)
+                self.build_properties(item)
             self._some(documentation_element(head.notes.comment))
 
-    def _data_type(self, item: ProjectObject) -> None:
+    def data_type(self, item: ProjectObject) -> None:
+        """A data type."""
         assert isinstance(item.data, DeclarationData)
         head = read_head(item.data.declaration)
         kind, initial = definition(item.data.declaration)
@@ -266,12 +268,13 @@ class _Writer(XmlLines):
             with self.tag("addData"):
                 self._some(enum_comments(kind))
                 self._head_data(head, "datatypeinheritance")
-                self._plain_text(item.data.declaration)
-                self._build_properties(item)
-                self._object_id(item)
+                self.plain_text(item.data.declaration)
+                self.build_properties(item)
+                self.object_id(item)
             self._some(documentation_element(head.notes.comment))
 
-    def _globals(self, item: ProjectObject) -> None:
+    def variable_list(self, item: ProjectObject) -> None:
+        """A list of variables."""
         assert isinstance(item.data, DeclarationData)
         sections = read_sections(item.data.declaration)
         flags = sections[0].flags if len(sections) == 1 else ()
@@ -283,16 +286,16 @@ class _Writer(XmlLines):
                 if len(sections) > 1:
                     self._mixed(item.name, sections)
                 self._some(attributes_data(notes.attributes))
-                self._plain_text(item.data.declaration)
-                self._build_properties(item)
-                self._object_id(item)
+                self.plain_text(item.data.declaration)
+                self.build_properties(item)
+                self.object_id(item)
                 with self._own_data(), self.tag("Object", kind=item.kind):
                     pass
             self._some(documentation_element(notes.comment))
 
     def _mixed(self, name: str, sections: list[Section]) -> None:
         """The sections of a list one by one, as CODESYS has them when their qualifiers differ."""
-        with self._data("mixedattrsvarlist"), self.tag("MixedAttrsVarList"):
+        with self.data_of_codesys("mixedattrsvarlist"), self.tag("MixedAttrsVarList"):
             for number, section in enumerate(sections):
                 with self.tag("globalVars", name=name, **dict.fromkeys(section.flags, "true")):
                     self._variables(section)
@@ -302,7 +305,8 @@ class _Writer(XmlLines):
 
     # -- declarations and bodies
 
-    def _interface_of(self, declaration: str, returns: bool) -> None:
+    def interface_of(self, declaration: str, returns: bool) -> None:
+        """The variables of a declaration, section by section."""
         kind = return_type(declaration) if returns else ""
         sections = read_sections(declaration)
         head = read_head(declaration)
@@ -317,7 +321,7 @@ class _Writer(XmlLines):
                 for section in sections:
                     if section.keyword in _ADDED_SECTION_TAGS:
                         tag = _ADDED_SECTION_TAGS[section.keyword]
-                        with self._data(tag.lower()):
+                        with self.data_of_codesys(tag.lower()):
                             self._section(tag, section)
             self._some(documentation_element(head.notes.comment))
 
@@ -329,13 +333,13 @@ class _Writer(XmlLines):
 
     def _head_data(self, head: Head, inheritance: str = "pouinheritance") -> None:
         if head.extends or head.implements:
-            with self._data(inheritance), self.tag("Inheritance"):
+            with self.data_of_codesys(inheritance), self.tag("Inheritance"):
                 for tag, names in (("Extends", head.extends), ("Implements", head.implements)):
                     for name in names:
                         self.line(f"<{tag}>{escape_text(name)}</{tag}>")
         if head.modifiers:
             words = {word.capitalize(): "true" for word in head.modifiers}
-            with self._data("accessmodifiers"):
+            with self.data_of_codesys("accessmodifiers"):
                 self.empty("AccessModifiers", **words)
         self._some(attributes_data(head.notes.attributes))
 
@@ -347,22 +351,25 @@ class _Writer(XmlLines):
         if text:
             self.line(text)
 
-    def _body(self, data: BodyData | ActionData) -> None:
+    def body(self, data: BodyData | ActionData) -> None:
+        """An implementation."""
         text, language = data.implementation, data.language
-        if language in ("ST", "IL"):
+        if is_plain_text(language):
             with self.tag("body"):
                 self.text_element(language, text)
         elif _is_body(text):
             self.line(text)
         else:
-            with self.tag("body"), self.tag("addData"), self._data("implementation"):
+            with self.tag("body"), self.tag("addData"), self.data_of_codesys("implementation"):
                 self.text_element("Implementation", text, language=language)
 
-    def _plain_text(self, declaration: str) -> None:
-        with self._data("interfaceasplaintext"):
-            self._plain_text_element(declaration)
+    def plain_text(self, declaration: str) -> None:
+        """A declaration as text, in additional data."""
+        with self.data_of_codesys("interfaceasplaintext"):
+            self.plain_text_element(declaration)
 
-    def _plain_text_element(self, declaration: str) -> None:
+    def plain_text_element(self, declaration: str) -> None:
+        """A declaration as text."""
         self.text_element("InterfaceAsPlainText", declaration)
 
     # -- tasks and our own data
@@ -377,7 +384,7 @@ class _Writer(XmlLines):
             for call in data.pous:
                 self.empty("pouInstance", name=call.name, typeName="")
             with self.tag("addData"):
-                with self._data("tasksettings"):
+                with self.data_of_codesys("tasksettings"):
                     times = {"Interval": data.interval} if cyclic else {}
                     kind = kinds.get(data.type, data.type.capitalize())
                     with self.tag("TaskSettings", KindOfTask=kind, **times):
@@ -388,24 +395,28 @@ class _Writer(XmlLines):
                             Time=watchdog.time,
                             Sensitivity=str(watchdog.sensitivity),
                         )
-                self._object_id(item)
-                self._object_data(item, data.model_dump(mode="json"))
+                self.object_id(item)
+                self.object_data(item, data.model_dump(mode="json"))
 
-    def _build_properties(self, item: ProjectObject) -> None:
+    def build_properties(self, item: ProjectObject) -> None:
+        """That an object is excluded from the build."""
         if item.excluded:
-            with self._data("buildproperties"), self.tag("BuildProperties"):
+            with self.data_of_codesys("buildproperties"), self.tag("BuildProperties"):
                 self.line("<ExcludeFromBuild>true</ExcludeFromBuild>")
 
-    def _added_properties(self, item: ProjectObject) -> None:
+    def added_properties(self, item: ProjectObject) -> None:
+        """The same as additional data."""
         if item.excluded:
             with self.tag("addData"):
-                self._build_properties(item)
+                self.build_properties(item)
 
-    def _object_id(self, item: ProjectObject) -> None:
-        with self._data("objectid", "discard"):
+    def object_id(self, item: ProjectObject) -> None:
+        """The id of an object."""
+        with self.data_of_codesys("objectid", "discard"):
             self.line(f"<ObjectId>{_guid(item.id)}</ObjectId>")
 
-    def _object_data(self, item: ProjectObject, data: object) -> None:
+    def object_data(self, item: ProjectObject, data: object) -> None:
+        """Data of an object as additional data of our own."""
         text = json.dumps(data, sort_keys=True, ensure_ascii=True, allow_nan=False)
         place = f'name="{escape_attribute(item.name)}" kind="{item.kind}" ObjectId="{_guid(item.id)}"'
         with self._own_data():
@@ -416,14 +427,20 @@ class _Writer(XmlLines):
     def _own_data(self) -> OpenElement:
         return self.tag("data", name=f"{TAPPET}object", handleUnknown="discard")
 
-    def _data(self, name: str, unknown: str = "implementation") -> OpenElement:
+    def data_of_codesys(self, name: str, unknown: str = "implementation") -> OpenElement:
+        """Additional data as CODESYS names them."""
         return self.tag("data", name=f"{CODESYS}{name}", handleUnknown=unknown)
 
 
-_OWN_PLACE = frozenset(
-    ["folder", "device", "application", "task", "method", "action", "property", "accessor", *_CODE]
-)
-"""Kinds that are written where the standard or CODESYS has a place for them."""
+def _form(item: ProjectObject) -> Plcopen | None:
+    """The place of an object in the standard or in CODESYS's additions to it."""
+    kind = kind_of(item)
+    return kind.plcopen if kind is not None else None
+
+
+def _is_code(item: ProjectObject) -> bool:
+    form = _form(item)
+    return form is not None and bool(form.data) and not form.member
 
 
 def _guid(object_id: str) -> str:

@@ -73,7 +73,7 @@ class ImportReport(BaseModel):
             note = f"more than {MAX_ENTRIES} entries; the further ones are left out"
             self.entries[-1] = Entry(source=source, outcome=outcome, text=note)
 
-    def tell_objects(self, placed: Mapping[tuple[str, int | None], str]) -> None:
+    def add_objects(self, placed: Mapping[tuple[str, int | None], str]) -> None:
         """Give the entries whose object is known by its file and line the id it has in the project."""
         self.entries = [
             entry

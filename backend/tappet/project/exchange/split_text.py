@@ -10,10 +10,12 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 
-from tappet.project.declaration_text import MODIFIERS, Word, declaration_end, words
+from tappet.iec.sections import declaration_end
+from tappet.iec.tokens import NAME, Word, words
+from tappet.iec.words import MODIFIERS
 from tappet.project.exchange.drafts import Draft, body
 from tappet.project.exchange.report import ImportReport, Outcome
-from tappet.project.exchange.text_parts import NAME, trimmed, type_parts
+from tappet.project.exchange.text_parts import trimmed, type_parts
 
 _POU_ENDS = {
     "PROGRAM": ("END_PROGRAM",),

@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from tappet.project.declaration_text import Word
+from tappet.iec.tokens import NAME, Word
 
-NAME = re.compile(r"[^\W\d]\w*")
-"""A word that can be a name."""
 _LINE_COMMENT = re.compile(r"[ \t]*(?://[^\n]*|\(\*[^*\n]*\*\)[ \t]*)")
 
 

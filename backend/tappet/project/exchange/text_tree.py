@@ -12,11 +12,11 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from tappet.project.declaration_text import words
+from tappet.iec.tokens import NAME, words
 from tappet.project.exchange.drafts import Draft, body
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.split_text import split_text
-from tappet.project.exchange.text_parts import NAME, trimmed
+from tappet.project.exchange.text_parts import trimmed
 
 _MARK = re.compile(
     r"^[ \t]*//[ \t]*(?:=+|-+)[ \t]*(IMPLEMENTATION|GET|SET)[ \t]*(?:=+|-+)[ \t]*$", re.MULTILINE
@@ -91,7 +91,7 @@ def owner_paths(paths: Collection[str]) -> dict[str, str]:
 
 
 def is_member(text: str) -> bool:
-    """Whether a text is a member of a block, and no object that stands for itself."""
+    """Whether a text is a member of a block, and no object that is complete by itself."""
     heads = [word.text for word in words(text)]
     return not heads or heads[0] in _MEMBERS or not any(head in heads for head in _OTHER_HEADS)
 

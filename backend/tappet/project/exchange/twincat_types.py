@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import re
 
+from tappet.iec.tokens import NAME
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.report import ImportReport
-from tappet.project.exchange.text_parts import NAME
 from tappet.project.exchange.xml_tree import Element
 
 FOLDER = "TwinCAT types"

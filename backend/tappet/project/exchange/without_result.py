@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tappet.project.declaration_text import SECTION_KEYWORDS, words
+from tappet.iec.tokens import words
+from tappet.iec.words import SECTIONS
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.report import ImportReport
 
@@ -22,7 +23,7 @@ def mark_without_result(draft: Draft, report: ImportReport) -> None:
             head = word.start
         elif word.text == ":":
             return
-        elif word.text in SECTION_KEYWORDS:
+        elif word.text in SECTIONS:
             break
     if head is None or ATTRIBUTE in text[:head]:
         return

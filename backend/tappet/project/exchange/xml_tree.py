@@ -6,6 +6,7 @@ other files. Prefixes are resolved here and not by expat, because exports exist 
 
 from __future__ import annotations
 
+import gc
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -87,19 +88,30 @@ class Element:
         return "".join(pieces)
 
 
-def read_xml(source: str, content: bytes) -> Element:
-    """The root of an XML file. Raises ExchangeError naming the line."""
+def read_xml(source: str, content: bytes, skipped: frozenset[str] = frozenset()) -> Element:
+    """The root of an XML file, without elements of the names in `skipped` and what is below them.
+
+    Raises ExchangeError naming the line.
+    """
     text = _DECLARATION.sub(
         lambda match: "\n" * match.group().count("\n"), decode_xml(source, content), count=1
     )
-    return _Reader(source).read(text.lstrip("\ufeff"))
+    return _Reader(source, skipped).read(text.lstrip("\ufeff"))
 
 
 class _Reader:
-    def __init__(self, source: str) -> None:
+    """Builds the tree from what expat reports; a name seen before costs one look-up."""
+
+    def __init__(self, source: str, skipped: frozenset[str]) -> None:
         self.source = source
+        self._skipped = skipped
+        self._inside_skipped = 0
+        """Depth below the outermost element that is skipped; 0 outside."""
         self._stack: list[Element] = []
-        self._spaces: list[Mapping[str, str]] = [{"xml": _XML}]
+        self._spaces: list[tuple[int, dict[str, str]]] = [(0, {"xml": _XML})]
+        """Prefixes in force, with the depth of the element that declares them."""
+        self._names: dict[str, tuple[str, str]] = {}
+        """Name and namespace of tags under the prefixes in force."""
         self._root: Element | None = None
         self._pieces: list[str] = []
         self._nodes = 0
@@ -112,12 +124,17 @@ class _Reader:
         self._parser.EntityDeclHandler = self._refuse
 
     def read(self, text: str) -> Element:
+        collects = gc.isenabled()
+        gc.disable()  # a tree makes no garbage, and the collector would walk all of it again and again
         try:
             self._parser.Parse(text.encode("utf-8", errors="replace"), True)
         except expat.ExpatError as error:
             raise ExchangeError(
                 self.source, f"is no sound XML ({expat.ErrorString(error.code)})", error.lineno
             ) from error
+        finally:
+            if collects:
+                gc.enable()
         assert self._root is not None, "a sound document has a root"
         return self._root
 
@@ -129,23 +146,47 @@ class _Reader:
         )
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
-        self._flush()
+        if self._inside_skipped:
+            self._inside_skipped += 1
+            return
+        if self._pieces:
+            self._flush()
+        if name in self._skipped:
+            self._inside_skipped = 1
+            return
+        stack = self._stack
         line = self._parser.CurrentLineNumber
         self._nodes += 1 + len(attributes)
-        if len(self._stack) >= MAX_DEPTH:
+        if len(stack) >= MAX_DEPTH:
             raise ExchangeError(self.source, f"has elements nested deeper than {MAX_DEPTH}", line)
         if self._nodes > MAX_NODES:
             raise ExchangeError(self.source, f"has more than {MAX_NODES} elements and attributes", line)
-        spaces = self._spaces[-1]
+        for key in attributes:
+            if ":" in key or key == "xmlns":
+                attributes = self._resolved(attributes)
+                break
+        known = self._names.get(name)
+        if known is None:
+            prefix, _, local = name.rpartition(":")
+            known = self._names[name] = local, self._spaces[-1][1].get(prefix, "")
+        item = Element(known[0], known[1], attributes, [], line)
+        if stack:
+            stack[-1].content.append(item)
+        else:
+            self._root = item
+        stack.append(item)
+
+    def _resolved(self, attributes: dict[str, str]) -> dict[str, str]:
+        """Attributes by name and namespace; what declares prefixes is taken out and holds from here on."""
         declared = {
             key.removeprefix("xmlns").removeprefix(":"): value
             for key, value in attributes.items()
             if key == "xmlns" or key.startswith("xmlns:")
         }
         if declared:
-            spaces = {**spaces, **declared}
-        self._spaces.append(spaces)
-        prefix, _, local = name.rpartition(":")
+            self._spaces.append((len(self._stack) + 1, {**self._spaces[-1][1], **declared}))
+            self._names = {}
+        spaces = self._spaces[-1][1]
         plain: dict[str, str] = {}
         for key, value in attributes.items():
             if key == "xmlns" or key.startswith("xmlns:"):
@@ -153,23 +194,24 @@ class _Reader:
             head, _, tail = key.rpartition(":")
             space = spaces.get(head, "") if head else ""
             plain[f"{{{space}}}{tail}" if space else tail] = value
-        item = Element(local, spaces.get(prefix, ""), plain, [], line)
-        if self._stack:
-            self._stack[-1].content.append(item)
-        else:
-            self._root = item
-        self._stack.append(item)
+        return plain
 
     def _end(self, _: str) -> None:
-        self._flush()
+        if self._inside_skipped:
+            self._inside_skipped -= 1
+            self._pieces.clear()
+            return
+        if self._pieces:
+            self._flush()
+        if self._spaces[-1][0] == len(self._stack):
+            self._spaces.pop()
+            self._names = {}
         self._stack.pop()
-        self._spaces.pop()
 
     def _flush(self) -> None:
-        if self._pieces:
-            if self._stack:
-                self._stack[-1].content.append("".join(self._pieces))
-            self._pieces.clear()
+        if self._stack:
+            self._stack[-1].content.append("".join(self._pieces))
+        self._pieces.clear()
 
 
 def xml_text(root: Element) -> str:

@@ -1,4 +1,4 @@
-"""Project folders in zip archives; what comes in is checked before it is believed (DESIGN decision 16)."""
+"""Project folders in zip archives; what comes in is checked first (architecture, decision 16)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from typing import BinaryIO
 from tappet.project.errors import FolderFormatError
 from tappet.project.folder.codec import decode, encode
 from tappet.project.folder.filenames import stem_of
-from tappet.project.folder.layout import PROJECT_FILE
 from tappet.project.model import Project
 from tappet.project.naming import name_key, normal_name
+from tappet.project.project_file import PROJECT_FILE
 
 _READ_ERRORS = (
     zipfile.BadZipFile,

@@ -9,18 +9,18 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from tappet.project.data import ApplicationData, NoData
-from tappet.project.declaration_text import subkind_of, words
+from tappet.iec.languages import file_ending
+from tappet.project.data import SPLIT_TEXTS, UnknownData
 from tappet.project.errors import FolderFormatError, ProjectError
 from tappet.project.folder.filenames import name_of, stem_of
 from tappet.project.folder.layout import (
     DEVICES,
-    INDEX_FILE,
     POUS,
-    PROJECT_FILE,
     Entry,
     derived_id,
+    read_endings,
     read_index,
     read_json,
     read_project_file,
@@ -29,21 +29,14 @@ from tappet.project.folder.layout import (
     write_json,
     write_project_file,
 )
-from tappet.project.folder.texts import TEXT_KINDS, Parts, read_text, write_text
-from tappet.project.model import KIND_CLASSES, Project, ProjectObject, make_object
+from tappet.project.folder.texts import Parts, kind_of_text, read_text, write_text
+from tappet.project.kind_registry import kinds
+from tappet.project.model import DEVICE, FOLDER, Project, ProjectObject
 from tappet.project.naming import check_project_name, name_key, normal_name
+from tappet.project.object_kind import IecText, JsonFile
+from tappet.project.objects import make_object
 from tappet.project.placement import check_project
-
-_KINDS_BY_SUBKIND = {
-    **dict.fromkeys(("program", "function_block", "function"), "pou"),
-    **dict.fromkeys(("struct", "union", "enum", "alias", "subrange"), "dut"),
-    **dict.fromkeys(("get", "set"), "accessor"),
-    "method": "method",
-    "action": "action",
-    "property": "property",
-    "interface": "interface",
-    "gvl": "gvl",
-}
+from tappet.project.project_file import INDEX_FILE, PROJECT_FILE
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +59,7 @@ def encode(project: Project) -> dict[str, bytes]:
         if item.parent_id is not None:
             folder = folders[item.parent_id]
         else:
-            folder = DEVICES if item.kind == "device" else POUS
+            folder = DEVICES if item.kind == DEVICE else POUS
         place = f"{folder}/{stem_of(item.name)}"
         folders[item.id] = place
         entries[folder].append(_encode_object(item, place, files))
@@ -104,19 +97,61 @@ def decode(files: Mapping[str, bytes]) -> DecodedFolder:
 
 def _encode_object(item: ProjectObject, place: str, files: dict[str, bytes]) -> Entry:
     """Add the file of an object to `files`; its line of the index."""
-    split = None
-    options = None
-    data = item.data.model_dump(mode="json", exclude_none=item.kind in KIND_CLASSES)
-    if item.kind in TEXT_KINDS:
+    known = not isinstance(item.data, UnknownData)
+    form = _form(item.kind) if known else JsonFile(optional=True)
+    data = item.data.model_dump(mode="json", exclude_none=known)
+    entry = Entry(kind=item.kind, name=item.name, id=None if item.id == derived_id(place) else item.id)
+    if isinstance(form, IecText):
+        body = data.get("implementation", "")
+        ending = file_ending(data.get("language", ""), body) if _is_plain_text(body) else None
+        if ending is not None:
+            files[f"{place}.{ending}"] = body.encode()
+            entry.texts = {"implementation": ending}
+            data["implementation"] = ""
         parts = Parts(data.pop("declaration", None), data.pop("implementation", None))
-        text, split = write_text(item.kind, item.name, parts)
+        text, entry.split = write_text(form, item.name, parts)
         files[f"{place}.st"] = text.encode()
         fields = type(item.data).model_fields
-        options = {key: value for key, value in data.items() if value != fields[key].default} or None
-    elif data or not _may_be_empty(item.kind):
+        entry.options = {key: value for key, value in data.items() if value != fields[key].default} or None
+        return entry
+    entry.texts = _split_texts(data, form, place, files) or None
+    if form.optional and known:
+        defaults = kinds()[item.kind].data().model_dump(mode="json", exclude_none=True)
+        data = {} if data == defaults else data
+    if data or not form.optional:
         files[f"{place}.{item.kind}.json"] = write_json(data)
-    object_id = None if item.id == derived_id(place) else item.id
-    return Entry(kind=item.kind, name=item.name, id=object_id, split=split, options=options)
+    return entry
+
+
+def _split_texts(data: dict[str, Any], form: JsonFile, place: str, files: dict[str, bytes]) -> dict[str, str]:
+    """Move texts of the data into files of their own; which they were.
+
+    Without the plug-in, what says which they are goes into the index with them, or stays with all of them.
+    """
+    marked = read_endings(data.get(SPLIT_TEXTS))
+    found = {
+        field: ending
+        for field, ending in (marked or form.texts).items()
+        if field != SPLIT_TEXTS and _is_plain_text(data.get(field))
+    }
+    if marked and found != marked:
+        return {}
+    if marked:
+        del data[SPLIT_TEXTS]
+    for field, ending in found.items():
+        files[f"{place}.{ending}"] = data.pop(field).encode()
+    return found
+
+
+def _is_plain_text(value: object) -> bool:
+    """Whether a file gives the text back as it is."""
+    return isinstance(value, str) and "\r" not in value and not value.startswith("\ufeff")
+
+
+def _form(kind: str) -> IecText | JsonFile:
+    """The folder format of a kind; of one whose plug-in is missing, JSON where there are data."""
+    known = kinds().get(kind)
+    return known.folder if known is not None else JsonFile(optional=True)
 
 
 def _with_ancestors(path: str) -> Iterator[str]:
@@ -126,11 +161,16 @@ def _with_ancestors(path: str) -> Iterator[str]:
         path = path.rpartition("/")[0]
 
 
-def _may_be_empty(kind: str) -> bool:
-    """Whether an object of this kind needs no file: it has no data as a rule, or its plug-in is not here to
-    say."""
-    known = KIND_CLASSES.get(kind)
-    return known is None or isinstance(known.model_fields["data"].default, NoData | ApplicationData)
+def texts_of_index(path: str, content: bytes) -> list[str]:
+    """The paths of the text files that an index says stand beside the JSON of objects."""
+    if b'"texts"' not in content:
+        return []
+    folder = path.rpartition("/")[0]
+    return [
+        f"{folder}/{stem_of(normal_name(entry.name))}.{ending}"
+        for entry in read_index(path, content)
+        for ending in (entry.texts or {}).values()
+    ]
 
 
 class _Reader:
@@ -158,7 +198,7 @@ class _Reader:
             folder, parent_id = waiting.pop()
             entries = self._entries(folder)
             for index, entry in enumerate(entries):
-                if parent_id is None and (entry.kind == "device") != (view == DEVICES):
+                if parent_id is None and (entry.kind == DEVICE) != (view == DEVICES):
                     raise FolderFormatError(
                         f"{folder}/{INDEX_FILE}",
                         f"'{entry.name}' is a {entry.kind}; devices alone belong in {DEVICES}",
@@ -202,14 +242,14 @@ class _Reader:
         object_name = name_of(stem)
         kind: str | None = ending.removesuffix(".json") if ending.endswith(".json") else None
         if not dot:
-            kind = "folder" if path in self._with_code else None
+            kind = FOLDER if path in self._with_code else None
         elif ending == "st" and path in self.files:
-            kind = _kind_of_text(read_utf8(path, self.files[path]))
+            kind = kind_of_text(read_utf8(path, self.files[path]))
             if kind is None:
                 raise FolderFormatError(
                     path, "what it declares cannot be told; it should begin with PROGRAM, TYPE or the like"
                 )
-        elif kind not in KIND_CLASSES or kind in TEXT_KINDS:
+        elif kind is None or kind not in kinds() or isinstance(_form(kind), IecText):
             kind = None
         if kind is None:
             return None
@@ -239,34 +279,45 @@ class _Reader:
         except ProjectError as error:
             raise FolderFormatError(path, str(error)) from error
 
-    def _data(self, entry: Entry, place: str) -> tuple[str, dict[str, object]]:
+    def _data(self, entry: Entry, place: str) -> tuple[str, dict[str, Any]]:
         """The path of an object's file and the data in it."""
-        is_text = entry.kind in TEXT_KINDS
-        path = f"{place}.st" if is_text else f"{place}.{entry.kind}.json"
-        actual = path if path in self.files else self._spelling.get(name_key(path))
+        form = _form(entry.kind)
+        path = f"{place}.{entry.kind}.json" if isinstance(form, JsonFile) else f"{place}.st"
+        actual = self._actual(path)
+        if isinstance(form, JsonFile):
+            if actual is None and not (form.optional or entry.texts):
+                raise FolderFormatError(path, f"is missing, but the index lists '{entry.name}'")
+            data = self._json(actual) if actual is not None else {}
+            return actual or path, data | self._split_off(entry, place)
         if actual is None:
-            if not is_text and _may_be_empty(entry.kind):
-                return path, {}
             raise FolderFormatError(path, f"is missing, but the index lists '{entry.name}'")
         self.own.add(actual)
-        content = self.files[actual]
-        if not is_text:
-            data = read_json(actual, content)
-            if not isinstance(data, dict):
-                raise FolderFormatError(actual, "should hold a JSON object")
-            return actual, data
-        parts = read_text(entry.kind, entry.name, read_utf8(actual, content), entry.split)
+        parts = read_text(form, entry.name, read_utf8(actual, self.files[actual]), entry.split)
         texts = {"declaration": parts.declaration, "implementation": parts.implementation}
         present = {key: value for key, value in texts.items() if value is not None}
-        return actual, {**(entry.options or {}), **present}
+        return actual, {**(entry.options or {}), **present, **self._split_off(entry, place)}
 
+    def _actual(self, path: str) -> str | None:
+        """The path as it is spelled."""
+        return path if path in self.files else self._spelling.get(name_key(path))
 
-def _kind_of_text(text: str) -> str | None:
-    kind = _KINDS_BY_SUBKIND.get(subkind_of(text) or "")
-    if kind == "gvl":
-        for word in words(text):
-            if word.text == "PERSISTENT":
-                return "persistent"
-            if word.text not in ("VAR_GLOBAL", "RETAIN", "CONSTANT"):
-                break
-    return kind
+    def _json(self, path: str) -> dict[str, Any]:
+        self.own.add(path)
+        data = read_json(path, self.files[path])
+        if not isinstance(data, dict):
+            raise FolderFormatError(path, "should hold a JSON object")
+        return data
+
+    def _split_off(self, entry: Entry, place: str) -> dict[str, Any]:
+        """The data that are text files of their own; without the plug-in also which they are."""
+        if not entry.texts:
+            return {}
+        found: dict[str, Any] = {}
+        for field, ending in entry.texts.items():
+            path = f"{place}.{ending}"
+            actual = self._actual(path)
+            if actual is None:
+                raise FolderFormatError(path, f"is missing, but the index lists it for '{entry.name}'")
+            self.own.add(actual)
+            found[field] = read_utf8(actual, self.files[actual])
+        return found if entry.kind in kinds() else found | {SPLIT_TEXTS: entry.texts}

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from tappet.project.errors import FolderFormatError
-from tappet.project.folder.codec import decode, encode
-from tappet.project.folder.layout import DEVICES, POUS, PROJECT_FILE
+from tappet.project.folder.codec import decode, encode, texts_of_index
+from tappet.project.folder.layout import DEVICES, POUS
 from tappet.project.model import Project
 from tappet.project.naming import name_key, normal_name
+from tappet.project.project_file import INDEX_FILE, PROJECT_FILE
 
 MAX_FILES = 100_000
 MAX_BYTES = 1 << 30
@@ -64,18 +65,23 @@ def save(project: Project, path: str | Path) -> None:
 
 def _read(root: Path, *, everything: bool) -> dict[str, bytes]:
     """The files of a folder by path; those that can be objects, or everything."""
+    found = ((path.relative_to(root).as_posix(), path) for path in _walk(root))
     files: dict[str, bytes] = {}
-    total = 0
-    for path in _walk(root):
-        name = path.relative_to(root).as_posix()
-        if not (everything or _may_be_object(name)):
-            continue
-        content = path.read_bytes()
-        total += len(content)
-        files[name] = content
+    _add(((name, path) for name, path in found if everything or _may_be_object(name)), files)
+    if not everything:
+        indices = [name for name in files if name.endswith(f"/{INDEX_FILE}")]
+        texts = [(text, root / text) for name in indices for text in texts_of_index(name, files[name])]
+        _add(((name, path) for name, path in texts if path.is_file()), files)
+    return files
+
+
+def _add(paths: Iterable[tuple[str, Path]], files: dict[str, bytes]) -> None:
+    total = sum(map(len, files.values()))
+    for name, path in paths:
+        files[name] = path.read_bytes()
+        total += len(files[name])
         if len(files) > MAX_FILES or total > MAX_BYTES:
             raise FolderFormatError(name, "the folder has too many files or bytes for a project")
-    return files
 
 
 def _walk(root: Path) -> Iterator[Path]:

@@ -30,7 +30,7 @@ def stem_of(name: str) -> str:
 
 
 def name_of(stem: str) -> str:
-    """The name of the object that a file name stands for; a cut one gives the cut name."""
+    """The name of the object that a file name denotes; a cut one gives the cut name."""
     return normal_name(unquote(stem.partition("~")[0]))
 
 

@@ -9,10 +9,9 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, StrictInt, TypeAdapter, ValidationError
 
 from tappet.project.errors import FolderFormatError
-from tappet.project.model import describe
+from tappet.project.objects import describe
+from tappet.project.project_file import PROJECT_FILE
 
-PROJECT_FILE = "tappet-project.json"
-INDEX_FILE = "index.json"
 FORMAT = 1
 """Version of the folder format that is written; this and older ones are read."""
 
@@ -33,6 +32,9 @@ class ProjectFile(BaseModel):
     description: str = ""
 
 
+Endings = dict[str, Annotated[str, Field(pattern=r"^[a-z0-9]{1,16}$")]]
+
+
 class Entry(BaseModel):
     """One child in an index, in the order of the tree."""
 
@@ -43,9 +45,12 @@ class Entry(BaseModel):
     id: str | None = Field(default=None, pattern=r"^[0-9a-f]{32}$")
     split: Annotated[int, Field(strict=True, ge=0)] | None = None
     options: dict[str, Any] | None = None
+    texts: Endings | None = None
+    """Data fields that are text files of their own, `<name>.<ending>`, by field: the ending."""
 
 
 _INDEX: TypeAdapter[list[Entry]] = TypeAdapter(list[Entry])
+_ENDINGS: TypeAdapter[Endings] = TypeAdapter(Endings)
 
 
 def derived_id(path: str) -> str:
@@ -89,6 +94,16 @@ def read_index(path: str, content: bytes) -> list[Entry]:
         return _INDEX.validate_python(read_json(path, content))
     except ValidationError as error:
         raise FolderFormatError(path, describe(error)) from error
+
+
+def read_endings(value: object) -> Endings:
+    """Endings of text files by data field; nothing where the value is none, or files would have the same
+    name."""
+    try:
+        found = _ENDINGS.validate_python(value)
+    except ValidationError:
+        return {}
+    return found if len(set(found.values())) == len(found) and "json" not in found.values() else {}
 
 
 def write_json(data: Any) -> bytes:

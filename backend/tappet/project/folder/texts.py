@@ -10,21 +10,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from tappet.project.declaration_text import declaration_end, end_keyword, words
-
-TEXT_KINDS = frozenset(
-    ["pou", "method", "action", "property", "accessor", "interface", "dut", "gvl", "persistent"]
-)
-"""Kinds whose data are text, kept in `<name>.st`."""
-
-_WITH_BODY = frozenset(["pou", "method", "accessor"])
-_POU_ENDS = frozenset(["END_PROGRAM", "END_FUNCTION_BLOCK", "END_FUNCTION"])
-_ENDS = {
-    "method": "END_METHOD",
-    "action": "END_ACTION",
-    "property": "END_PROPERTY",
-    "interface": "END_INTERFACE",
-}
+from tappet.iec.sections import declaration_end, subkind_of
+from tappet.iec.tokens import words
+from tappet.project.kind_registry import kinds
+from tappet.project.object_kind import IecText
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,64 +24,69 @@ class Parts:
     implementation: str | None
 
 
-def write_text(kind: str, name: str, parts: Parts) -> tuple[str, int | None]:
+def write_text(form: IecText, name: str, parts: Parts) -> tuple[str, int | None]:
     """The file of an object, and the number of lines of its declaration where reading would not find it."""
     declaration = parts.declaration or ""
-    text = _joined(kind, name, parts)
-    if read_text(kind, name, text) == parts:
+    text = _joined(form, name, parts)
+    if read_text(form, name, text) == parts:
         return text, None
     split = declaration.count("\n") + 1 if declaration else 0
     return text, split
 
 
-def read_text(kind: str, name: str, text: str, split: int | None = None) -> Parts:
+def read_text(form: IecText, name: str, text: str, split: int | None = None) -> Parts:
     """The parts of a file; `split` is the number of lines of the declaration where the index has it."""
-    body = _without_opening(kind, name, text)
-    if kind not in _WITH_BODY:
-        content = _without_newline(_without_end(body, _end(kind, name, body)))
-        return Parts(None, content) if kind == "action" else Parts(content, None)
+    body = _without_opening(form, name, text)
+    if not (form.declaration and form.implementation):
+        content = _without_newline(_without_end(body, _end(form, name, body)))
+        return Parts(content, None) if form.declaration else Parts(None, content)
     if split is None:
-        content = _without_newline(_without_end(body, _end(kind, name, body)))
+        content = _without_newline(_without_end(body, _end(form, name, body)))
         cut = declaration_end(content)
         return Parts(content[:cut], content[cut:].removeprefix("\n"))
     lines = body.split("\n")
     declaration = "\n".join(lines[:split])
     rest = "\n".join(lines[split:])
-    return Parts(declaration, _without_newline(_without_end(rest, _end(kind, name, declaration))))
+    return Parts(declaration, _without_newline(_without_end(rest, _end(form, name, declaration))))
 
 
-def _joined(kind: str, name: str, parts: Parts) -> str:
+def kind_of_text(text: str) -> str | None:
+    """The kind that a text says it is of; one that claims some of such texts is asked first."""
+    subkind = subkind_of(text)
+    forms = {name: kind.folder for name, kind in kinds().items() if isinstance(kind.folder, IecText)}
+    fitting = {name: form for name, form in forms.items() if subkind in form.declared_as}
+    claiming = (name for name, form in fitting.items() if form.claims is not None and form.claims(text))
+    rest = (name for name, form in fitting.items() if form.claims is None)
+    return next(claiming, None) or next(rest, None)
+
+
+def _joined(form: IecText, name: str, parts: Parts) -> str:
     pieces = []
-    opening = _opening(kind, name)
+    opening = _opening(form, name)
     if opening:
         pieces.append(opening)
-    if parts.declaration is not None and (parts.declaration or kind not in _WITH_BODY):
+    if parts.declaration is not None and (parts.declaration or not form.implementation):
         pieces.append(parts.declaration)
     if parts.implementation:
         pieces.append(parts.implementation)
-    end = _end(kind, name, parts.declaration or "")
+    end = _end(form, name, parts.declaration or "")
     if end:
         pieces.append(end)
     return "".join(f"{piece}\n" for piece in pieces)
 
 
-def _opening(kind: str, name: str) -> str | None:
+def _opening(form: IecText, name: str) -> str | None:
     """The line that begins the file of an object whose declaration does not name it."""
-    if kind == "action":
-        return f"ACTION {name}"
-    return name.upper() if kind == "accessor" else None
+    return form.opening(name) if form.opening is not None else None
 
 
-def _end(kind: str, name: str, declaration: str) -> str | None:
+def _end(form: IecText, name: str, declaration: str) -> str | None:
     """The line that ends the file."""
-    if kind == "pou":
-        end = end_keyword(declaration)
-        return end if end in _POU_ENDS else None
-    return f"END_{name.upper()}" if kind == "accessor" else _ENDS.get(kind)
+    return form.end(name, declaration) if form.end is not None else None
 
 
-def _without_opening(kind: str, name: str, text: str) -> str:
-    opening = _opening(kind, name)
+def _without_opening(form: IecText, name: str, text: str) -> str:
+    opening = _opening(form, name)
     if opening is None or text.startswith(f"{opening}\n"):
         return text if opening is None else text[len(opening) + 1 :]
     scan = words(text)
@@ -100,7 +94,7 @@ def _without_opening(kind: str, name: str, text: str) -> str:
     if first is None or first.text != opening.split()[0]:
         return text
     end = first.end
-    if kind == "action":
+    if " " in opening:  # a name follows the keyword
         named = next(scan, None)
         end = named.end if named is not None else end
         colon = next(scan, None)

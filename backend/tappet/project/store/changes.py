@@ -11,7 +11,8 @@ from typing import Any
 
 from sqlalchemy import Connection, delete, func, insert, select, update
 
-from tappet.project.model import Project, ProjectObject, changed_object
+from tappet.project.model import Project, ProjectObject
+from tappet.project.objects import changed_object
 from tappet.project.store.positions import new_positions
 from tappet.project.store.records import ChangeEvent, ObjectAction, ObjectChange, ProjectInfo
 from tappet.project.store.rows import StoredProject, data_of, summary_of

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import json
+import re
 import sqlite3
 import time
 from pathlib import Path
 from threading import Lock
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from alembic import command
-from alembic.config import Config
-from alembic.script import ScriptDirectory
-from alembic.util import CommandError
-from sqlalchemy import Connection, Engine, create_engine, event, make_url, text
+from sqlalchemy import Connection, Engine, create_engine, event, inspect, make_url, text
 from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.exc import ArgumentError, OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
 from tappet.project.errors import ProjectError
+
+if TYPE_CHECKING:
+    from alembic.config import Config
 
 BUSY_TIMEOUT_MS = 15_000
 """How long a connection waits for SQLite's lock before it gives up."""
@@ -29,6 +29,7 @@ _MIGRATION_LOCK = 7_461_707_065
 _ONE_AT_A_TIME = Lock()  # Alembic keeps the running migration in a global
 
 _MIGRATIONS = Path(__file__).parent / "migrations"
+_REVISION = re.compile(r"^(revision|down_revision) = \"(.*)\"$", re.MULTILINE)
 
 
 class StoreError(ProjectError):
@@ -89,6 +90,11 @@ def migrate(engine: Engine) -> None:
 
 
 def _upgrade(engine: Engine) -> None:
+    if _is_newest(engine):
+        return
+    from alembic import command
+    from alembic.util import CommandError
+
     config = _config()
     with (
         _ONE_AT_A_TIME,
@@ -108,14 +114,31 @@ def _upgrade(engine: Engine) -> None:
             ) from error
 
 
+def _is_newest(engine: Engine) -> bool:
+    """Whether there is nothing to migrate, which every start but one finds: Alembic takes long to import."""
+    with reading(engine).connect() as connection:
+        if not inspect(connection).has_table("alembic_version"):
+            return False
+        return connection.execute(text("SELECT version_num FROM alembic_version")).all() == [
+            (newest_revision(),)
+        ]
+
+
 def newest_revision() -> str:
-    """The schema revision that `migrate` leads to."""
-    head = ScriptDirectory.from_config(_config()).get_current_head()
-    assert head is not None, "the package holds migrations"
-    return head
+    """The schema revision that `migrate` leads to: the one that no other builds on."""
+    revisions: set[str] = set()
+    bases: set[str | None] = set()
+    for file in (_MIGRATIONS / "versions").glob("[0-9]*.py"):
+        facts = dict(_REVISION.findall(file.read_text(encoding="utf-8")))
+        revisions.add(facts["revision"])
+        bases.add(facts.get("down_revision"))
+    (newest,) = revisions - bases
+    return newest
 
 
 def _config() -> Config:
+    from alembic.config import Config
+
     config = Config()
     config.set_main_option("script_location", str(_MIGRATIONS).replace("%", "%%"))
     return config

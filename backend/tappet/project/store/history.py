@@ -6,7 +6,8 @@ from collections import defaultdict
 
 from sqlalchemy import Connection, and_, func, select
 
-from tappet.project.model import Project, ProjectObject, make_object
+from tappet.project.model import Project, ProjectObject
+from tappet.project.objects import stored_object
 from tappet.project.store.records import (
     ObjectRevision,
     ProjectInfo,
@@ -61,7 +62,7 @@ def object_at(
     ).one_or_none()
     if row is None:
         raise UnknownRevisionError(f"The object {object_id} has no revision {revision}")
-    item = make_object(
+    item = stored_object(
         id=object_id,
         parent_id=row.parent_id,
         kind=row.kind,
@@ -83,7 +84,7 @@ def deleted_with(connection: Connection, project_id: str, change: int) -> list[P
     ).all()
     ranks = ranks_of((row.object_id, row.parent_id, row.kind, row.position, row.name) for row in rows)
     return [
-        make_object(
+        stored_object(
             id=row.object_id,
             parent_id=row.parent_id,
             kind=row.kind,

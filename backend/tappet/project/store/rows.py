@@ -9,8 +9,9 @@ from typing import Any
 
 from sqlalchemy import Connection, select
 
-from tappet.project.model import Project, ProjectObject, is_pous_root, make_object
+from tappet.project.model import DEVICE, Project, ProjectObject, is_pous_root
 from tappet.project.naming import name_key
+from tappet.project.objects import stored_object
 from tappet.project.store.records import ObjectSummary, ProjectInfo, UnknownProjectError
 from tappet.project.store.tables import files, objects, projects
 
@@ -78,7 +79,7 @@ def stored_project(
     ranks = ranks_of((row[0], row[1], row[2], row[4], row[3]) for row in ordered)
     items: dict[str, ProjectObject] = {}
     for object_id, parent_id, kind, name, _, revision, data in ordered:
-        items[object_id] = make_object(
+        items[object_id] = stored_object(
             id=object_id,
             parent_id=parent_id,
             kind=kind,
@@ -118,7 +119,7 @@ def read_summaries(connection: Connection, project_id: str) -> list[ObjectSummar
         )
         for row in rows
     ]
-    return sorted(found, key=lambda item: (item.parent_id or "", item.kind != "device", item.index))
+    return sorted(found, key=lambda item: (item.parent_id or "", item.kind != DEVICE, item.index))
 
 
 def summary_of(item: ProjectObject) -> ObjectSummary:

@@ -11,7 +11,8 @@ from sqlalchemy import Connection, and_, delete, func, insert, select, update
 
 from tappet.project.data import CodeData
 from tappet.project.errors import InvalidDataError, UnknownObjectError
-from tappet.project.model import Project, ProjectObject, changed_object, make_object
+from tappet.project.model import DEVICE, Project, ProjectObject
+from tappet.project.objects import changed_object, stored_object
 from tappet.project.store.changes import revision_row, write_change
 from tappet.project.store.history import object_revisions
 from tappet.project.store.records import (
@@ -44,7 +45,7 @@ def read_object(connection: Connection, project_id: str, object_id: str) -> Stor
     ).one_or_none()
     if row is None:
         raise UnknownObjectError(f"The project has no object with the id {object_id}")
-    item = make_object(
+    item = stored_object(
         id=row.id,
         parent_id=row.parent_id,
         kind=row.kind,
@@ -68,8 +69,8 @@ def with_index(connection: Connection, project_id: str, stored: StoredObject) ->
         )
     )
     if item.parent_id is None:
-        is_device = objects.c.kind == "device"
-        before = before.where(is_device if item.kind == "device" else ~is_device)
+        is_device = objects.c.kind == DEVICE
+        before = before.where(is_device if item.kind == DEVICE else ~is_device)
     return changed_object(item, index=connection.scalar(before))
 
 

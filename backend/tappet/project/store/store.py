@@ -12,10 +12,11 @@ from sqlalchemy import Engine, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from tappet.project import edit
-from tappet.project.data import LibraryReferenceData
 from tappet.project.errors import NameTakenError
-from tappet.project.model import ObjectHead, Project, ProjectObject
+from tappet.project.library_reference import LibraryReference
+from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import check_project_name, name_key, normal_name, unique_name
+from tappet.project.new_project import new_project
 from tappet.project.placement import check_project
 from tappet.project.store import history
 from tappet.project.store.changes import apply_project
@@ -40,7 +41,6 @@ from tappet.project.store.rows import (
 )
 from tappet.project.store.saving import check_base, read_object, save_data, with_contents, with_index
 from tappet.project.store.tables import files, projects
-from tappet.project.templates import new_project
 
 Listener = Callable[[ChangeEvent], None]
 T = TypeVar("T")
@@ -80,7 +80,7 @@ class Store:
             )
             return [ProjectInfo(*row) for row in rows]
 
-    def library_references(self) -> list[tuple[ProjectInfo, LibraryReferenceData]]:
+    def library_references(self) -> list[tuple[ProjectInfo, LibraryReference]]:
         """The libraries that the projects refer to, by project."""
         with self._reading.begin() as connection:
             return read_library_references(connection)
@@ -147,7 +147,7 @@ class Store:
                 stored = read_info(connection, info.id)
         except IntegrityError as error:
             raise NameTakenError(f"There is a project named '{name}' already") from error
-        self._tell(event)
+        self._notify(event)
         return stored
 
     def change_project(
@@ -250,7 +250,7 @@ class Store:
             saved, event = save_data(
                 connection, info, object_id, base_revision, data, author, comment, autosave
             )
-        self._tell(event)
+        self._notify(event)
         return saved
 
     def save_all(
@@ -266,7 +266,7 @@ class Store:
             stored = read_project(connection, info)
             wanted = with_contents(connection, info, stored.project, contents)
             result, event = apply_project(connection, stored, wanted, "save", author, comment)
-        self._tell(event)
+        self._notify(event)
         return [result.get(content.object_id) for content in contents]
 
     def add(
@@ -389,8 +389,8 @@ class Store:
             stored = read_project(connection, info)
             wanted, outcome = change(stored.project)
             result, event = apply_project(connection, stored, wanted, action, author, comment, moved=moved)
-        self._tell(event)
-        known = result.objects.get(outcome.id) if isinstance(outcome, ObjectHead) else None
+        self._notify(event)
+        known = result.objects.get(outcome.id) if isinstance(outcome, ProjectObject) else None
         return outcome if known is None else known  # type: ignore[return-value]
 
     # -- history ------------------------------------------------------------------------------------
@@ -441,7 +441,7 @@ class Store:
                 index = sum(stored.positions[item.id] < position for item in siblings)
                 wanted = edit.restore_objects(stored.project, then, below, index)
             result, event = apply_project(connection, stored, wanted, "revert", author, comment)
-        self._tell(event)
+        self._notify(event)
         return result.get(object_id)
 
     def revert_project(
@@ -457,7 +457,7 @@ class Store:
             wanted = history.project_at(connection, info, revision)
             _, event = apply_project(connection, stored, wanted, "revert", author, comment)
             info = read_info(connection, project_id)
-        self._tell(event)
+        self._notify(event)
         return info
 
     def extra_files(self, project_id: str) -> dict[str, bytes]:
@@ -466,7 +466,7 @@ class Store:
             read_info(connection, project_id)
             return read_files(connection, project_id)
 
-    def _tell(self, event: ChangeEvent | None) -> None:
+    def _notify(self, event: ChangeEvent | None) -> None:
         if event is None:
             return
         for listener in tuple(self._listeners):

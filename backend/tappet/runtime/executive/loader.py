@@ -5,17 +5,18 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import json
-import os
 import threading
 from collections.abc import Mapping
-from importlib import metadata
 from pathlib import Path
 
-from tappet.codegen.optimise import ObjectCache
+import llvmlite
+
+from tappet.codegen.object_cache import ObjectCache
 from tappet.lang.source import Scope, Source
 from tappet.runtime import posix
 from tappet.runtime.executive.records import Block, Layout, MemberPlace, Record
 from tappet.runtime.link import LinkedCode, Linker
+from tappet.user_cache import cache_folder, compiler_stamp
 
 FOLDER = Path(__file__).parent
 
@@ -23,21 +24,26 @@ STRUCTURES = (
     "VALUE_ITEM", "VALUE_LIST", "WRITE_QUEUE", "IO_RANGE", "IO_LIST", "MEMORY_RANGE", "RECORDER",
     "RECORDER_LIST", "FLIGHT_ENTRY", "FLIGHT_RECORDER", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD",
     "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT", "APPLICATION_CONTEXT", "THREAD_ENTRY",
-    "EXECUTIVE_REGISTRY",
+    "EXECUTIVE_REGISTRY", "LOG_MESSAGE", "LOG_RING", "FILE_STORE",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
 
 ENTRIES = (
     "tappet_task_thread", "tappet_scheduler_thread", "tappet_virtual_thread", "tappet_call_thread",
     "tappet_signal", "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag",
-    "tappet_load",
+    "tappet_load", "tappet_file_thread", "tappet_files_reset",
 )  # fmt: skip
 """What Python starts or calls."""
+
+FILE_SERVICES = ("tappet_file", "tappet_file_post", "tappet_file_poll", "tappet_file_abandon")
+"""What libraries call for files."""
 
 SERVICES = (
     "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
     "tappet_keep_fault", "tappet_rethrow", "tappet_exception_code",
     "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_allocate", "tappet_release",
+    "tappet_unix_ns", "tappet_task_info", "tappet_log",
+    *FILE_SERVICES,
 )  # fmt: skip
 """What compiled applications and libraries may call."""
 
@@ -45,6 +51,8 @@ HOST_FUNCTIONS = (
     "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self",
     "pthread_getspecific", "pthread_setspecific", "pthread_sigmask", "sigaltstack", "signal", "prctl",
     "sem_post", "sem_wait", "abort", "calloc", "free", "_setjmp", "longjmp", "_longjmp",
+    "__errno_location", "openat", "close", "read", "write", "lseek", "ftruncate", "fsync", "statx",
+    "unlinkat", "renameat", "mkdirat", "fdopendir", "readdir", "closedir",
 )  # fmt: skip
 """What the executive itself takes from the C library."""
 
@@ -63,27 +71,21 @@ def sources() -> list[Source]:
     ]
 
 
-def _cache_folder() -> Path | None:
-    base = os.environ.get("XDG_CACHE_HOME")
-    home = Path(base) if base else Path.home() / ".cache"
-    return home / "tappet" / "executive"
-
-
 def build_executive() -> tuple[bytes, dict[str, Layout]]:
     """Object code and structure layouts; compiled once per version and kept in the user's cache."""
     texts = sources()
     digest = hashlib.blake2b(digest_size=20)
-    digest.update(f"{metadata.version('llvmlite')}|{_compiler_stamp()}|".encode())
+    digest.update(f"{llvmlite.__version__}|{compiler_stamp()}|".encode())
     for source in texts:
         digest.update(source.text.encode())
-    cache = ObjectCache(_cache_folder())
+    cache = ObjectCache(cache_folder("executive"))
     name = digest.hexdigest()
     code, table = cache.read(name), cache.read(name + "-layout")
     if code is not None and table is not None:
         return code, _layouts_from_table(json.loads(table))
-    from tappet.codegen import build  # the compiler is needed only when the cache is empty
+    from tappet.codegen.system import build_system  # the compiler is needed only when the cache is empty
 
-    system = build.build_system(texts)
+    system = build_system(texts)
     rows: dict[str, list[object]] = {}
     for structure in STRUCTURES:
         members = system.members_of(structure)
@@ -92,17 +94,6 @@ def build_executive() -> tuple[bytes, dict[str, Layout]]:
     cache.write(name, system.object)
     cache.write(name + "-layout", json.dumps(rows).encode())
     return system.object, _layouts_from_table(rows)
-
-
-def _compiler_stamp() -> str:
-    """Changes with the compiler's own files, so that a new compiler builds the executive anew."""
-    stamp = hashlib.blake2b(digest_size=8)
-    root = FOLDER.parent.parent
-    for room in ("lang", "core", "codegen"):
-        for file in sorted((root / room).rglob("*.py")):
-            status = file.stat()
-            stamp.update(f"{file.name}:{status.st_size}:{status.st_mtime_ns};".encode())
-    return stamp.hexdigest()
 
 
 def _layouts_from_table(table: Mapping[str, list[object]]) -> dict[str, Layout]:
@@ -147,6 +138,9 @@ class Executive:
         self._load = ctypes.CFUNCTYPE(ctypes.c_uint64, ctypes.c_uint64)(self.entries["tappet_load"])
         self._apply = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64)(self.entries["tappet_apply_values"])
         self._save = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64)(self.entries["tappet_save_retain"])
+        self._reset_files = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64)(
+            self.entries["tappet_files_reset"]
+        )
         self._install_handlers()
 
     def _fill_registry(self) -> None:
@@ -194,3 +188,7 @@ class Executive:
     def save_retain(self, address: int) -> None:
         """Copy a retain group into its file now; only while its task does not run."""
         self._save(address)
+
+    def reset_files(self, address: int) -> bool:
+        """Close the files of an application; only while no task runs. False while a request is served."""
+        return bool(self._reset_files(address))

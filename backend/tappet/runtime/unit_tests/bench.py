@@ -143,7 +143,7 @@ class Bench:
                     test.outcome = self._outcome(test, failures.get(number, []), lines.get(number, []))
 
     def broken(self, runtime: LocalRuntime, report: ExceptionReport, note: str = "") -> str | None:
-        """Gives the exception to the test, or else the suite, that it happened in; `note` goes on with its
+        """Gives the exception to the test, or else the suite, that it happened in; `note` continues with its
         message.
         """
         number = self._number(runtime, "diTest")

@@ -15,10 +15,11 @@ from dataclasses import asdict, astuple
 from typing import Any
 
 import msgpack
+import msgspec
 
 from tappet.codegen.build import BuildOptions, LibraryReference
-from tappet.codegen.package import TaskSpec
-from tappet.lang.source import Scope, Source
+from tappet.iec.task import Task
+from tappet.lang.source import Source
 from tappet.runtime.posix import PAGE, map_memory
 from tappet.runtime.unit_tests.attempts import FRESH, NO_MEMORY, Attempts
 from tappet.runtime.unit_tests.known import NOTHING, Known
@@ -29,7 +30,7 @@ from tappet.runtime.unit_tests.runner import TestLimits, TestProcess, run_tests
 
 def order(
     sources: Sequence[Source],
-    tasks: Sequence[TaskSpec],
+    tasks: Sequence[Task],
     options: BuildOptions,
     *,
     test_filter: str = "",
@@ -41,7 +42,7 @@ def order(
         "application": options.application,
         "libraries": [asdict(reference) for reference in options.libraries],
         "defines": options.defines,
-        "sources": [asdict(source) for source in sources],
+        "sources": [msgspec.to_builtins(source) for source in sources],
         "tasks": [{"name": t.name, "interval_ns": t.interval_ns, "programs": t.programs} for t in tasks],
         "filter": test_filter,
         "only": list(only),
@@ -78,12 +79,12 @@ def perform(content: dict[str, Any], write: Callable[[dict[str, Any]], None], pl
         libraries=tuple(LibraryReference.of(reference) for reference in content["libraries"]),
         defines=tuple((name, value) for name, value in content["defines"]),
     )
-    sources = [Source(**{**source, "scope": Scope(source["scope"])}) for source in content["sources"]]
-    tasks = [TaskSpec(**{**task, "programs": tuple(task["programs"])}) for task in content["tasks"]]
+    sources = [msgspec.convert(source, Source) for source in content["sources"]]
+    tasks = [Task(**{**task, "programs": tuple(task["programs"])}) for task in content["tasks"]]
     limits = TestLimits(**content["limits"])
     memory = MemoryLimit(limits.memory_mib)
 
-    def tell(report: Report, known: Known) -> None:
+    def send(report: Report, known: Known) -> None:
         write({"report": report.to_dict(), "known": known.to_dict()})
 
     report = run_tests(
@@ -98,11 +99,11 @@ def perform(content: dict[str, Any], write: Callable[[dict[str, Any]], None], pl
             place,
             memory,
             lambda marks: write({"marks": [astuple(mark) for mark in marks]}),
-            tell,
+            send,
         ),
     )
     memory.lift()
-    tell(report, NOTHING)
+    send(report, NOTHING)
 
 
 def main() -> None:

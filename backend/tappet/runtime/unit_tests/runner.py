@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from tappet.codegen.build import BuildOptions, LibraryReference, build_application
-from tappet.codegen.package import CodePackage, TaskSpec
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.source import Source
 from tappet.libraries import as_called, resolve
@@ -47,7 +48,7 @@ class TestLimits:
 
 @dataclass(frozen=True, slots=True)
 class TestProcess:
-    """What a run in a process of its own needs, so that another one can go on where it ends."""
+    """What a run in a process of its own needs, so that another one can continue where it ends."""
 
     known: Known
     """Outcomes of the processes before."""
@@ -56,7 +57,7 @@ class TestProcess:
     memory: MemoryLimit
     marks: Callable[[Sequence[Mark]], None]
     """Gets the marked places of the texts."""
-    tell: Callable[[Report, Known], None]
+    report: Callable[[Report, Known], None]
     """Gets what is known before and after each start of the application."""
 
     __test__ = False
@@ -64,7 +65,7 @@ class TestProcess:
 
 def run_tests(
     sources: Iterable[Source],
-    tasks: Sequence[TaskSpec] = (),
+    tasks: Sequence[Task] = (),
     options: BuildOptions | None = None,
     *,
     test_filter: str = "",
@@ -88,7 +89,7 @@ def run_tests(
     if not programs:
         texts.append(Source(PROGRAM, program_text(found.suites)))
         programs = (PROGRAM,)
-    task = TaskSpec("Tests", interval_ns=_interval(tasks, programs), programs=programs)
+    task = Task("Tests", interval_ns=_interval(tasks, programs), programs=programs)
     result = build_application(texts, (task,), options)
     if result.package is None:
         # as the engineer wrote it: the columns of what was put in are nobody's business
@@ -115,7 +116,7 @@ def with_library(options: BuildOptions, sources: Iterable[Source]) -> BuildOptio
     return replace(options, libraries=(*options.libraries, reference))
 
 
-def _interval(tasks: Sequence[TaskSpec], programs: Sequence[str]) -> int:
+def _interval(tasks: Sequence[Task], programs: Sequence[str]) -> int:
     """That of the task which calls the tests in the application."""
     wanted = {name.upper() for name in programs}
     for task in tasks:
@@ -152,14 +153,14 @@ class _Run:
             report = Report(self.application, bench.suites(), problem)
             if problem is not None or bench.complete:
                 return report
-            self._tell()
+            self._report()
             if self.process is not None and self.process.memory.used_up:
                 raise MemoryLimitReachedError
         return Report(self.application, bench.suites(), f"given up after {self.limits.restarts} exceptions")
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         if self.process is not None:
-            self.process.tell(Report(self.application, self.bench.suites()), self.bench.known())
+            self.process.report(Report(self.application, self.bench.suites()), self.bench.known())
 
     def _start(self) -> str | None:
         """One start: runs until all tests have finished or one ends in an exception."""
@@ -170,7 +171,7 @@ class _Run:
             if runtime.exception is not None:
                 return f"the application does not start: {ApplicationException(runtime.exception)}"
             bench.prepare(runtime, self.filter, self.only, self.process.place if self.process else 0)
-            self._tell()
+            self._report()
             runtime.start()
             end_ns = runtime.now_ns + int(self.limits.simulated_s * NS_PER_S)
             cycles = 1

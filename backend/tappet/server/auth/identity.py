@@ -61,7 +61,7 @@ def resolve(
     *,
     touch: bool = False,
 ) -> Identity | None:
-    """Who the credential stands for now; None when it no longer does. Blocks for the database.
+    """The identity that the credential proves now; None when it no longer does. Blocks for the database.
 
     With `touch` this counts as a use. An open socket alone does not, or a session would never be idle.
     """

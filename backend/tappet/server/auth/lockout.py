@@ -58,7 +58,7 @@ def wait(db: Connection, keys: list[str], now: datetime) -> timedelta:
 def attempt(db: Connection, keys: list[str], now: datetime) -> timedelta:
     """Counts an attempt as failed before its password is looked at, so that parallel guesses gain nothing.
 
-    Returns how long the attempt must wait instead (then nothing is counted); only zero lets it go on.
+    Returns how long the attempt must wait instead (then nothing is counted); only zero lets it continue.
     """
     db.execute(delete(login_failures).where(login_failures.c.last_at < now - FORGET_AFTER))
     pause = wait(db, keys, now)
@@ -76,7 +76,7 @@ def attempt(db: Connection, keys: list[str], now: datetime) -> timedelta:
 
 
 def succeeded(db: Connection, keys: list[str]) -> None:
-    """Takes the attempt back. The account starts anew; the address keeps its earlier failures, or one known
+    """Takes the attempt back. The account starts again; the address keeps its earlier failures, or one known
     account would free it."""
     for key in keys:
         mine = login_failures.c.key == key

@@ -62,7 +62,7 @@ class Passwords:
             return matches and encoded is not None
 
     def outdated(self, encoded: str | None) -> bool:
-        """Whether the hash was made at another cost and should be made anew."""
+        """Whether the hash was made at another cost and should be made again."""
         return encoded is not None and self._hasher.check_needs_rehash(encoded)
 
 

@@ -28,7 +28,7 @@ class Session:
     username: str
     role: Role
     touch_due: bool
-    """Whether the last use has to be written down anew."""
+    """Whether the last use has to be written down again."""
 
 
 def start(db: Connection, user_id: str, address: str, browser: str, now: datetime) -> str:

@@ -33,14 +33,14 @@ class ApiToken:
 
 @dataclass(frozen=True, slots=True)
 class TokenUse:
-    """Who a presented token stands for."""
+    """The identity that a presented token proves."""
 
     id: str
     user_id: str
     username: str
     role: Role
     touch_due: bool
-    """Whether the last use has to be written down anew."""
+    """Whether the last use has to be written down again."""
 
 
 def issue(

@@ -23,11 +23,12 @@ from tappet.lang.services.results import (
     Signature,
 )
 from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES, SemanticToken
-from tappet.server.lsp.positions import Line, to_range, units
+from tappet.server.lsp.shown import OtherTextError, ShownDocument
+from tappet.server.lsp.utf16 import units
 
 LANGUAGE_ID: Final = "iec-st"
-Lines = Callable[[str], Line]
-"""The lines of a document."""
+Shown = Callable[[str], ShownDocument]
+"""A document as the client shows it."""
 
 _COMPLETION_KINDS: Final = {
     ItemKind.PROGRAM: lsp.CompletionItemKind.Module,
@@ -90,9 +91,11 @@ _FOLD_KINDS: Final = {
 }
 
 
-def location(place: Place, lines: Lines) -> lsp.Location:
-    """A place in some document."""
-    return lsp.Location(place.document, to_range(lines(place.document), place.span))
+def location(place: Place, shown: Shown) -> lsp.Location | None:
+    """A place in some document; None for one that the client does not show."""
+    document = shown(place.document)
+    found = document.range(place.span)
+    return None if found is None else lsp.Location(document.spelled, found)
 
 
 def completion_list(items: Sequence[Completion], line: str, position: Position) -> lsp.CompletionList:
@@ -139,13 +142,13 @@ def escaped(text: str) -> str:
     return marked.replace("\n", "  \n")
 
 
-def hover(found: Hover, line: Line) -> lsp.Hover:
+def hover(found: Hover, shown: ShownDocument) -> lsp.Hover:
     """An explanation."""
     parts = [f"```{LANGUAGE_ID}\n{found.code}\n```"]
     if found.text:
         parts.append("\n\n".join(_prose(piece) for piece in found.text.split("\n\n")))
     content = lsp.MarkupContent(lsp.MarkupKind.Markdown, "\n\n".join(parts))
-    return lsp.Hover(content, to_range(line, found.span))
+    return lsp.Hover(content, shown.range(found.span))
 
 
 def _prose(piece: str) -> str:
@@ -167,48 +170,55 @@ def signature_help(found: Signature) -> lsp.SignatureHelp:
     return lsp.SignatureHelp([information], 0, found.active)
 
 
-def document_symbols(entries: Iterable[Outline], line: Line) -> list[lsp.DocumentSymbol]:
+def document_symbols(entries: Iterable[Outline], shown: ShownDocument) -> list[lsp.DocumentSymbol]:
     """The outline of a document."""
-    return [
-        lsp.DocumentSymbol(
-            name=entry.name,
-            kind=_SYMBOL_KINDS.get(entry.kind, lsp.SymbolKind.Variable),
-            range=to_range(line, entry.span),
-            selection_range=to_range(line, entry.name_span),
-            detail=entry.detail or None,
-            children=document_symbols(entry.children, line) or None,
+    found = []
+    for entry in entries:
+        children = document_symbols(entry.children, shown)
+        whole, name = shown.range(entry.span), shown.range(entry.name_span)
+        if whole is None or name is None:
+            found += children
+            continue
+        kind = _SYMBOL_KINDS.get(entry.kind, lsp.SymbolKind.Variable)
+        found.append(
+            lsp.DocumentSymbol(entry.name, kind, whole, name, entry.detail or None, children=children or None)
         )
-        for entry in entries
-    ]
-
-
-def highlights(found: Iterable[Reference], line: Line) -> list[lsp.DocumentHighlight]:
-    """The places of a name in its document."""
-    write, read = lsp.DocumentHighlightKind.Write, lsp.DocumentHighlightKind.Read
-    return [
-        lsp.DocumentHighlight(
-            to_range(line, item.place.span), write if item.role in ("write", "declaration") else read
-        )
-        for item in found
-    ]
-
-
-def text_edits(edits: Iterable[Edit], lines: Lines) -> dict[str, list[lsp.TextEdit]]:
-    """Edits by document."""
-    found: dict[str, list[lsp.TextEdit]] = {}
-    for edit in edits:
-        document = edit.place.document
-        change = lsp.TextEdit(to_range(lines(document), edit.place.span), edit.text)
-        found.setdefault(document, []).append(change)
     return found
 
 
-def code_action(
-    item: CodeAction, document: str, lines: Lines, spelled: Callable[[str], str], language: Language
-) -> lsp.CodeAction:
-    """Something that mends a message. What is more than an edit stands in `data`, for the client to do."""
-    (report,) = diagnostics([item.report], document, lines, False, language)
-    changes = {spelled(uri): edits for uri, edits in text_edits(item.edits, lines).items()}
+def highlights(found: Iterable[Reference], shown: ShownDocument) -> list[lsp.DocumentHighlight]:
+    """The places of a name in its document."""
+    write, read = lsp.DocumentHighlightKind.Write, lsp.DocumentHighlightKind.Read
+    places = ((shown.range(item.place.span), item.role) for item in found)
+    return [
+        lsp.DocumentHighlight(place, write if role in ("write", "declaration") else read)
+        for place, role in places
+        if place is not None
+    ]
+
+
+def text_edits(edits: Iterable[Edit], shown: Shown) -> dict[str, list[lsp.TextEdit]]:
+    """Edits by document. Raises OtherTextError for one in lines that the client does not show."""
+    found: dict[str, list[lsp.TextEdit]] = {}
+    for edit in edits:
+        document = shown(edit.place.document)
+        place = document.range(edit.place.span)
+        if place is None:
+            raise OtherTextError(
+                f"Somebody else is writing in '{document.spelled}', in lines that this concerns; "
+                "try again when they are saved"
+            )
+        found.setdefault(document.spelled, []).append(lsp.TextEdit(place, edit.text))
+    return found
+
+
+def code_action(item: CodeAction, document: str, shown: Shown, language: Language) -> lsp.CodeAction:
+    """Something that mends a message. What is more than an edit stands in `data`, for the client to do.
+
+    Raises OtherTextError for an edit in lines that the client does not show.
+    """
+    reported = diagnostics([item.report], document, shown, False, language)
+    changes = text_edits(item.edits, shown)
     members = [
         {"kind": m.kind, "name": m.name, "declaration": m.declaration, "accessors": list(m.accessors)}
         for m in item.members
@@ -216,7 +226,7 @@ def code_action(
     return lsp.CodeAction(
         title=item.title,
         kind=lsp.CodeActionKind.QuickFix,
-        diagnostics=[report],
+        diagnostics=reported,
         is_preferred=item.preferred or None,
         edit=lsp.WorkspaceEdit(changes) if changes else None,
         data={
@@ -224,7 +234,7 @@ def code_action(
             "values": dict(item.values),
             "declare": {"name": item.declare, "type": item.type} if item.declare else None,
             "library": item.library or None,
-            "members": {"owner": spelled(item.owner), "items": members} if members else None,
+            "members": {"owner": shown(item.owner).spelled, "items": members} if members else None,
         },
     )
 
@@ -245,18 +255,21 @@ def style(settings: object) -> Style:
     )
 
 
-def semantic_tokens(tokens: Sequence[SemanticToken], line: Line) -> lsp.SemanticTokens:
+def semantic_tokens(tokens: Sequence[SemanticToken], shown: ShownDocument) -> lsp.SemanticTokens:
     """Tokens as the protocol packs them: five numbers each, relative to the one before."""
     data: list[int] = []
     last_line = last_start = 0
     for token in tokens:
-        text = line(token.line)
+        number = shown.shown_line(token.line)
+        if number is None:
+            continue
+        text = shown.line(token.line)
         start = units(text, token.column)
         length = units(text, token.column + token.length) - start
         if length <= 0:
             continue
         modifiers = sum(1 << TOKEN_MODIFIERS.index(name) for name in token.modifiers)
-        step = token.line - last_line
+        step = number - last_line
         data += (
             step,
             start - last_start if step == 0 else start,
@@ -264,40 +277,51 @@ def semantic_tokens(tokens: Sequence[SemanticToken], line: Line) -> lsp.Semantic
             TOKEN_TYPES.index(token.type),
             modifiers,
         )
-        last_line, last_start = token.line, start
+        last_line, last_start = number, start
     return lsp.SemanticTokens(data)
 
 
-def folding_ranges(found: Iterable[Fold]) -> list[lsp.FoldingRange]:
+def folding_ranges(found: Iterable[Fold], shown: ShownDocument) -> list[lsp.FoldingRange]:
     """Lines that can be folded."""
-    return [lsp.FoldingRange(fold.start, fold.end, kind=_FOLD_KINDS.get(fold.kind)) for fold in found]
+    moved = ((shown.shown_line(fold.start), shown.shown_line(fold.end), fold.kind) for fold in found)
+    return [
+        lsp.FoldingRange(start, end, kind=_FOLD_KINDS.get(kind))
+        for start, end, kind in moved
+        if start is not None and end is not None
+    ]
 
 
 def diagnostics(
-    reports: Iterable[Report], document: str, lines: Lines, advise: bool, language: Language = "en"
+    reports: Iterable[Report], document: str, shown: Shown, advise: bool, language: Language = "en"
 ) -> list[lsp.Diagnostic]:
-    """The messages of a document; with `advise` the advice is in the text, for clients that show no data."""
-    line = lines(document)
+    """The messages of a document, those in lines that the client does not show left out; with `advise` the
+    advice is in the text, for clients that show no data."""
+    here = shown(document)
     found = []
     for report in reports:
+        place = here.range(report.span)
+        if place is None:
+            continue
         message, advice = said(report.code, Texts(report.message, report.advice), report.facts, language)
         if advise and advice:
             message = f"{message}. {advice}"
         tag = _TAGS.get(report.code)
         related = [
-            lsp.DiagnosticRelatedInformation(location(item.place, lines), phrase(item.message, language))
+            lsp.DiagnosticRelatedInformation(found_at, phrase(item.message, language))
             for item in report.related
+            if (found_at := location(item.place, shown)) is not None
         ]
         found.append(
             lsp.Diagnostic(
-                range=to_range(line, report.span),
+                range=place,
                 message=message,
                 severity=_SEVERITIES[report.severity],
                 code=report.code,
                 source="tappet",
                 tags=[tag] if tag is not None else None,
                 related_information=related or None,
-                data={"advice": advice, "facts": dict(report.facts)},
+                data={"advice": advice, "facts": dict(report.facts)}
+                | ({} if report.element is None else {"element": report.element}),
             )
         )
     return found

@@ -13,12 +13,10 @@ from urllib.parse import quote, unquote, urlsplit
 
 from tappet import libraries
 from tappet.lang.coding_settings import NO_RULES, StaticAnalysis, static_analysis
-from tappet.lang.services.documents import Program, Segment, Text, library_text, whole_file
+from tappet.lang.services.documents import Program, Segment, SourceMap, Text, library_text, whole_file
 from tappet.lang.source import Scope, Source, split_lines
-from tappet.project.data import ApplicationData
 from tappet.project.errors import FolderFormatError
-from tappet.project.folder.filenames import stem_of
-from tappet.project.folder.layout import INDEX_FILE, read_index
+from tappet.project.project_file import INDEX_FILE
 
 MAX_FILES = 20_000
 """A folder with more is not a project but, say, a home folder."""
@@ -43,7 +41,7 @@ def canonical_uri(uri: str) -> str:
 
 
 class FolderPrograms:
-    """Composes the programs of a folder. Reads the files anew each time; unchanged ones are cheap."""
+    """Composes the programs of a folder. Reads the files again each time; unchanged ones are cheap."""
 
     def __init__(self, root: Path) -> None:
         self.root = root.resolve()
@@ -138,7 +136,10 @@ class FolderPrograms:
         """The coding rules that the application of a project folder has chosen."""
         path = self.root / f"{application}.application.json"
         try:
-            chosen = ApplicationData.model_validate_json(path.read_bytes()).static_analysis
+            content = path.read_bytes()
+            from tappet.project.kinds.application import ApplicationData  # project folders only
+
+            chosen = ApplicationData.model_validate_json(content).static_analysis
         except (OSError, ValueError):
             return NO_RULES
         if not chosen.with_build:
@@ -193,7 +194,11 @@ class _LeftOut:
 
     def _read(self, path: Path) -> Iterator[str]:
         try:
-            entries = read_index(path.name, path.read_bytes())
+            content = path.read_bytes()
+            from tappet.project.folder.filenames import stem_of  # project folders only
+            from tappet.project.folder.layout import read_index
+
+            entries = read_index(path.name, content)
         except (OSError, FolderFormatError):
             return
         for entry in entries:
@@ -212,13 +217,13 @@ def _property(
     lines = split_lines(files[path])
     end = next((number for number, line in enumerate(lines) if _PROPERTY_END.match(line)), len(lines))
     composed = lines[:end]
-    segments = [Segment(0, file_uri(path), 0, end)] if end else []
+    segments = [Segment(0, file_uri(path), "", 0, end, len(lines[end - 1]))] if end else []
     for accessor in accessors:
         part = split_lines(files[accessor])
-        segments.append(Segment(len(composed), file_uri(accessor), 0, len(part)))
+        segments.append(Segment(len(composed), file_uri(accessor), "", 0, len(part), len(part[-1])))
         composed += part
     if end < len(lines):
-        segments.append(Segment(len(composed), file_uri(path), end, len(lines) - end))
+        segments.append(Segment(len(composed), file_uri(path), "", end, len(lines) - end, len(lines[-1])))
         composed += lines[end:]
     source = Source(str(path), "\n".join(composed), scope=scope, owner=owner, name=path.stem)
-    return Text(source, tuple(segments))
+    return Text(source, SourceMap(tuple(segments)))

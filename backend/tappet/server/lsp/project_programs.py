@@ -5,20 +5,27 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
+from msgspec import structs
+
 from tappet import libraries
 from tappet.codegen.build import as_source
 from tappet.lang.coding_settings import static_analysis
-from tappet.lang.services.documents import Program, Segment, Text, library_text
+from tappet.lang.services.documents import Program, SourceMap, Text, library_text
 from tappet.project import sources as project_sources
 from tappet.project.model import Project, ProjectObject
-from tappet.project.sources import SourceText
+from tappet.project.source_text import SourceText
 
 PARTS = ("declaration", "implementation")
 
 
+def object_uri(project_id: str, object_id: str) -> str:
+    """An object; its documents have the name of their part behind it."""
+    return f"tappet:/{project_id}/{object_id}"
+
+
 def part_uri(project_id: str, object_id: str, part: str) -> str:
     """The document of one part of an object."""
-    return f"tappet:/{project_id}/{object_id}/{part}"
+    return f"{object_uri(project_id, object_id)}/{part}"
 
 
 def parse_part_uri(uri: str, project_id: str) -> tuple[str, str] | None:
@@ -31,7 +38,7 @@ def parse_part_uri(uri: str, project_id: str) -> tuple[str, str] | None:
 
 
 class ProjectPrograms:
-    """Composes the programs of one project; `load` reads it anew after `changed` was called."""
+    """Composes the programs of one project; `load` reads it again after `changed` was called."""
 
     def __init__(self, project_id: str, load: Callable[[], Project]) -> None:
         self.project_id = project_id
@@ -47,13 +54,24 @@ class ProjectPrograms:
 
     def __call__(self, unsaved: Mapping[str, str]) -> list[Program]:
         """All applications with the libraries they use."""
+        project = self._with_unsaved(self._stored(), unsaved)
+        programs = [self._application(project, application) for application in project.applications()]
+        return programs or [self._without_application(project)]
+
+    def stored(self, document: str) -> str | None:
+        """The stored text of a document; None for a document of something else, or one that is gone."""
+        found = parse_part_uri(document, self.project_id)
+        item = self._stored().objects.get(found[0]) if found is not None else None
+        text = getattr(item.data, found[1], None) if found is not None and item is not None else None
+        return text if isinstance(text, str) else None
+
+    def _stored(self) -> Project:
+        """The project as it is stored."""
         if self._project is None or self._loaded != self._changes:
             changes = self._changes
             self._project = self._load()
             self._loaded = changes  # one that came meanwhile counts: it may have been too late to be read
-        project = self._with_unsaved(self._project, unsaved)
-        programs = [self._application(project, application) for application in project.applications()]
-        return programs or [self._without_application(project)]
+        return self._project
 
     def _with_unsaved(self, project: Project, unsaved: Mapping[str, str]) -> Project:
         objects = dict(project.objects)
@@ -93,27 +111,18 @@ class ProjectPrograms:
         return texts
 
     def _text(self, project: Project, text: SourceText, uri: str) -> Text:
-        source = replace(as_source(text), uri=uri)
-        segments = tuple(
-            Segment(
-                segment.line,
-                part_uri(self.project_id, segment.object_id, segment.part),
-                segment.part_line,
-                _line_count(project.get(segment.object_id), segment.part) - segment.part_line,
-            )
-            for segment in text.segments
+        source = replace(as_source(text), uri=uri, map=None)
+        segments = (
+            structs.replace(segment, object_id=object_uri(self.project_id, segment.object_id))
+            for segment in text.map.segments
         )
-        return Text(source, segments)
-
-
-def _line_count(item: ProjectObject, part: str) -> int:
-    return str(getattr(item.data, part)).count("\n") + 1
+        return Text(source, SourceMap(tuple(segments)))
 
 
 def _objects_with_text(project: Project) -> Iterator[SourceText]:
     """Every object of a project that has no application."""
     for item in project.walk():
-        if item.kind != "accessor":
+        if not project_sources.compiled(item).in_parent:
             text = project_sources.source_of(project, item.id)
             if text is not None:
                 yield text

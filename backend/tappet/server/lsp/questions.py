@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any, Final
 
@@ -11,6 +12,7 @@ from tappet.lang.services import (
     code_actions,
     cross_references,
     folding,
+    monitoring,
     navigation,
     operands,
     outline,
@@ -41,6 +43,7 @@ from tappet.lang.services.results import CrossReference, Outline, ServiceError
 from tappet.lang.source import Span
 from tappet.server.lsp import convert
 from tappet.server.lsp.positions import lines_of, to_position, to_range
+from tappet.server.lsp.shown import OtherTextError
 
 if TYPE_CHECKING:
     from tappet.server.lsp.session import LanguageSession
@@ -60,7 +63,8 @@ def completion(session: LanguageSession, params: lsp.CompletionParams) -> lsp.Co
     """What can be written here."""
     uri, position = session.at(params)
     found = completions.complete(session.workspace, uri, position)
-    return convert.completion_list(found, session.lines(uri)(position.line), position)
+    shown = session.shown(uri)
+    return convert.completion_list(found, shown.line(position.line), shown.own_position(params.position))
 
 
 def completion_in(session: LanguageSession, params: Any) -> lsp.CompletionList:
@@ -95,11 +99,20 @@ def operand_facts(session: LanguageSession, params: Any) -> list[dict[str, str] 
     return [None if found is None else asdict(found) for found in operands.facts(view, wanted)]
 
 
+def element_variables(session: LanguageSession, params: Any) -> dict[str, list[str]]:
+    """The expressions to monitor at the elements of a drawn body, by id: `{textDocument}`."""
+    identifier, _ = _place(
+        params | {"position": {"line": 0, "character": 0}} if isinstance(params, dict) else None
+    )
+    uri = session.canonical(identifier.uri)
+    return monitoring.variables_of(session.snapshot(uri), uri)
+
+
 def hover(session: LanguageSession, params: lsp.HoverParams) -> lsp.Hover | None:
     """What this is."""
     uri, position = session.at(params)
     found = hovers.hover(session.snapshot(uri), uri, position)
-    return convert.hover(found, session.lines(uri)) if found is not None else None
+    return convert.hover(found, session.shown(uri)) if found is not None else None
 
 
 def signature_help(session: LanguageSession, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
@@ -126,9 +139,7 @@ def type_definition(session: LanguageSession, params: lsp.TypeDefinitionParams) 
 def implementation(session: LanguageSession, params: lsp.ImplementationParams) -> list[lsp.Location]:
     """What implements or replaces this."""
     uri, position = session.at(params)
-    return [
-        session.location(place) for place in navigation.implementations(session.snapshot(uri), uri, position)
-    ]
+    return session.locations(navigation.implementations(session.snapshot(uri), uri, position))
 
 
 def references(session: LanguageSession, params: lsp.ReferenceParams) -> list[lsp.Location]:
@@ -139,7 +150,7 @@ def references(session: LanguageSession, params: lsp.ReferenceParams) -> list[ls
         if snapshot.shows(uri):
             for item in navigation.references(snapshot, uri, position, params.context.include_declaration):
                 places.setdefault(item.place)
-    return [session.location(place) for place in places]
+    return session.locations(places)
 
 
 def document_highlight(
@@ -147,13 +158,13 @@ def document_highlight(
 ) -> list[lsp.DocumentHighlight]:
     """Where this is used in the document."""
     uri, position = session.at(params)
-    return convert.highlights(navigation.highlights(session.snapshot(uri), uri, position), session.lines(uri))
+    return convert.highlights(navigation.highlights(session.snapshot(uri), uri, position), session.shown(uri))
 
 
 def document_symbol(session: LanguageSession, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
     """The outline."""
     uri = session.canonical(params.text_document.uri)
-    return convert.document_symbols(outline.outline(session.snapshot(uri), uri), session.lines(uri))
+    return convert.document_symbols(outline.outline(session.snapshot(uri), uri), session.shown(uri))
 
 
 def workspace_symbol(
@@ -170,12 +181,13 @@ def workspace_symbol(
                 and entry.kind != "section"
                 and (wanted or entry.kind not in _MEMBERS)
             ):
-                (symbol,) = convert.document_symbols([replace(entry, children=[])], session.lines(document))
-                place = lsp.Location(session.spelled(document), symbol.selection_range)
-                found.setdefault(
-                    (text_name, f"{container}.{entry.name}"),
-                    lsp.SymbolInformation(place, entry.name, symbol.kind, container_name=container),
-                )
+                shown = session.shown(document)
+                for symbol in convert.document_symbols([replace(entry, children=[])], shown):
+                    place = lsp.Location(shown.spelled, symbol.selection_range)
+                    found.setdefault(
+                        (text_name, f"{container}.{entry.name}"),
+                        lsp.SymbolInformation(place, entry.name, symbol.kind, container_name=container),
+                    )
             collect(text_name, document, entry.children, container if entry.kind == "section" else entry.name)
 
     for snapshot in session.workspace.snapshots():
@@ -196,7 +208,7 @@ def workspace_symbol(
 def formatting(session: LanguageSession, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
     """The edits that format a document."""
     uri = session.canonical(params.text_document.uri)
-    text = session.text_now(uri)
+    text = session.text(uri)
     if text is None:
         raise ServiceError(f"'{params.text_document.uri}' is not open")
     options = params.options
@@ -209,15 +221,18 @@ def formatting(session: LanguageSession, params: lsp.DocumentFormattingParams) -
 def folding_range(session: LanguageSession, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
     """What can be folded."""
     uri = session.canonical(params.text_document.uri)
-    return convert.folding_ranges(folding.folds(session.snapshot(uri), uri))
+    return convert.folding_ranges(folding.folds(session.snapshot(uri), uri), session.shown(uri))
 
 
 def prepare_rename(session: LanguageSession, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
     """The name that would be renamed; refused with the reason when it cannot be."""
     uri, position = session.at(params)
     span = renaming.renameable(session.snapshot(uri), uri, position)
-    line = session.lines(uri)
-    return lsp.PrepareRenamePlaceholder(to_range(line, span), line(span.line)[span.column : span.end_column])
+    shown = session.shown(uri)
+    place = shown.range(span)
+    if place is None:
+        raise OtherTextError(f"Somebody else is writing in '{shown.spelled}'; try again when it is saved")
+    return lsp.PrepareRenamePlaceholder(place, shown.line(span.line)[span.column : span.end_column])
 
 
 def rename(session: LanguageSession, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
@@ -229,14 +244,13 @@ def rename(session: LanguageSession, params: lsp.RenameParams) -> lsp.WorkspaceE
             edits.update(
                 {edit.place: edit for edit in renaming.rename(snapshot, uri, position, params.new_name)}
             )
-    changes = convert.text_edits(edits.values(), session.lines)
-    return lsp.WorkspaceEdit({session.spelled(document): found for document, found in changes.items()})
+    return lsp.WorkspaceEdit(convert.text_edits(edits.values(), session.shown))
 
 
 def semantic_tokens(session: LanguageSession, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
     """What each word is."""
     uri = session.canonical(params.text_document.uri)
-    return convert.semantic_tokens(tokens.semantic_tokens(session.snapshot(uri), uri), session.lines(uri))
+    return convert.semantic_tokens(tokens.semantic_tokens(session.snapshot(uri), uri), session.shown(uri))
 
 
 def read_document(session: LanguageSession, params: Any) -> dict[str, str]:
@@ -249,7 +263,7 @@ def read_document(session: LanguageSession, params: Any) -> dict[str, str]:
 
 
 def expand_shorthand(session: LanguageSession, params: Any) -> dict[str, str | None]:
-    """The declaration that a typed line stands for (DECL-61..DECL-66)."""
+    """The declaration that a typed line denotes (DECL-61..DECL-66)."""
     line = params.get("line") if isinstance(params, dict) else None
     if not isinstance(line, str) or len(line) > MAX_LINE:
         raise ServiceError("'line' is the text of one line of a declaration editor")
@@ -259,12 +273,13 @@ def expand_shorthand(session: LanguageSession, params: Any) -> dict[str, str | N
 def code_action(session: LanguageSession, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
     """What mends the messages of a range."""
     uri = session.canonical(params.text_document.uri)
-    lines = session.lines(uri)
-    begin, end = to_position(lines, params.range.start), to_position(lines, params.range.end)
+    shown = session.shown(uri)
+    begin, end = shown.position(params.range.start), shown.position(params.range.end)
     actions = code_actions.code_actions(session.snapshot(uri), uri, Span(*begin, *end), session.offering)
-    found = [
-        convert.code_action(item, uri, session.lines, session.spelled, session.language) for item in actions
-    ]
+    found = []
+    for action in actions:
+        with suppress(OtherTextError):
+            found.append(convert.code_action(action, uri, session.shown, session.language))
     return [item for item in found if session.asks or item.edit is not None]
 
 
@@ -290,15 +305,18 @@ def cross_reference_list(session: LanguageSession, params: Any) -> list[dict[str
             if snapshot.shows(uri):
                 for item in cross_references.cross_references(snapshot, uri, inside):
                     places.setdefault(item.place, item)
+    found = ((session.location(item.place), item) for item in places.values())
     return [
         {
-            "uri": session.spelled(item.place.document),
-            "range": to_range(session.lines(item.place.document), item.place.span),
+            "uri": place.uri,
+            "range": place.range,
             "access": item.role,
+            "element": item.place.element,
             "symbol": item.symbol,
             "text": item.text,
         }
-        for item in places.values()
+        for place, item in found
+        if place is not None
     ]
 
 

@@ -1,7 +1,9 @@
 """JSON-RPC 2.0 as the Language Server Protocol uses it, whatever carries the messages.
 
-Requests and notifications are carried out one after the other in one thread of their own, in the order they
-came, so that a request sees every edit before it. A request that waits can be cancelled.
+Requests and notifications of one endpoint are carried out one after the other in the order they came, so
+that a request sees every edit before it. Endpoints may share a thread: each has one piece of work in it at
+a time, so that one with a thousand requests does not keep the others waiting. A request that waits can be
+cancelled.
 """
 
 from __future__ import annotations
@@ -9,8 +11,11 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+from collections import deque
 from collections.abc import Awaitable, Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 log = logging.getLogger(__name__)
@@ -27,10 +32,23 @@ REQUEST_CANCELLED = -32800
 MAX_WAITING = 1000
 """Requests that may wait; a client that sends more without reading answers is refused."""
 
-Send = Callable[[str], Awaitable[None]]
+Id = int | str
+
+
+@dataclass(frozen=True, slots=True)
+class Outgoing:
+    """A message for the client, and what who carries it may want to know."""
+
+    text: str
+    answers: Id | None = None
+    """The request that this is the answer to."""
+    replaces: str = ""
+    """An unsent message with the same key is out of date now: the document whose messages these are."""
+
+
+Send = Callable[[Outgoing], Awaitable[None]]
 Work = Callable[[Any], Any]
 """Carries out one method with its raw params and gives its raw result; runs in the thread of the endpoint."""
-Id = int | str
 
 
 class RpcError(Exception):
@@ -44,12 +62,14 @@ class RpcError(Exception):
 class Endpoint:
     """One side of a JSON-RPC connection. Made in the event loop that serves it."""
 
-    def __init__(self, send: Send, find: Callable[[str, bool], Work | None]) -> None:
+    def __init__(self, send: Send, find: Callable[[str, bool], Work | None], thread: Executor) -> None:
         """`send` writes a message; `find` gives the work of a method (flag: a request), None if unknown."""
         self._send = send
         self._find = find
         self._loop = asyncio.get_running_loop()
-        self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lsp")
+        self._thread = thread
+        self._queue: deque[tuple[asyncio.Future[Any], Callable[[], Any]]] = deque()
+        self._at_work: asyncio.Future[Any] | None = None
         self._waiting: dict[Id, asyncio.Future[Any]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -89,7 +109,7 @@ class Endpoint:
 
     def post(self, work: Callable[[], Any], name: str) -> None:
         """Have something done behind what has come so far, without an answer; `name` is for the log."""
-        self._keep(self._report(self._loop.run_in_executor(self._worker, work), name))
+        self._keep(self._report(self._in_turn(work), name))
 
     async def _request(self, identifier: Id, method: str, params: Any) -> None:
         work = self._find(method, True)
@@ -103,9 +123,36 @@ class Endpoint:
             self._keep(self._reply(identifier, method, self._submit(identifier, work, params)))
 
     def _submit(self, identifier: Id, work: Work, params: Any) -> asyncio.Future[Any]:
-        future = self._loop.run_in_executor(self._worker, work, params)
+        future = self._in_turn(partial(work, params))
         self._waiting[identifier] = future
         return future
+
+    def _in_turn(self, work: Callable[[], Any]) -> asyncio.Future[Any]:
+        """The result of work behind what has come so far."""
+        future: asyncio.Future[Any] = self._loop.create_future()
+        self._queue.append((future, work))
+        self._next()
+        return future
+
+    def _next(self) -> None:
+        """Give the thread the next piece of work, if it has none of this endpoint."""
+        while self._at_work is None and self._queue:
+            future, work = self._queue.popleft()
+            if not future.cancelled():
+                self._at_work = self._loop.run_in_executor(self._thread, work)
+                self._at_work.add_done_callback(partial(self._done, future))
+
+    def _done(self, future: asyncio.Future[Any], done: asyncio.Future[Any]) -> None:
+        self._at_work = None
+        error = None if done.cancelled() else done.exception()
+        if done.cancelled():
+            future.cancel()
+        elif not future.done():
+            if error is not None:
+                future.set_exception(error)
+            else:
+                future.set_result(done.result())
+        self._next()
 
     async def _reply(self, identifier: Id, method: str, future: asyncio.Future[Any]) -> None:
         try:
@@ -122,7 +169,7 @@ class Endpoint:
                 identifier, INTERNAL_ERROR, f"'{method}' failed; the server's log says more"
             )
         else:
-            await self._write({"jsonrpc": "2.0", "id": identifier, "result": result})
+            await self._write({"jsonrpc": "2.0", "id": identifier, "result": result}, identifier)
         finally:
             self._waiting.pop(identifier, None)
 
@@ -134,20 +181,16 @@ class Endpoint:
         except Exception:
             log.exception("notification '%s' failed", name)
 
-    async def run(self, work: Callable[[], Any]) -> Any:
-        """Run something between the requests, in their thread."""
-        return await self._loop.run_in_executor(self._worker, work)
-
-    async def notify(self, method: str, params: Any) -> None:
-        """Send a notification."""
-        await self._write({"jsonrpc": "2.0", "method": method, "params": params})
+    async def notify(self, method: str, params: Any, replaces: str = "") -> None:
+        """Send a notification; `replaces`: in place of an unsent one with this key."""
+        await self._write({"jsonrpc": "2.0", "method": method, "params": params}, replaces=replaces)
 
     async def close(self) -> None:
-        """Drop what waits and end the thread when it is done with what it does."""
+        """Drop what waits; what is done in the thread now ends without an answer."""
+        self._queue.clear()
         for task in list(self._tasks):
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        self._worker.shutdown(wait=False, cancel_futures=True)
 
     async def settle(self) -> None:
         """Wait until everything received so far is answered."""
@@ -161,7 +204,8 @@ class Endpoint:
 
     async def _answer_error(self, identifier: Id | None, code: int, message: str) -> None:
         error = {"code": code, "message": message}
-        await self._write({"jsonrpc": "2.0", "id": identifier, "error": error})
+        await self._write({"jsonrpc": "2.0", "id": identifier, "error": error}, identifier)
 
-    async def _write(self, message: dict[str, Any]) -> None:
-        await self._send(json.dumps(message, ensure_ascii=False, separators=(",", ":")))
+    async def _write(self, message: dict[str, Any], answers: Id | None = None, replaces: str = "") -> None:
+        text = json.dumps(message, ensure_ascii=False, separators=(",", ":"))
+        await self._send(Outgoing(text, answers, replaces))

@@ -1,15 +1,14 @@
-"""One connection of an editor: its open documents, what it asks, and the messages it is told.
+"""One connection of an editor: its open documents, its requests, and the messages published to it.
 
-The session knows neither how messages travel nor where texts are stored: both are handed in.
+The session knows neither how messages travel nor where texts are stored: both are handed in. What is
+analysed it shares with the other sessions of the project (`project_analysis`).
 """
 
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import gc
-import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final, Literal, Protocol
 
@@ -19,41 +18,37 @@ from lsprotocol import types as lsp
 
 from tappet import __version__
 from tappet.lang.diagnostic_translations import Language, language_of
-from tappet.lang.room_for_trees import room_for_trees
 from tappet.lang.services import documents as docs
-from tappet.lang.services.documents import Position, Programs
+from tappet.lang.services.documents import Position
 from tappet.lang.services.fix_site import Offering, nothing_offered
 from tappet.lang.services.formatting import Style
-from tappet.lang.services.reports import reports
-from tappet.lang.services.results import Report, ServiceError
+from tappet.lang.services.results import ServiceError
 from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.lang.source import split_lines
 from tappet.server.lsp import convert, questions, rpc
-from tappet.server.lsp.positions import Line, apply_change, lines_of, to_position
+from tappet.server.lsp.open_documents import DocumentRefusedError, OpenDocument, OpenDocuments
+from tappet.server.lsp.positions import lines_of, to_edit
+from tappet.server.lsp.project_analysis import ProjectAnalysis
+from tappet.server.lsp.publication import Publication
+from tappet.server.lsp.shown import OtherTextError, ShownDocument
+from tappet.server.lsp.text_difference import TextDifference
 
-DEBOUNCE_S: Final = 0.3
-"""Pause in the typing after which messages are worked out anew."""
-IDLE_S: Final = 2.0
-"""Pause without edits after which garbage is looked for, which takes longer than a check."""
-UNTIDY: Final = 3
-"""So many whole analyses leave garbage at most, also when edits never pause."""
-SLICE_S: Final = 0.03
-"""Requests and edits wait at most so long for a check that goes on behind the messages of the edited text."""
-MAX_DOCUMENT: Final = 4_000_000
-"""Characters of one document."""
 READ_DOCUMENT: Final = "tappet/document"
 """Our own request: the text of a document that is not open, such as one of a library."""
 EXPAND_SHORTHAND: Final = "tappet/shorthand"
 """Our own request: `{line}` to the declaration it is short for, or null."""
 COMPLETION_IN: Final = "tappet/completionIn"
 """Our own request: completion in a text that is being tried, see `questions.completion_in`."""
+ELEMENT_VARIABLES: Final = "tappet/elementVariables"
+"""Our own request: what the elements of a drawing show, see `questions.element_variables`."""
 OPERAND_FACTS: Final = "tappet/operandFacts"
 """Our own request: what is declared for the operands of a table, see `questions.operand_facts`."""
 CROSS_REFERENCES: Final = "tappet/crossReferences"
 """Our own request: every place that names something, see `questions.cross_reference_list`."""
+_REFUSING: Final = frozenset({lsp.TEXT_DOCUMENT_RENAME, lsp.TEXT_DOCUMENT_PREPARE_RENAME, CROSS_REFERENCES})
+"""Requests that say why where the client shows another text than the analysed one; others answer nothing."""
 
-log = logging.getLogger(__name__)
 _CONVERTER = converters.get_converter()
 _State = Literal["new", "initialized", "shut down"]
 
@@ -65,10 +60,17 @@ class _Positioned(Protocol):
     position: lsp.Position
 
 
-@dataclass(slots=True)
-class _Document:
-    text: str
-    version: int
+@dataclass(frozen=True, slots=True)
+class Attached:
+    """A client as an earlier session has left it, for one that takes its place."""
+
+    initialize: Any = None
+    """Params of `initialize`; None: the client has not begun."""
+    configuration: Any = None
+    """Params of the newest `workspace/didChangeConfiguration`."""
+    documents: tuple[OpenDocument, ...] = ()
+    published: tuple[str, ...] = ()
+    """Documents of which the client shows messages."""
 
 
 class LanguageSession:
@@ -76,23 +78,20 @@ class LanguageSession:
 
     def __init__(
         self,
-        programs: Programs,
+        analysis: ProjectAnalysis,
         send: rpc.Send,
         *,
-        debounce_s: float = DEBOUNCE_S,
         advise: bool = False,
         canonical: Callable[[str], str] = str,
         offering: Offering = nothing_offered,
     ) -> None:
         """`advise`: advice is part of the message texts. `canonical`: one spelling for each document uri.
         `offering`: libraries that have something of a name."""
-        self.workspace = Workspace(programs)
-        self.endpoint = rpc.Endpoint(send, self._find)
+        self.analysis = analysis
+        self.endpoint = rpc.Endpoint(send, self._find, analysis.thread)
         self.exit = asyncio.Event()
         """Set when the client has said that it ends."""
-        self._loop = asyncio.get_running_loop()
-        self._debounce_s = debounce_s
-        self._advise = advise
+        self.advise = advise
         self.canonical = canonical
         self.offering = offering
         self.asks = not advise
@@ -100,45 +99,50 @@ class LanguageSession:
         self.style = Style()
         self.language: Language = "en"
         """Of the messages, as the client has asked for when it began."""
+        self.documents = OpenDocuments(canonical)
+        """As the client shows them."""
+        self.publication = Publication(self)
         self._state: _State = "new"
-        self._open: dict[str, _Document] = {}
-        self._names: dict[str, str] = {}
-        """Uri as the client spells it, by canonical uri."""
-        self._split: tuple[int, dict[str, Line]] = (-1, {})
-        """Lines of documents, as of one generation of the workspace."""
-        self._published: dict[str, list[Report]] = {}
-        self._opened_since: set[str] = set()
-        """Documents opened since messages were published last: a new text in an editor shows none yet."""
-        self._edited_since: set[str] = set()
-        """Documents edited since messages were published last: theirs come first."""
-        self._left = False
-        """Whether messages of other documents are still to be worked out."""
-        self._timer: asyncio.TimerHandle | None = None
-        self._publishing: asyncio.Task[None] | None = None
-        self._again = False
-        self._tidying: asyncio.TimerHandle | None = None
-        self._tidied = 0
-        """Whole analyses of the workspace whose garbage is gone."""
+        self._shown: tuple[int, dict[str, ShownDocument]] = (-1, {})
+        """Documents, as of one generation of the workspace and of the open texts."""
+        analysis.attach(self)
+
+    @property
+    def workspace(self) -> Workspace:
+        """The programs, with the unsaved texts of all sessions."""
+        return self.analysis.workspace
+
+    @property
+    def is_initialized(self) -> bool:
+        """Whether the client wants messages."""
+        return self._state == "initialized"
 
     async def receive(self, message: str) -> None:
         """Take one message of the client."""
         await self.endpoint.receive(message)
 
-    def stored_texts_changed(self) -> None:
-        """Somebody else has changed what is stored. Call in the event loop."""
-        self.endpoint.post(self.workspace.refresh, "stored texts changed")
-        self._schedule()
+    def take_over(self, client: Attached) -> None:
+        """Continue with a client whose session was lost. Call before anything is received."""
+
+        def restore() -> None:
+            if client.initialize is not None:
+                self.initialize(_structured(lsp.INITIALIZE, client.initialize))
+            if client.configuration is not None:
+                changed = lsp.WORKSPACE_DID_CHANGE_CONFIGURATION
+                self.configuration_changed(_structured(changed, client.configuration))
+            for document in client.documents:
+                self._put(
+                    self.documents.open(document.spelled, document.version, document.text), edited=False
+                )
+            self.publication.expect([*client.published, *self.documents])
+            self.analysis.schedule_from_thread(False)
+
+        self.endpoint.post(restore, "taking over")
 
     async def close(self) -> None:
-        """End the session."""
-        for timer in (self._timer, self._tidying):
-            if timer is not None:
-                timer.cancel()
-        if self._publishing is not None:
-            self._publishing.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._publishing
+        """End the session; its unsaved texts count no longer."""
         await self.endpoint.close()
+        self.analysis.detach(self, list(self.documents))
 
     # -- dispatch
 
@@ -152,6 +156,10 @@ class LanguageSession:
                 raise rpc.RpcError(rpc.NOT_INITIALIZED, f"'{method}' before 'initialize' or after 'shutdown'")
             try:
                 result = handler(self, _structured(method, params))
+            except OtherTextError as error:
+                if request and method not in _REFUSING:
+                    return None
+                raise rpc.RpcError(rpc.REQUEST_FAILED, str(error)) from error
             except ServiceError as error:
                 raise rpc.RpcError(rpc.REQUEST_FAILED, str(error)) from error
             return _CONVERTER.unstructure(result)
@@ -192,7 +200,7 @@ class LanguageSession:
 
     def initialized(self, params: lsp.InitializedParams) -> None:
         """The client is ready: begin with the messages."""
-        self._schedule_from_worker()
+        self.analysis.schedule_from_thread(False)
 
     def shutdown(self, params: None) -> None:
         """Nothing but `exit` follows."""
@@ -200,7 +208,7 @@ class LanguageSession:
 
     def on_exit(self, params: None) -> None:
         """The client has ended."""
-        self._loop.call_soon_threadsafe(self.exit.set)
+        self.analysis.loop.call_soon_threadsafe(self.exit.set)
 
     def configuration_changed(self, params: lsp.DidChangeConfigurationParams) -> None:
         """How texts are formatted: `{tappet: {format: {keywords, operators, commas}}}`."""
@@ -209,63 +217,69 @@ class LanguageSession:
     # -- documents
 
     def did_open(self, params: lsp.DidOpenTextDocumentParams) -> None:
-        """A text of the editor stands for a document from now on."""
+        """A text of the editor replaces a stored document from now on."""
         item = params.text_document
-        self._opened_since.add(self.canonical(item.uri))
-        self._set(item.uri, item.text, item.version)
+        with _refusals():
+            uri = self.documents.open(item.uri, item.version, item.text)
+        self.publication.expect([uri])
+        self._put(uri, edited=False)
 
     def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
         """Edits of an open document."""
-        uri = self.canonical(params.text_document.uri)
-        known = self._open.get(uri)
-        if known is None:
-            raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{params.text_document.uri}' is not open")
-        text = known.text
-        for change in params.content_changes:
-            text = apply_change(text, change)
-        self._set(params.text_document.uri, text, params.text_document.version)
+        edits = [to_edit(change) for change in params.content_changes]
+        with _refusals():
+            uri = self.documents.change(params.text_document.uri, params.text_document.version, edits)
+        self._put(uri, edited=True)
 
     def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
-        """The stored text counts again."""
-        uri = self.canonical(params.text_document.uri)
-        self._open.pop(uri, None)
-        self.workspace.close(uri)
-        self._schedule_from_worker()
+        """The stored text, or that of another session, counts again."""
+        uri = self.documents.close(params.text_document.uri)
+        self._shown = (-1, {})
+        self.analysis.drop(self, uri)
 
     def did_save(self, params: lsp.DidSaveTextDocumentParams) -> None:
         """What is stored has changed."""
-        self.workspace.refresh()
-        self._schedule_from_worker()
+        self.analysis.refresh()
 
     def watched_files_changed(self, params: lsp.DidChangeWatchedFilesParams) -> None:
         """Files have changed on disk."""
-        self.workspace.refresh()
-        self._schedule_from_worker()
+        self.analysis.refresh()
 
-    def _set(self, spelled: str, text: str, version: int) -> None:
-        if len(text) > MAX_DOCUMENT:
-            raise rpc.RpcError(rpc.INVALID_PARAMS, f"'{spelled}' has more than {MAX_DOCUMENT} characters")
-        uri = self.canonical(spelled)
-        self._names[uri] = spelled
-        self._edited_since.add(uri)
-        self._open[uri] = _Document(text, version)
-        self.workspace.open(uri, text)
-        self._schedule_from_worker()
+    def _put(self, uri: str, *, edited: bool) -> None:
+        text = self.documents.text(uri)
+        assert text is not None
+        self._shown = (-1, {})
+        self.analysis.put(self, uri, text, edited=edited)
 
     # -- places
 
-    def lines(self, document: str) -> Line:
-        """The lines of a document, open or not."""
-        if self._split[0] != self.workspace.generation:
-            self._split = (self.workspace.generation, {})
-        split = self._split[1]
-        if document not in split:
-            known = self._open.get(document)
-            split[document] = lines_of(known.text if known is not None else self.text(document) or "")
-        return split[document]
+    def shown(self, document: str) -> ShownDocument:
+        """A document as this client shows it, open or not."""
+        if self._shown[0] != self.workspace.generation:
+            self._shown = (self.workspace.generation, {})
+        found = self._shown[1].get(document)
+        if found is None:
+            found = self._shown[1][document] = self._show(document)
+        return found
 
-    def text(self, document: str) -> str | None:
-        """The text of a document that is part of some program."""
+    def _show(self, document: str) -> ShownDocument:
+        texts, spelled = self.analysis.texts, self.documents.spelled(document)
+        if self.workspace.is_drawn(document):
+            line = lines_of(self._composed_text(document) or "")
+            return ShownDocument(document, spelled, line, line, None)
+        own = self.documents.text(document)
+        shown = own if own is not None else texts.stored(document)
+        analysed = texts.analysed(document)
+        if analysed is None:
+            analysed = shown if shown is not None else self._composed_text(document) or ""
+        if shown is None or shown == analysed:
+            line = lines_of(analysed)
+            return ShownDocument(document, spelled, line, line, None)
+        difference = TextDifference(shown, analysed)
+        return ShownDocument(document, spelled, lines_of(analysed), lines_of(shown), difference)
+
+    def _composed_text(self, document: str) -> str | None:
+        """The text of a document that is part of some program, such as one of a library."""
         for program in self.workspace.programs():
             for text in program.texts:
                 shown = text.lines_of(document)
@@ -274,143 +288,38 @@ class LanguageSession:
                     return "\n".join(lines[shown[0] : shown[1]])
         return None
 
-    def text_now(self, document: str) -> str | None:
+    def text(self, document: str) -> str | None:
         """The text of a document as the editor shows it, or as it is stored."""
-        known = self._open.get(document)
-        return known.text if known is not None else self.text(document)
+        own = self.documents.text(document)
+        stored = own if own is not None else self.analysis.texts.stored(document)
+        return stored if stored is not None else self._composed_text(document)
 
     def at(self, params: _Positioned) -> tuple[str, Position]:
-        """Document and place of a request."""
+        """Document and place of a request, in the analysed text. Raises OtherTextError."""
         uri = self.canonical(params.text_document.uri)
-        return uri, to_position(self.lines(uri), params.position)
+        return uri, self.shown(uri).position(params.position)
 
     def snapshot(self, uri: str) -> Snapshot:
         """The program that shows a document."""
         return self.workspace.snapshot(uri)
 
-    def spelled(self, uri: str) -> str:
-        """A uri as the client writes it."""
-        return self._names.get(uri, uri)
+    def location(self, place: docs.Place) -> lsp.Location | None:
+        """A place as the client names it; None where it shows another text."""
+        return convert.location(place, self.shown)
 
-    def location(self, place: docs.Place) -> lsp.Location:
-        """A place as the client names it."""
-        found = convert.location(place, self.lines)
-        found.uri = self.spelled(found.uri)
-        return found
+    def locations(self, places: Iterable[docs.Place]) -> list[lsp.Location]:
+        """Places as the client names them, those left out where it shows another text."""
+        found = (self.location(place) for place in places)
+        return [place for place in found if place is not None]
 
-    # -- messages
 
-    def _schedule_from_worker(self) -> None:
-        self._loop.call_soon_threadsafe(self._schedule)
-
-    def _schedule(self) -> None:
-        """Work the messages out when the typing pauses."""
-        for timer in (self._timer, self._tidying):
-            if timer is not None:
-                timer.cancel()
-        self._timer = self._loop.call_later(self._debounce_s, self._publish_soon)
-
-    def _publish_soon(self) -> None:
-        self._timer = None
-        if self._publishing is not None and not self._publishing.done():
-            self._again = True
-            return
-        self._publishing = self._loop.create_task(self._publish())
-
-    async def _publish(self) -> None:
-        while True:
-            self._again = False
-            try:
-                await self._tell(self._first_messages)
-                if self._left and await self._work_on():
-                    await self._tell(self._all_messages)
-            except Exception:
-                # The session goes on: the next change of a text tries again.
-                log.exception("the messages of a program could not be worked out")
-                return
-            await self.endpoint.run(self._prepare)
-            if not self._again:
-                self._tidy_later()
-                return
-
-    async def _work_on(self) -> bool:
-        """Do what is left, a while at a time; False when an edit has come: its messages go first."""
-        while not await self.endpoint.run(self._go_on):
-            if self._again or self._timer is not None:
-                return False
-        return True
-
-    async def _tell(self, messages: Callable[[], list[Any]]) -> None:
-        """Publish what there is to tell."""
-        for params in await self.endpoint.run(messages):
-            await self.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params)
-
-    def _first_messages(self) -> list[Any]:
-        """What to publish first: everything, or, where an edit concerns many texts, that of the edited
-        ones."""
-        if self._state != "initialized":
-            return []
-        edited, self._edited_since = self.workspace.in_texts_of(self._edited_since), set()
-        with room_for_trees():
-            snapshots = self.workspace.first_snapshots(edited)
-            self._left = any(snapshot.is_waiting for snapshot in snapshots)
-            return self._new_messages(snapshots, edited if self._left else None)
-
-    def _go_on(self) -> bool:
-        """Work for a while on what has been left for later; whether nothing is left."""
-        with room_for_trees():
-            return self.workspace.go_on(SLICE_S)
-
-    def _all_messages(self) -> list[Any]:
-        """What to publish when nothing is left for later."""
-        if self._state != "initialized" or self._timer is not None:
-            return []
-        with room_for_trees():
-            return self._new_messages(self.workspace.snapshots(), None)
-
-    def _prepare(self) -> None:
-        """Make the next check quick: the trees of a whole analysis are old enough to be left alone by the
-        search for young garbage, which would look at each of them during the first edit."""
-        self.workspace.prepare()
-        if self._tidied != self.workspace.whole_analyses:
-            gc.freeze()
-            gc.unfreeze()
-
-    def _tidy_later(self) -> None:
-        """Look for garbage when there are no edits for a while."""
-        left = self.workspace.whole_analyses - self._tidied
-        if left:
-            pause = IDLE_S if left < UNTIDY else 0.0
-            self._tidying = self._loop.call_later(pause, self.endpoint.post, self._tidy, "tidying")
-
-    def _tidy(self) -> None:
-        """Look for the garbage of whole analyses while nobody waits for messages."""
-        self._tidied = self.workspace.whole_analyses
-        gc.collect()
-
-    def _new_messages(self, snapshots: list[Snapshot], only: set[str] | None) -> list[Any]:
-        """Documents, or of some documents those, whose messages are others than those told last, and those
-        that have just been opened."""
-        found: dict[str, list[Report]] = {}
-        for snapshot in snapshots:
-            for document, entries in reports(snapshot, only).items():
-                known = found.setdefault(document, [])
-                known += [entry for entry in entries if entry not in known]
-        out = []
-        opened = {document for document in self._opened_since if only is None or document in only}
-        self._opened_since -= opened
-        for document in {*found, *self._published} if only is None else only:
-            now = found.get(document, [])
-            if now != self._published.get(document, []) or document in opened:
-                version = self._open[document].version if document in self._open else None
-                diagnostics = convert.diagnostics(now, document, self.lines, self._advise, self.language)
-                params = lsp.PublishDiagnosticsParams(self.spelled(document), diagnostics, version)
-                out.append(_CONVERTER.unstructure(params))
-        if only is None:
-            self._published = found
-        else:
-            self._published = {k: v for k, v in self._published.items() if k not in only} | found
-        return out
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """A document that is refused is an error of the params."""
+    try:
+        yield
+    except DocumentRefusedError as error:
+        raise rpc.RpcError(rpc.INVALID_PARAMS, str(error)) from error
 
 
 def _structured(method: str, params: Any) -> Any:
@@ -444,6 +353,7 @@ _REQUESTS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
     CROSS_REFERENCES: questions.cross_reference_list,
     COMPLETION_IN: questions.completion_in,
     OPERAND_FACTS: questions.operand_facts,
+    ELEMENT_VARIABLES: questions.element_variables,
     lsp.TEXT_DOCUMENT_FORMATTING: questions.formatting,
     lsp.TEXT_DOCUMENT_FOLDING_RANGE: questions.folding_range,
     lsp.TEXT_DOCUMENT_PREPARE_RENAME: questions.prepare_rename,

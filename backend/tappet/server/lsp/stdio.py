@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from tappet.server.lsp.folder_programs import FolderPrograms, canonical_uri
+from tappet.server.lsp.project_analysis import ProjectAnalysis
+from tappet.server.lsp.rpc import Outgoing
 from tappet.server.lsp.session import LanguageSession
 
 MAX_MESSAGE = 64 * 1024 * 1024
@@ -59,11 +61,12 @@ def frame(message: str) -> bytes:
 async def serve(root: Path, reader: asyncio.StreamReader, output: BinaryIO) -> None:
     """Serve one client until it ends. Raises FrameError when it speaks something else."""
 
-    async def send(message: str) -> None:
-        output.write(frame(message))
+    async def send(message: Outgoing) -> None:
+        output.write(frame(message.text))
         output.flush()
 
-    session = LanguageSession(FolderPrograms(root), send, advise=True, canonical=canonical_uri)
+    analysis = ProjectAnalysis(FolderPrograms(root))
+    session = LanguageSession(analysis, send, advise=True, canonical=canonical_uri)
     leaving = asyncio.create_task(session.exit.wait())
     try:
         while not session.exit.is_set():
@@ -79,6 +82,7 @@ async def serve(root: Path, reader: asyncio.StreamReader, output: BinaryIO) -> N
     finally:
         leaving.cancel()
         await session.close()
+        await analysis.close()
 
 
 async def _serve_standard_streams(root: Path) -> None:

@@ -13,8 +13,7 @@ from tappet.runtime.recorder import Frame
 from tappet.server.online.layout import HEADER, lay_out
 from tappet.server.online.outbox import Outbox
 from tappet.server.online.sampler import SamplerPool, Sink
-from tappet.server.runtimes import Change, RuntimeLink
-from tappet.server.schemas.online import (
+from tappet.server.online.shapes import (
     ClientMessage,
     ForcesChanged,
     ImagePlace,
@@ -23,6 +22,7 @@ from tappet.server.schemas.online import (
     Subscribe,
     Subscribed,
 )
+from tappet.server.runtimes.links import Change, RuntimeLink
 from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
 
 MOST_SUBSCRIPTIONS = 100
@@ -56,8 +56,8 @@ class OnlineChannel:
     async def run(self) -> None:
         """Accepts the socket and serves it. Never raises for what the browser sends or how it leaves."""
         await self._socket.accept()
-        self._tell(StateChanged(**self._link.state().model_dump()))
-        self._tell(self._forces())
+        self._enqueue(StateChanged(**self._link.state().model_dump()))
+        self._enqueue(self._forces())
         ignore = self._link.listen(self._on_change)
         try:
             await until_one_ends(
@@ -105,7 +105,7 @@ class OnlineChannel:
         except ValueError as error:
             self._error(order.id, str(error))
             return
-        self._tell(Subscribed(id=order.id, items=list(layout.items), renewed=renewed))
+        self._enqueue(Subscribed(id=order.id, items=list(layout.items), renewed=renewed))
         subscription = self._subscriptions[order.id] = _Subscription(order)
         if layout.places and self._link.connected:
             subscription.detach = self._pool.attach(layout.places, order.interval_ms, self._sink(order.id))
@@ -132,9 +132,9 @@ class OnlineChannel:
 
     def _on_change(self, change: Change) -> None:
         if change is Change.STATE:
-            self._tell(StateChanged(**self._link.state().model_dump()))
+            self._enqueue(StateChanged(**self._link.state().model_dump()))
         elif change is Change.FORCES:
-            self._tell(self._forces())
+            self._enqueue(self._forces())
         elif change is Change.APPLICATION:
             for subscription in list(self._subscriptions.values()):
                 self._subscribe(subscription.order, renewed=True)
@@ -147,8 +147,8 @@ class OnlineChannel:
             else:
                 await self._socket.send_bytes(item)
 
-    def _tell(self, message: BaseModel) -> None:
+    def _enqueue(self, message: BaseModel) -> None:
         self.outbox.put_message(message.model_dump_json())
 
     def _error(self, subscription: int | None, detail: str) -> None:
-        self._tell(OnlineError(id=subscription, detail=detail))
+        self._enqueue(OnlineError(id=subscription, detail=detail))

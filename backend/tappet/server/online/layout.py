@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from tappet.codegen.symbol_map import SymbolMap, VarRef
 from tappet.runtime.recorder import LARGEST_FRAME
-from tappet.server.schemas.online import ImagePlace, Item
-from tappet.server.values import resolve_all
+from tappet.server.online.shapes import ImagePlace, Item
+from tappet.server.values.service import resolve_all
 
 HEADER = struct.Struct("<IIQq")
 """Subscription, flags, cycle, unix time in ns."""

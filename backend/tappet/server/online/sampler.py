@@ -9,10 +9,11 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 
 from tappet.runtime.client import RuntimeRefused
+from tappet.runtime.operations.values import Read
 from tappet.runtime.recorder import Frame
-from tappet.server.plc_client import PlcClient, Recorder
 from tappet.server.problems import Problem
-from tappet.server.runtimes import Change, RuntimeLink
+from tappet.server.runtimes.links import Change, RuntimeLink
+from tappet.server.runtimes.plc_client import PlcClient, Recorder
 
 log = logging.getLogger(__name__)
 Sink = Callable[[Frame], None]
@@ -89,8 +90,8 @@ class Sampler:
             await self._poll(client)
 
     async def _poll(self, client: PlcClient) -> None:
-        data = b"".join(await client.read(self.places))
-        self._give(Frame(self.last.cycle if self.last else 0, time.time_ns(), data))
+        values = await client.call(Read(list(self.places)))
+        self._give(Frame(self.last.cycle if self.last else 0, time.time_ns(), b"".join(values)))
 
     def _give(self, frame: Frame) -> None:
         self.last = frame

@@ -3,11 +3,11 @@ import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
 import type { User } from '@/api/types';
 import { useText } from '@/i18n';
-import { refusalOf } from '@/workbench/notices';
-import { Button } from '@/workbench/ui/Button';
-import { Field, TextInput } from '@/workbench/ui/Field';
-import { PasswordField } from '@/workbench/ui/PasswordField';
-import { setUser } from '../session';
+import { refusalOf } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Field, TextInput } from '@/ui/Field';
+import { PasswordField } from '@/ui/PasswordField';
+import { setUser } from '@/session/session';
 import styles from './Login.module.css';
 import { LoginFrame } from './LoginFrame';
 

@@ -1,9 +1,9 @@
 import { Languages, Moon, Sun } from 'lucide-react';
 import type { ReactNode } from 'react';
 import { useLanguage, useText } from '@/i18n';
-import { TappetMark } from '@/icons/objects';
-import { Button, IconButton } from '@/workbench/ui/Button';
-import { chooseLanguage, chooseTheme, usePreferences } from '../preferences';
+import { TappetMark } from '@/icons/TappetMark';
+import { Button, IconButton } from '@/ui/Button';
+import { chooseLanguage, chooseTheme, usePreferences } from '@/session/preferences';
 import styles from './Login.module.css';
 
 /** The page around a sign-in form: the mark, language and theme. */

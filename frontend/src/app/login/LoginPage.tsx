@@ -2,12 +2,12 @@ import { useState, type FormEvent } from 'react';
 import { api, ApiError } from '@/api/client';
 import type { User } from '@/api/types';
 import { useText } from '@/i18n';
-import { explain } from '@/workbench/notices';
-import { Button } from '@/workbench/ui/Button';
-import { Field, TextInput } from '@/workbench/ui/Field';
-import { PasswordField } from '@/workbench/ui/PasswordField';
-import { adoptPreferences } from '../preferences';
-import { setUser } from '../session';
+import { explain } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Field, TextInput } from '@/ui/Field';
+import { PasswordField } from '@/ui/PasswordField';
+import { adoptPreferences } from '@/session/preferences';
+import { setUser } from '@/session/session';
 import styles from './Login.module.css';
 import { LoginFrame } from './LoginFrame';
 

@@ -6,22 +6,24 @@ import { keys, queryClient, useProjects } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
 import { secondText } from '@/workbench/clock';
-import { objectIcon, TappetMark } from '@/icons/objects';
-import { confirm, openDialog } from '@/workbench/dialogs';
+import { kindWithRole } from '@/project/kinds';
+import { ObjectIcon } from '@/project/ObjectIcon';
+import { TappetMark } from '@/icons/TappetMark';
+import { confirm, openDialog } from '@/ui/dialogs';
 import { downloadUrl } from '@/workbench/downloadFile';
 import { UserMenu } from '@/workbench/frame/UserMenu';
 import { droppedFiles, type NamedFile } from '@/workbench/exchange/dropped';
 import { ImportDialog } from '@/workbench/exchange/ImportDialog';
-import { guard } from '@/workbench/notices';
+import { guard } from '@/ui/notices';
 import { atLeast } from '@/workbench/rights';
-import { Button, IconButton } from '@/workbench/ui/Button';
-import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
-import { TextInput } from '@/workbench/ui/Field';
-import { DropdownMenu, type MenuEntry } from '@/workbench/ui/Menu';
-import { loadSetting } from '../preferences';
-import { go } from '../route';
-import { useSession } from '../session';
-import { newProject } from './NewProjectDialog';
+import { Button, IconButton } from '@/ui/Button';
+import { Empty, Failed, Loading } from '@/ui/Empty';
+import { TextInput } from '@/ui/Field';
+import { DropdownMenu, type MenuEntry } from '@/ui/Menu';
+import { loadSetting } from '@/session/preferences';
+import { go } from '@/session/route';
+import { useSession } from '@/session/session';
+import { newProject } from '@/workbench/projectInfo/NewProjectDialog';
 import { ago, sections } from './projects';
 import styles from './StartPage.module.css';
 
@@ -159,8 +161,6 @@ function Section({
   );
 }
 
-const ProjectIcon = objectIcon('application');
-
 function ProjectRow({ project, refused }: { project: ProjectSummary; refused: string | null }) {
   const t = useText();
   const language = useLanguage();
@@ -188,7 +188,7 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
   ];
   return (
     <div className={styles.project} onClick={open}>
-      <ProjectIcon size={20} />
+      <ObjectIcon kind={kindWithRole('application')?.kind ?? ''} size={20} />
       <button className={styles.open}>
         <span className={styles.name}>{project.name}</span>
         {project.description && <span className={styles.description}>{project.description}</span>}

@@ -2,9 +2,10 @@
  * Everything that can be inserted in a text, by category: variables, types, POUs, keywords and operators.
  * Gathered from the project's declarations and the libraries its library manager names. Pure functions.
  */
+import { kindOf, valuesOf } from '@/project/kinds';
 import type { LibraryReference, ObjectSummary } from '@/api/types';
-import { parseDeclaration } from '../declaration/parse';
-import { joinComments } from '../declaration/comments';
+import { parseDeclaration } from '@/iec/declaration/parse';
+import { joinComments } from '@/iec/declaration/comments';
 import {
   CONSTANT_KEYWORDS,
   DECLARATION_KEYWORDS,
@@ -12,7 +13,7 @@ import {
   OPERATOR_FUNCTIONS,
   OPERATOR_KEYWORDS,
   STATEMENT_KEYWORDS,
-} from '../st/keywords';
+} from '@/iec/grammar';
 
 export const CATEGORIES = ['variables', 'types', 'pous', 'keywords'] as const;
 export type Category = (typeof CATEGORIES)[number];
@@ -77,8 +78,6 @@ export function isQualifiedOnly(declaration: string): boolean {
   return /\{\s*attribute\s+'qualified_only'/i.test(declaration);
 }
 
-const OBJECT_KINDS: Readonly<Record<string, Category | null>> = { pou: 'pous', dut: 'types', interface: 'types' };
-
 /** Kinds as the tree abbreviates them. */
 const KIND_NAMES: Readonly<Record<string, string>> = {
   program: 'PRG',
@@ -91,8 +90,8 @@ const kindName = (kind: string) => KIND_NAMES[kind] ?? kind.toUpperCase();
 /** Types and POUs of the project. A function block is both: it is called, and it is the type of instances. */
 export function objectEntries(objects: readonly ObjectSummary[], group: string): Entry[] {
   return objects.flatMap((object) => {
-    const category = OBJECT_KINDS[object.kind];
-    if (category == null) return [];
+    const category = kindOf(object.kind)?.catalog;
+    if (category === undefined) return [];
     const entry: Entry = {
       name: object.name,
       insert: object.name,
@@ -101,7 +100,7 @@ export function objectEntries(objects: readonly ObjectSummary[], group: string):
       group,
       category,
     };
-    return object.subkind === 'function_block' ? [entry, { ...entry, category: 'types' as const }] : [entry];
+    return valuesOf(object) === 'instance' ? [entry, { ...entry, category: 'types' as const }] : [entry];
   });
 }
 

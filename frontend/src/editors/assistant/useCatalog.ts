@@ -1,10 +1,11 @@
+import { hasRole, valuesOf } from '@/project/kinds';
 import { useQueries, useQuery } from '@tanstack/react-query';
 import { useMemo } from 'react';
 import { api } from '@/api/client';
 import { keys, useObjects } from '@/api/queries';
 import type { LibraryManagerData, ObjectSummary, ProjectObject, TextData } from '@/api/types';
 import { useText } from '@/i18n';
-import { ancestorOfKind } from '@/workbench/tree/model';
+import { applicationOf } from '@/project/tree';
 import {
   isQualifiedOnly,
   languageEntries,
@@ -27,9 +28,9 @@ function objectQuery<Data>(projectId: string, id: string) {
 /** The libraries that are visible at this object, with all their items. */
 export function useLibraries(projectId: string, object: ObjectSummary | undefined): readonly LibraryDetail[] {
   const { data: objects } = useObjects(projectId);
-  const application = object && objects ? ancestorOfKind(objects, object.id, 'application') : undefined;
+  const application = object && objects ? applicationOf(objects, object.id) : undefined;
   const manager = objects?.find(
-    (o) => o.kind === 'library_manager' && (application === undefined || o.parent_id === application.id),
+    (o) => hasRole(o, 'libraries') && (application === undefined || o.parent_id === application.id),
   );
   const installed = useQuery({ queryKey: keys.libraries, queryFn: () => api.get<{ name: string }[]>('/libraries') });
   const chosen = useQuery({
@@ -56,7 +57,7 @@ export function useCatalog(projectId: string, object: ObjectSummary | undefined)
   const { data: objects } = useObjects(projectId);
   const libraries = useLibraries(projectId, object);
   const owners = useMemo(() => ownersOf(objects ?? [], object), [objects, object]);
-  const lists = useMemo(() => (objects ?? []).filter((o) => o.kind === 'gvl' || o.kind === 'persistent'), [objects]);
+  const lists = useMemo(() => (objects ?? []).filter((o) => valuesOf(o) === 'global'), [objects]);
   const texts = useQueries({
     queries: [...owners, ...lists].map((o) => objectQuery<TextData>(projectId, o.id)),
     combine: (answers) => answers.flatMap((answer) => answer.data ?? []),
@@ -90,12 +91,13 @@ export function useCatalog(projectId: string, object: ObjectSummary | undefined)
   }, [t, owners, lists, texts, objects, libraries]);
 }
 
-/** The object itself and, for methods, actions and accessors, the POU they belong to. */
+/** The object itself and, where it belongs to a POU, what lies between and that POU. */
 function ownersOf(objects: readonly ObjectSummary[], object: ObjectSummary | undefined): ObjectSummary[] {
   const found: ObjectSummary[] = [];
   for (let at = object; at !== undefined; at = objects.find((o) => o.id === at?.parent_id)) {
-    if (['pou', 'method', 'action', 'property', 'accessor'].includes(at.kind)) found.push(at);
-    else break;
+    const place = valuesOf(at);
+    if (place === undefined || place === 'global') break;
+    found.push(at);
   }
   return found;
 }

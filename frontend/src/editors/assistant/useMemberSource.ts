@@ -1,10 +1,11 @@
+import { kindOf, valuesOf } from '@/project/kinds';
 import { useQueries } from '@tanstack/react-query';
 import { useMemo } from 'react';
 import { api } from '@/api/client';
 import { keys, useObjects } from '@/api/queries';
 import type { ProjectObject, TextData } from '@/api/types';
-import { parseDeclaration } from '../declaration/parse';
-import { baseName, parseArrayType, type DeclaredMember, type MemberSource } from '../declaration/types';
+import { parseDeclaration } from '@/iec/declaration/parse';
+import { baseName, parseArrayType, type DeclaredMember, type MemberSource } from '@/iec/declaration/types';
 import { useLibraries } from './useCatalog';
 
 /** Scopes of a function block that an initial value may set. */
@@ -30,7 +31,10 @@ export function useMemberSource(projectId: string, type: string): MemberSource {
   const { data: objects } = useObjects(projectId);
   const libraries = useLibraries(projectId, undefined);
   const candidates = useMemo(
-    () => (objects ?? []).filter((o) => o.kind === 'dut' || (o.kind === 'pou' && o.subkind === 'function_block')),
+    () =>
+      (objects ?? []).filter(
+        (o) => (kindOf(o.kind)?.catalog === 'types' && o.subkind !== null) || valuesOf(o) === 'instance',
+      ),
     [objects],
   );
   // Components of components are not known before: all data types of the project are few and cached.

@@ -1,8 +1,8 @@
 /** Places of a symbol as rows of a table. Pure. */
 import type { ObjectSummary } from '@/api/types';
-import { parsePartUri } from '@/lsp/convert';
+import { parsePartUri, type Part } from '@/project/partUri';
 import type { Access, CrossReference } from '@/lsp/symbols';
-import { objectPath } from '@/workbench/tree/model';
+import { objectPath } from '@/project/tree';
 
 export const ACCESSES: readonly Access[] = ['declaration', 'read', 'write', 'call', 'address'];
 
@@ -13,7 +13,7 @@ export interface Row {
   objectId: string;
   /** Path of the object in the project. */
   path: string;
-  part: 'declaration' | 'implementation';
+  part: Part;
   line: number;
   column: number;
   endColumn: number;

@@ -1,13 +1,13 @@
 import { useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Field, TextInput } from '@/workbench/ui/Field';
+import { openDialog } from '@/ui/dialogs';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, TextInput } from '@/ui/Field';
 import { InputAssistant } from '../assistant/InputAssistant';
 import styles from './Dialogs.module.css';
-import { formatArrayType, parseArrayType, type ArrayDimension } from './types';
+import { formatArrayType, parseArrayType, type ArrayDimension } from '@/iec/declaration/types';
 
 interface ArrayWizardProps {
   projectId: string;

@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import { useText } from '@/i18n';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
 import styles from './Dialogs.module.css';
 
 interface AttributesDialogProps {

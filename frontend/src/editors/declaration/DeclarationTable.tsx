@@ -3,23 +3,23 @@ import { useCallback, useMemo, useRef, useState, type KeyboardEvent } from 'reac
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import type { Position } from '@/lsp/protocol';
-import type { EditorProps } from '@/workbench/editors';
-import { Button, IconButton } from '@/workbench/ui/Button';
-import { Empty } from '@/workbench/ui/Empty';
-import { ContextMenu, type MenuEntry } from '@/workbench/ui/Menu';
-import { activeDescendant, openMenuAt } from '@/workbench/ui/menuKey';
-import { partUri } from '../documents/documents';
-import type { OpenText } from '../documents/useTextDocument';
-import { useModelText } from '../documents/useModelText';
-import { Grid, type GridEditing, type GridHandle } from '../grid/Grid';
-import { useGridSelection } from '../grid/useGridSelection';
-import { setPanelTable } from '../st/focus';
+import type { EditorProps } from '@/project/editorProps';
+import { Button, IconButton } from '@/ui/Button';
+import { Empty } from '@/ui/Empty';
+import { ContextMenu, type MenuEntry } from '@/ui/Menu';
+import { activeDescendant, openMenuAt } from '@/ui/menuKey';
+import { partUri } from '@/project/partUri';
+import type { OpenText } from '@/text/useTextDocument';
+import { useModelText } from '@/text/useModelText';
+import { Grid, type GridEditing, type GridHandle } from '@/ui/grid/Grid';
+import { useGridSelection } from '@/ui/grid/useGridSelection';
+import { setPanelTable } from '@/text/focus';
 import { quickFixEntries } from '../st/quickFixes';
 import { useEditingLock } from '../st/useEditingLock';
 import { CellEditor } from './CellEditor';
 import styles from './DeclarationTable.module.css';
 import { HeaderLine } from './HeaderLine';
-import { parseDeclaration } from './parse';
+import { parseDeclaration } from '@/iec/declaration/parse';
 import { placeOf, problemText } from './problemText';
 import { DRAFT_KEY, displayOrder, type Draft, type Sorting } from './tableModel';
 import { cellContent, tableColumns } from './tableView';
@@ -102,7 +102,7 @@ export function DeclarationTable(props: DeclarationTableProps) {
     if (event.key === ' ' && selection.cursor) return (event.preventDefault(), acts.edit(selection.cursor), true);
     return false;
   };
-  /** What mends the messages of the row with the cursor. */
+  /** Quick fixes for the messages of the row with the cursor. */
   const fixes = async (): Promise<MenuEntry[]> => {
     const row = model.rows[shown[selection.cursor?.row ?? -1] ?? DRAFT_KEY];
     if (row === undefined || locked) return [];

@@ -1,13 +1,13 @@
 import { useState } from 'react';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Field, Select, TextInput } from '@/workbench/ui/Field';
-import { identifierProblem } from '../st/keywords';
+import { openDialog } from '@/ui/dialogs';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, Select, TextInput } from '@/ui/Field';
+import { identifierProblem } from '@/iec/keywords';
 import { AttributesDialog } from './AttributesDialog';
 import styles from './Dialogs.module.css';
-import { keywordChoices, type HeaderValues } from './header';
+import { keywordChoices, type HeaderValues } from '@/iec/declaration/header';
 
 interface HeaderDialogProps {
   values: HeaderValues;

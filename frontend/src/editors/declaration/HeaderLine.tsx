@@ -1,15 +1,15 @@
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
-import { guard } from '@/workbench/notices';
+import { openDialog } from '@/ui/dialogs';
+import { guard } from '@/ui/notices';
 import { renameObject } from '@/workbench/tree/acts';
-import type { TextDocument } from '../documents/documents';
+import type { TextDocument } from '@/text/documents';
 import styles from './DeclarationTable.module.css';
 import { AttributesDialog } from './AttributesDialog';
-import { attributeLines } from './cells';
+import { attributeLines } from '@/iec/declaration/cells';
 import { HeaderDialog } from './HeaderDialog';
-import { headerValues, setHeader, setListAttributes, type HeaderValues } from './header';
-import type { DeclarationModel } from './model';
+import { headerValues, setHeader, setListAttributes, type HeaderValues } from '@/iec/declaration/header';
+import type { DeclarationModel } from '@/iec/declaration/model';
 
 interface HeaderLineProps {
   object: ObjectSummary;

@@ -1,14 +1,14 @@
 import { useMemo, useState } from 'react';
 import { useText } from '@/i18n';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Field, TextInput } from '@/workbench/ui/Field';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, TextInput } from '@/ui/Field';
 import { useMemberSource } from '../assistant/useMemberSource';
-import { Grid, type GridColumn } from '../grid/Grid';
-import { useGridSelection } from '../grid/useGridSelection';
+import { Grid, type GridColumn } from '@/ui/grid/Grid';
+import { useGridSelection } from '@/ui/grid/useGridSelection';
 import styles from './Dialogs.module.css';
-import { composeInitial, givenValues, initialLines, parseInitial, type GivenValues } from './initial';
-import { shapeOf } from './types';
+import { composeInitial, givenValues, initialLines, parseInitial, type GivenValues } from '@/iec/declaration/initial';
+import { shapeOf } from '@/iec/declaration/types';
 
 interface InitialValueDialogProps {
   projectId: string;

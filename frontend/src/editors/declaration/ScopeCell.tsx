@@ -1,9 +1,9 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
-import { Checkbox } from '@/workbench/ui/Field';
+import { Checkbox } from '@/ui/Field';
 import { useText } from '@/i18n';
-import { Floating } from '@/workbench/ui/Floating';
+import { Floating } from '@/ui/Floating';
 import styles from './DeclarationTable.module.css';
-import { scopesFor, VARIABLE_FLAGS, type DeclarationModel } from './model';
+import { scopesFor, VARIABLE_FLAGS, type DeclarationModel } from '@/iec/declaration/model';
 
 interface ScopeCellProps {
   model: DeclarationModel;

@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
-import { DropdownMenu } from '@/workbench/ui/Menu';
-import grid from '../grid/CellInput.module.css';
+import { DropdownMenu } from '@/ui/Menu';
+import grid from '@/ui/grid/CellInput.module.css';
 
 /** The ">" of a data type cell: type browser or array wizard (DECL-27). */
 export function TypeButton({ onAssistant, onArray }: { onAssistant: () => void; onArray: () => void }) {

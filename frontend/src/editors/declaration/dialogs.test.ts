@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { headerValues, setHeader, setListAttributes } from './header';
-import { composeInitial, formatInitial, givenValues, initialLines, parseInitial } from './initial';
-import { formatArrayType, parseArrayType, shapeOf, type MemberSource } from './types';
+import { headerValues, setHeader, setListAttributes } from '@/iec/declaration/header';
+import { composeInitial, formatInitial, givenValues, initialLines, parseInitial } from '@/iec/declaration/initial';
+import { formatArrayType, parseArrayType, shapeOf, type MemberSource } from '@/iec/declaration/types';
 
 describe('header', () => {
   const text = "// old\n{attribute 'a'}\nPROGRAM Main\nVAR\nEND_VAR\n";

@@ -1,5 +1,5 @@
 import { t } from '@/i18n';
-import type { DeclarationProblem } from './model';
+import type { DeclarationProblem } from '@/iec/declaration/model';
 
 /** What is wrong in the declaration and what would be right. */
 export function problemText(problem: DeclarationProblem): string {

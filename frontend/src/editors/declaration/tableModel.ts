@@ -1,8 +1,8 @@
 /** What the table shows in which order, and how a committed cell changes the text. Pure functions. */
-import { setAddress, setAttributes, setComment, setInitial, setName, setType } from './cells';
-import { joinComments } from './comments';
-import type { Block, DeclarationModel, Row } from './model';
-import { insertRow, setScope } from './structure';
+import { setAddress, setAttributes, setComment, setInitial, setName, setType } from '@/iec/declaration/cells';
+import { joinComments } from '@/iec/declaration/comments';
+import type { Block, DeclarationModel, Row } from '@/iec/declaration/model';
+import { insertRow, setScope } from '@/iec/declaration/structure';
 
 const COLUMNS = ['number', 'scope', 'name', 'address', 'type', 'initial', 'comment', 'attributes'] as const;
 export type ColumnId = (typeof COLUMNS)[number];

@@ -1,8 +1,8 @@
 import type { ReactNode } from 'react';
 import type { t as Text } from '@/i18n';
-import type { GridColumn } from '../grid/Grid';
+import type { GridColumn } from '@/ui/grid/Grid';
 import styles from './DeclarationTable.module.css';
-import type { DeclarationModel } from './model';
+import type { DeclarationModel } from '@/iec/declaration/model';
 import { cellText, columnsFor, DRAFT_KEY, scopeText, type ColumnId, type Draft } from './tableModel';
 
 const LOOK: Readonly<Record<ColumnId, Omit<GridColumn, 'id' | 'title'>>> = {

@@ -1,7 +1,7 @@
 import { useEffect } from 'react';
 import { languageClient } from '@/lsp/session';
-import type { CodeEditor } from '../st/CodePane';
-import type { Monaco } from '../st/monacoLoader';
+import type { CodeEditor } from '@/text/CodePane';
+import type { Monaco } from '@/text/monacoLoader';
 
 /** Ctrl+Enter behind a shorthand line replaces it by the complete declaration (DECL-13); the server knows the forms. */
 export function useShorthand(monaco: Monaco, projectId: string, editor: CodeEditor | null): void {

@@ -1,14 +1,14 @@
 import { createElement } from 'react';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
-import type { TextDocument } from '../documents/documents';
-import type { GridColumn, GridEditing } from '../grid/Grid';
-import type { GridCursor } from '../grid/cursor';
-import type { GridSelection } from '../grid/useGridSelection';
-import { setEditorSettings, useEditorSettings } from '../settings';
+import { openDialog } from '@/ui/dialogs';
+import type { TextDocument } from '@/text/documents';
+import type { GridColumn, GridEditing } from '@/ui/grid/Grid';
+import type { GridCursor } from '@/ui/grid/cursor';
+import type { GridSelection } from '@/ui/grid/useGridSelection';
+import { setEditorSettings, useEditorSettings } from '@/text/settings';
 import { AttributesDialog } from './AttributesDialog';
-import type { DeclarationModel } from './model';
-import { deleteRows, moveRow } from './structure';
+import type { DeclarationModel } from '@/iec/declaration/model';
+import { deleteRows, moveRow } from '@/iec/declaration/structure';
 import {
   cellText,
   DRAFT_KEY,

@@ -1,12 +1,13 @@
 import { useMemo, useState } from 'react';
 import { useText } from '@/i18n';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import type { Monaco } from '../st/monacoLoader';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import type { Monaco } from '@/text/monacoLoader';
 import { DiffView } from './DiffView';
 import styles from './DocumentBars.module.css';
-import type { Part, TextDocument } from './documents';
-import type { Resolution, TextParts } from './documentState';
+import type { TextDocument } from '@/text/documents';
+import type { Part } from '@/project/partUri';
+import type { Resolution, TextParts } from '@/text/documentState';
 import { PartTabs } from './PartTabs';
 
 export interface ConflictAnswer {

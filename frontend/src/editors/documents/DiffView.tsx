@@ -1,8 +1,8 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { useEffect, useRef } from 'react';
-import { EDITOR_OPTIONS } from '../st/CodePane';
-import { LANGUAGE_ID } from '../st/language';
-import type { Monaco } from '../st/monacoLoader';
+import { EDITOR_OPTIONS } from '@/text/CodePane';
+import { LANGUAGE_ID } from '@/text/language';
+import type { Monaco } from '@/text/monacoLoader';
 import styles from './DocumentBars.module.css';
 
 interface DiffViewProps {
@@ -17,9 +17,9 @@ interface DiffViewProps {
 export function DiffView({ monaco, left, right, onRight }: DiffViewProps) {
   const host = useRef<HTMLDivElement>(null);
   const models = useRef<editor.IDiffEditorModel | null>(null);
-  const told = useRef(onRight);
+  const latest = useRef(onRight);
   useEffect(() => {
-    told.current = onRight;
+    latest.current = onRight;
   });
   const editable = onRight !== undefined;
 
@@ -43,7 +43,7 @@ export function DiffView({ monaco, left, right, onRight }: DiffViewProps) {
     };
     models.current = pair;
     diff.setModel(pair);
-    const listener = pair.modified.onDidChangeContent(() => told.current?.(pair.modified.getValue()));
+    const listener = pair.modified.onDidChangeContent(() => latest.current?.(pair.modified.getValue()));
     return () => {
       models.current = null;
       listener.dispose();

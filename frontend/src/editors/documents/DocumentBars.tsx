@@ -1,14 +1,14 @@
 import { CloudOff, GitCompareArrows } from 'lucide-react';
 import { useStore } from 'zustand';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
-import { explain } from '@/workbench/notices';
-import { Button } from '@/workbench/ui/Button';
-import type { Monaco } from '../st/monacoLoader';
+import { openDialog } from '@/ui/dialogs';
+import { explain } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import type { Monaco } from '@/text/monacoLoader';
 import { ConflictDialog, type ConflictAnswer } from './ConflictDialog';
 import styles from './DocumentBars.module.css';
-import type { TextDocument } from './documents';
-import { phaseOf } from './documentState';
+import type { TextDocument } from '@/text/documents';
+import { phaseOf } from '@/text/documentState';
 
 interface DocumentBarsProps {
   monaco: Monaco;

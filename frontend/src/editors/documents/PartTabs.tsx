@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
 import styles from './DocumentBars.module.css';
-import type { Part } from './documents';
+import type { Part } from '@/project/partUri';
 
 /** Chooses the part of an object that a comparison shows. */
 export function PartTabs({

@@ -4,14 +4,15 @@ import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ProjectObject, TextData } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
-import { guard } from '@/workbench/notices';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Failed, Loading } from '@/workbench/ui/Empty';
-import type { Monaco } from '../st/monacoLoader';
+import { guard } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Failed, Loading } from '@/ui/Empty';
+import type { Monaco } from '@/text/monacoLoader';
 import { DiffView } from './DiffView';
 import styles from './DocumentBars.module.css';
-import type { Part, TextDocument } from './documents';
+import type { TextDocument } from '@/text/documents';
+import type { Part } from '@/project/partUri';
 import { PartTabs } from './PartTabs';
 
 interface Revision {

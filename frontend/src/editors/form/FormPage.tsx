@@ -1,5 +1,5 @@
 import type { ReactNode } from 'react';
-import { Failed, Loading } from '@/workbench/ui/Empty';
+import { Failed, Loading } from '@/ui/Empty';
 import type { Draft } from './useDraft';
 import styles from './Form.module.css';
 

@@ -26,7 +26,7 @@ vi.mock('@/api/queries', () => ({
       sent.push({ revision, data, answer });
     }),
 }));
-vi.mock('@/workbench/context', () => ({ useCommandContext: () => ({}) }));
+vi.mock('@/workbench/useCommandContext', () => ({ useCommandContext: () => ({}) }));
 vi.mock('@/workbench/rights', () => ({ mayEdit: () => true }));
 vi.mock('@/workbench/useHandlers', () => ({
   useHandlers: (_panel: string, handlers: Record<string, { run: () => Promise<void> }>) => {

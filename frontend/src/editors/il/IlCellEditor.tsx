@@ -1,11 +1,11 @@
 import { useMemo, type Ref } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { InputAssistant } from '../assistant/InputAssistant';
-import type { TextDocument } from '../documents/documents';
-import { CellInput, type CellInputHandle } from '../grid/CellInput';
-import grid from '../grid/CellInput.module.css';
+import type { TextDocument } from '@/text/documents';
+import { CellInput, type CellInputHandle } from '@/ui/grid/CellInput';
+import grid from '@/ui/grid/CellInput.module.css';
 import { cellProblem } from './edits';
 import { proposer } from './proposals';
 import { cellText, type IlColumn, type IlRow } from './rows';

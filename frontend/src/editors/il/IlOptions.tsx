@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
-import { Checkbox, Field } from '@/workbench/ui/Field';
-import { setEditorSettings, useEditorSettings } from '../settings';
+import { Checkbox, Field } from '@/ui/Field';
+import { setEditorSettings, useEditorSettings } from '@/text/settings';
 
 /** Optional columns of the table of IL (FBD-41, IL-01). */
 export function IlOptions() {

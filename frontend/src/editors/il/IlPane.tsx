@@ -1,12 +1,12 @@
 import { useEffect, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import type { EditorProps } from '@/workbench/editors';
-import type { OpenText } from '../documents/useTextDocument';
-import { setEditorSettings, useEditorSettings, type TextView } from '../settings';
-import { panelEditorOf, panelPlace } from '../st/focus';
+import type { EditorProps } from '@/project/editorProps';
+import type { OpenText } from '@/text/useTextDocument';
+import { setEditorSettings, useEditorSettings, type TextView } from '@/text/settings';
+import { panelEditorOf, panelPlace } from '@/text/focus';
 import { ImplementationPane } from '../st/ImplementationPane';
-import { ViewSwitch } from '../ViewSwitch';
+import { ViewSwitch } from '@/text/ViewSwitch';
 import { IlTable } from './IlTable';
 
 type IlPaneProps = EditorProps & OpenText & { object: ObjectSummary };

@@ -1,10 +1,10 @@
 import { CircleAlert, Info, TriangleAlert } from 'lucide-react';
 import type { ReactNode } from 'react';
 import type { t as Text } from '@/i18n';
-import type { GridColumn } from '../grid/Grid';
-import type { EditorSettings } from '../settings';
-import { OPERATORS } from '../st/instructionList';
-import { textOf, tokenize } from '../st/lexer';
+import type { GridColumn } from '@/ui/grid/Grid';
+import type { EditorSettings } from '@/text/settings';
+import { OPERATORS } from '@/iec/instructionList';
+import { textOf, tokenize } from '@/iec/lexer';
 import type { OperandFacts } from './facts';
 import styles from './IlTable.module.css';
 import type { RowMessage } from './messages';

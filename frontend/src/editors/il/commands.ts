@@ -1,12 +1,12 @@
 /** Commands of bodies in IL; there only while such a body is what commands act on (spec 6: CMD-03, CMD-21). */
-import { activeHandler, registerCommands, useRegistry, type Command } from '@/workbench/commands';
+import { activeHandler, useRegistry, type Command } from '@/workbench/commands';
 import type { CommandContext } from '@/workbench/context';
 import { mayEdit } from '@/workbench/rights';
 
 const offered = (id: string) => (context: CommandContext) =>
   activeHandler(id, context, useRegistry.getState().handlers) !== undefined;
 
-const commands: Command[] = [
+export const ilCommands: readonly Command[] = [
   {
     id: 'il.negate',
     title: 'il.negate',
@@ -29,7 +29,3 @@ const commands: Command[] = [
     menu: { menu: 'edit', group: '7_il', order: 2 },
   },
 ];
-
-export function registerIlCommands(): void {
-  registerCommands(commands);
-}

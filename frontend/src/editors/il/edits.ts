@@ -1,10 +1,10 @@
 /**
- * What the acts of the IL table do to the text. Each returns the whole text anew; outside of the cells and rows that
+ * What the acts of the IL table do to the text. Each returns the whole new text; outside of the cells and rows that
  * are meant, not a character changes.
  */
-import { commentBehind } from '../declaration/comments';
-import { replaceRange } from '../declaration/text';
-import { isTrivia, textOf, tokenize, type Token } from '../st/lexer';
+import { commentBehind } from '@/iec/declaration/comments';
+import { replaceRange } from '@/iec/declaration/text';
+import { isTrivia, textOf, tokenize, type Token } from '@/iec/lexer';
 import { blanked, exclude, include, markOf } from './excluded';
 import { cellText, parseRows, type IlColumn, type IlRow } from './rows';
 

@@ -2,7 +2,7 @@
  * Networks that are commented out (NET-07). Each of their lines begins with a comment of its own kind, so that the text
  * stays what it was: nothing in them is compiled, and taking the marks away gives the network back byte for byte.
  */
-import type { Range } from '../declaration/model';
+import type { Range } from '@/iec/declaration/model';
 
 const MARK = /^[ \t]*\/\/\|(?: |$)?/;
 

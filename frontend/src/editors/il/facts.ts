@@ -1,8 +1,8 @@
 import { useEffect, useMemo, useState } from 'react';
 import { activeLanguageClient } from '@/lsp/session';
-import type { TextDocument } from '../documents/documents';
-import { useModelText } from '../documents/useModelText';
-import type { Monaco } from '../st/monacoLoader';
+import type { TextDocument } from '@/text/documents';
+import { useModelText } from '@/text/useModelText';
+import type { Monaco } from '@/text/monacoLoader';
 import type { IlRow } from './rows';
 
 /** What the declaration of an operand says; '' where it says nothing. */
@@ -22,7 +22,7 @@ export function operandName(row: IlRow): string {
   return (row.operand?.text ?? '').replace(/^\(+|[\s,()]+$/g, '');
 }
 
-/** Type, address and comment of the operands, by upper-case name; asked anew when declarations change. */
+/** Type, address and comment of the operands, by upper-case name; requested again when declarations change. */
 export function useOperandFacts(
   monaco: Monaco,
   document: TextDocument,

@@ -1,7 +1,7 @@
 /** What the commands of IL do while its body is shown as text; the table has acts of its own. */
 import type { Handlers } from '@/workbench/commands';
-import type { TextDocument } from '../documents/documents';
-import { panelEditor, panelPlace } from '../st/focus';
+import type { TextDocument } from '@/text/documents';
+import { panelEditor, panelPlace } from '@/text/focus';
 import { negateRows, toggleNetwork } from './edits';
 import { parseRows, rowAt } from './rows';
 

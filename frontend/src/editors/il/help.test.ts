@@ -1,7 +1,7 @@
 /** What stands around the cells: proposals, messages, values, what can be edited. */
 import { describe, expect, it } from 'vitest';
 import type { CompletionItem } from '@/lsp/protocol';
-import { preselected } from '../grid/useProposals';
+import { preselected } from '@/ui/grid/useProposals';
 import { editedColumn } from './columns';
 import { operandName } from './facts';
 import { messagesByRow } from './messages';

@@ -3,6 +3,7 @@ import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { copyRows, deleteRows, insertRow, moveRows, negateRows, pasteRows, setCell, toggleNetwork } from './edits';
 import { cellText, parseRows, segmentsOf, type IlColumn, type IlRow } from './rows';
+import { textOf, tokenize } from '@/iec/lexer';
 
 const COLUMNS: readonly IlColumn[] = ['operator', 'operand', 'comment'];
 
@@ -53,6 +54,10 @@ const body = fc
 
 /** A row and where its cells are, for comparing rows of two texts. */
 const contents = (row: IlRow) => [row.kind, ...COLUMNS.map((column) => cellText(row, column))].join('|');
+
+/** Whether every string ends in its line. */
+const closesStrings = (text: string) =>
+  tokenize(text).every((token) => !token.kind.endsWith('string') || /^(['"])[^\n$]*\1$/.test(textOf(text, token)));
 
 describe('IL text and table', () => {
   it('covers every character of the text, and hides none', () => {
@@ -204,6 +209,7 @@ describe('IL text and table', () => {
         // Whole lines, none into a network that is commented out; what shares a line is told by examples.
         const begins = (at: number) => rows[at] === undefined || rows[at].start === rows[at].lineStart;
         fc.pre(begins(first) && begins(last + 1) && begins(before) && text !== '');
+        fc.pre(closesStrings(text)); // an open one goes on where a later line has a quote
         fc.pre(rows[before]?.excluded !== true && parseRows(`${text}\n`).length > rows.length);
         const moved = moveRows(text, chosen, before, copy);
         const lines = (of: string) => of.split('\n').sort();

@@ -11,9 +11,9 @@ import {
   Waypoints,
 } from 'lucide-react';
 import type { t as Text } from '@/i18n';
-import { guard } from '@/workbench/notices';
+import { guard } from '@/ui/notices';
 import { runCommand } from '@/workbench/run';
-import type { MenuEntry } from '@/workbench/ui/Menu';
+import type { MenuEntry } from '@/ui/Menu';
 import type { useIlActs } from './useIlActs';
 
 type Acts = ReturnType<typeof useIlActs>;

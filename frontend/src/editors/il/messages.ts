@@ -1,6 +1,6 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { useEffect, useMemo, useState } from 'react';
-import type { Monaco } from '../st/monacoLoader';
+import type { Monaco } from '@/text/monacoLoader';
 import { rowAt, type IlRow } from './rows';
 
 export interface RowMessage {

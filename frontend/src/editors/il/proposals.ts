@@ -1,8 +1,8 @@
 /** What may stand in a cell of the table: asked of the language server with the text as it would be. */
 import { activeLanguageClient } from '@/lsp/session';
 import type { CompletionItem, CompletionList, Position } from '@/lsp/protocol';
-import type { TextDocument } from '../documents/documents';
-import type { Proposal, Propose } from '../grid/useProposals';
+import type { TextDocument } from '@/text/documents';
+import type { Proposal, Propose } from '@/ui/grid/useProposals';
 import { setCell } from './edits';
 import { parseRows, type IlColumn } from './rows';
 

@@ -2,10 +2,10 @@
  * A body in IL as the rows of its table (IL-01). Rows only point into the text; together they cover all of it, so
  * nothing a text holds can be lost by showing it. Whether a row is right is said by the compiler.
  */
-import { joinComments } from '../declaration/comments';
-import type { Range } from '../declaration/model';
-import { OPERATORS } from '../st/instructionList';
-import { isTrivia, textOf, tokenize, type Token } from '../st/lexer';
+import { joinComments } from '@/iec/declaration/comments';
+import type { Range } from '@/iec/declaration/model';
+import { OPERATORS } from '@/iec/instructionList';
+import { isTrivia, textOf, tokenize, type Token } from '@/iec/lexer';
 import { runsOf, type Run } from './excluded';
 
 export type RowKind =

@@ -3,7 +3,7 @@ import { useText } from '@/i18n';
 import { channelOf } from '@/online/connections';
 import { PreparedEditor } from '@/online/PreparedCell';
 import { isWritable, togglePrepared } from '@/online/toggle';
-import { notify } from '@/workbench/notices';
+import { notify } from '@/ui/notices';
 import type { RowValue } from './values';
 
 interface Preparing {

@@ -1,6 +1,6 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import type { DragEvent } from 'react';
-import type { RowDrop } from '../grid/useRowDrop';
+import type { RowDrop } from '@/ui/grid/useRowDrop';
 import { copyRows } from './edits';
 import type { useIlActs } from './useIlActs';
 

@@ -7,7 +7,7 @@ import { useLiveValue, useWatched } from '@/online/useLive';
 import { ValueCell } from '@/online/ValueCell';
 import type { OnlineRow } from '@/online/treeRows';
 import type { MonitorSettings } from '../online/inlineMonitor';
-import { expressionOf, findVariables, indexExpressions, type VariableUse } from '../st/variables';
+import { expressionOf, findVariables, indexExpressions, type VariableUse } from '@/iec/variables';
 import styles from './IlTable.module.css';
 import type { IlRow } from './rows';
 

@@ -2,13 +2,13 @@ import { useQuery } from '@tanstack/react-query';
 import { useMemo, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
 import type { SymbolTree } from '@/online/symbols';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Empty, Failed, Loading } from '@/workbench/ui/Empty';
-import { TextInput } from '@/workbench/ui/Field';
-import { Grid } from '../grid/Grid';
-import { cursorAfterKey } from '../grid/cursor';
-import { useGridSelection } from '../grid/useGridSelection';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Empty, Failed, Loading } from '@/ui/Empty';
+import { TextInput } from '@/ui/Field';
+import { Grid } from '@/ui/grid/Grid';
+import { cursorAfterKey } from '@/ui/grid/cursor';
+import { useGridSelection } from '@/ui/grid/useGridSelection';
 import styles from './InstanceDialog.module.css';
 
 interface InstanceDialogProps {

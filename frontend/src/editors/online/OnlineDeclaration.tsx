@@ -1,3 +1,4 @@
+import { valuesOf } from '@/project/kinds';
 import { Boxes } from 'lucide-react';
 import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import { useObjects } from '@/api/queries';
@@ -10,16 +11,16 @@ import { commonEntries } from '@/online/rowMenu';
 import type { SymbolChild } from '@/online/symbols';
 import type { OnlineRoot } from '@/online/treeRows';
 import { useSymbols } from '@/online/useLive';
-import type { EditorProps } from '@/workbench/editors';
+import type { EditorProps } from '@/project/editorProps';
 import type { OnlineSession } from '@/workbench/onlineSession';
-import { Button } from '@/workbench/ui/Button';
-import { Empty } from '@/workbench/ui/Empty';
-import { useModelText } from '../documents/useModelText';
-import type { OpenText } from '../documents/useTextDocument';
-import { joinComments } from '../declaration/comments';
-import { parseDeclaration } from '../declaration/parse';
-import type { GridColumn } from '../grid/Grid';
-import { setPanelChosen } from '../st/focus';
+import { Button } from '@/ui/Button';
+import { Empty } from '@/ui/Empty';
+import { useModelText } from '@/text/useModelText';
+import type { OpenText } from '@/text/useTextDocument';
+import { joinComments } from '@/iec/declaration/comments';
+import { parseDeclaration } from '@/iec/declaration/parse';
+import type { GridColumn } from '@/ui/grid/Grid';
+import { setPanelChosen } from '@/text/focus';
 import { chooseInstance } from './chooseInstance';
 import { monitorTarget } from './monitorScope';
 
@@ -34,7 +35,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
   const model = useMemo(() => parseDeclaration(text), [text]);
   const target = useMemo(() => monitorTarget(objects ?? [], object, instance, text), [objects, object, instance, text]);
   const tree = useSymbols(session);
-  const members = useMembers(tree, target.path, target.temporary.size > 0 && object.kind !== 'pou');
+  const members = useMembers(tree, target.path, target.temporary.size > 0 && valuesOf(object) === 'call');
 
   // An FB that is opened while logged in asks for its instance once.
   const asked = useRef(false);
@@ -65,7 +66,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
     };
     // In the order of the text; inherited variables, which it does not name, come first.
     const order = (child: SymbolChild) => declared.get(child.name.toUpperCase())?.order ?? -1;
-    if (members !== null && target.path !== null && !isRoutine(object)) {
+    if (members !== null && target.path !== null && valuesOf(object) !== 'call') {
       return [...members]
         .sort((a, b) => order(a) - order(b))
         .map((child) => ({
@@ -108,7 +109,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
           </Button>
         </div>
       )}
-      {isRoutine(object) && <div className={online.bar}>{t('st.stackVariables')}</div>}
+      {valuesOf(object) === 'call' && <div className={online.bar}>{t('st.stackVariables')}</div>}
       <div>
         <OnlineTable
           label={t('st.declarationOf', { name: object.name })}
@@ -122,11 +123,6 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
       </div>
     </div>
   );
-}
-
-/** Variables of methods and functions live during the call only. */
-function isRoutine(object: ObjectSummary): boolean {
-  return ['method', 'accessor', 'property'].includes(object.kind) || object.subkind === 'function';
 }
 
 function useMembers(

@@ -1,5 +1,5 @@
 import type { SymbolTree } from '@/online/symbols';
-import { openDialog } from '@/workbench/dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { closePanel, openObject } from '@/workbench/docking/dock';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { InstanceDialog } from './InstanceDialog';

@@ -5,14 +5,14 @@
  */
 import type { editor, IDisposable } from 'monaco-editor/editor/editor.api';
 import type { GroupHandle, OnlineChannel } from '@/online/channel';
-import type { NumberFormat } from '@/online/format';
+import type { NumberFormat } from '@/text/settings';
 import { expressionKey } from '@/online/item';
 import { usePrepared } from '@/online/prepared';
 import { isForced } from '@/online/useLive';
 import { useOnline } from '@/workbench/onlineSession';
-import type { CodeEditor } from '../st/CodePane';
-import type { Monaco } from '../st/monacoLoader';
-import { expressionOf, findVariables, indexExpressions, type MonitorScope, type VariableUse } from '../st/variables';
+import type { CodeEditor } from '@/text/CodePane';
+import type { Monaco } from '@/text/monacoLoader';
+import { expressionOf, findVariables, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
 import styles from './inlineMonitor.module.css';
 import { FRESH_MS, pillOf, PillWidths } from './pills';
 
@@ -91,7 +91,7 @@ export class InlineMonitor {
     this.decorations.clear();
   }
 
-  /** The text has changed: find its variables anew. */
+  /** The text has changed: find its variables again. */
   private read(): void {
     const model = this.target.getModel();
     this.uses = model === null ? [] : findVariables(model.getValue());

@@ -1,6 +1,7 @@
 /** Where the variables of an object live at run time: which path leads to them, which have no value at rest. */
+import { hasRole, kindOf, valuesOf } from '@/project/kinds';
 import type { ObjectSummary } from '@/api/types';
-import { parseDeclaration } from '../declaration/parse';
+import { parseDeclaration } from '@/iec/declaration/parse';
 
 export interface MonitorTarget {
   /** Path of the data shown: a program, an instance, a variable list; null when none is chosen or there is none. */
@@ -18,13 +19,16 @@ const KEPT = new Set(['VAR_STAT', 'VAR_INST']);
 /** The POU an object belongs to: itself, or the owner of a method, action, property or accessor. */
 export function owningPou(objects: readonly ObjectSummary[], object: ObjectSummary): ObjectSummary | undefined {
   let at: ObjectSummary | undefined = object;
-  while (at !== undefined && at.kind !== 'pou') {
-    const parent: string | null = at.parent_id;
-    at = ['method', 'action', 'property', 'accessor', 'folder'].includes(at.kind)
-      ? objects.find((o) => o.id === parent)
-      : undefined;
+  while (at !== undefined && kindOf(at.kind)?.catalog !== 'pous') {
+    const parent: string | null = belongsToParent(at) ? at.parent_id : null;
+    at = objects.find(({ id }) => id === parent);
   }
   return at;
+}
+
+function belongsToParent(object: ObjectSummary): boolean {
+  const place = valuesOf(object);
+  return place === 'call' || place === 'owner' || hasRole(object, 'folder');
 }
 
 export function monitorTarget(
@@ -35,10 +39,10 @@ export function monitorTarget(
 ): MonitorTarget {
   const pou = owningPou(objects, object);
   const temporary = stackNames(object, pou, declaration);
-  if (object.kind === 'gvl' || object.kind === 'persistent')
-    return { path: object.name, needsInstanceOf: null, temporary };
-  if (pou?.subkind === 'program') return { path: instance ?? pou.name, needsInstanceOf: null, temporary };
-  if (pou?.subkind === 'function_block') {
+  const place = valuesOf(pou ?? object);
+  if (place === 'global') return { path: object.name, needsInstanceOf: null, temporary };
+  if (pou && place === 'program') return { path: instance ?? pou.name, needsInstanceOf: null, temporary };
+  if (pou && place === 'instance') {
     return { path: instance, needsInstanceOf: instance === null ? pou.name : null, temporary };
   }
   return { path: null, needsInstanceOf: null, temporary };
@@ -46,7 +50,7 @@ export function monitorTarget(
 
 function stackNames(object: ObjectSummary, pou: ObjectSummary | undefined, declaration: string): ReadonlySet<string> {
   const model = parseDeclaration(declaration);
-  const routine = ['method', 'accessor', 'property'].includes(object.kind) || pou?.subkind === 'function';
+  const routine = valuesOf(object) === 'call' || (pou !== undefined && valuesOf(pou) === 'call');
   const names = new Set<string>();
   for (const row of model.rows) {
     const scope = model.blocks[row.block]?.scope ?? '';

@@ -6,7 +6,7 @@ import { pillOf, PillWidths, type PillState } from './pills';
 import { unchangedLines } from './staleLines';
 
 const object = (id: string, kind: string, parent: string | null, subkind: string | null = null) =>
-  ({ id, kind, parent_id: parent, subkind, name: id, index: 0, revision: 1, badges: [] }) as ObjectSummary;
+  ({ id, kind, parent_id: parent, subkind, name: id, index: 0, revision: 1 }) as ObjectSummary;
 
 const objects = [
   object('App', 'application', null),

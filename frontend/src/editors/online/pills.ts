@@ -1,6 +1,7 @@
 /** What stands behind a variable in a line: the text and look of its value. Pure. */
 import type { LiveValue } from '@/online/board';
-import { formatShort, type NumberFormat } from '@/online/format';
+import { formatShort } from '@/online/format';
+import type { NumberFormat } from '@/text/settings';
 import { isLeaf, valueKind } from '@/online/item';
 
 export interface PillState {

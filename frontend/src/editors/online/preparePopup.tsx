@@ -1,7 +1,7 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { flushSync } from 'react-dom';
 import { createRoot, type Root } from 'react-dom/client';
-import { CellInput } from '@/editors/grid/CellInput';
+import { CellInput } from '@/ui/grid/CellInput';
 import { t } from '@/i18n';
 import { channelOf } from '@/online/connections';
 import { formatLiteral } from '@/online/format';
@@ -9,9 +9,9 @@ import type { SubscribedItem } from '@/online/item';
 import { checkLiteral } from '@/online/literal';
 import { prepare, preparedLiteral } from '@/online/prepared';
 import { isWritable, togglePrepared } from '@/online/toggle';
-import { notify } from '@/workbench/notices';
-import type { CodeEditor } from '../st/CodePane';
-import type { Monaco } from '../st/monacoLoader';
+import { notify } from '@/ui/notices';
+import type { CodeEditor } from '@/text/CodePane';
+import type { Monaco } from '@/text/monacoLoader';
 import type { PillTarget } from './inlineMonitor';
 import styles from './preparePopup.module.css';
 

@@ -2,8 +2,8 @@ import { useEffect, useMemo } from 'react';
 import type { ObjectSummary, RuntimeException } from '@/api/types';
 import { useObjectSession } from '@/online/useObjectSession';
 import { exceptionTitle } from '@/workbench/online/exception';
-import type { Part } from '../documents/documents';
-import type { CodeEditor } from '../st/CodePane';
+import type { Part } from '@/project/partUri';
+import type { CodeEditor } from '@/text/CodePane';
 import styles from './faultLine.module.css';
 
 /** The line of a part at which the application stopped, or null. */

@@ -1,15 +1,16 @@
+import { kindOf } from '@/project/kinds';
 import { useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { openDialog } from '@/workbench/dialogs';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Checkbox, Field, Select, TextInput } from '@/workbench/ui/Field';
+import { openDialog } from '@/ui/dialogs';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
 import { InputAssistant } from '../assistant/InputAssistant';
-import { scopesFor, VARIABLE_FLAGS } from '../declaration/model';
-import type { NewVariable } from '../declaration/structure';
+import { scopesFor, VARIABLE_FLAGS } from '@/iec/declaration/model';
+import type { NewVariable } from '@/iec/declaration/structure';
 import styles from '../declaration/Dialogs.module.css';
-import { identifierProblem } from './keywords';
+import { identifierProblem } from '@/iec/keywords';
 
 export interface Declared {
   /** Object whose declaration gets the variable. */
@@ -32,7 +33,7 @@ export function AutoDeclareDialog({ projectId, object, places, keyword, start, c
   const t = useText();
   const [variable, setVariable] = useState(start);
   const [objectId, setObjectId] = useState(places[0]?.id ?? object.id);
-  const global = places.find((place) => place.id === objectId)?.kind === 'gvl';
+  const global = kindOf(places.find((place) => place.id === objectId)?.kind ?? '')?.declares;
   const scopes = global ? ['VAR_GLOBAL'] : scopesFor(keyword);
   const scope = scopes.includes(variable.scope) ? variable.scope : (scopes[0] ?? 'VAR');
   const change = (part: Partial<NewVariable>) => setVariable({ ...variable, ...part });

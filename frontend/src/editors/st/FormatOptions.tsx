@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
-import { Checkbox, Field, Select } from '@/workbench/ui/Field';
-import { setEditorSettings, useEditorSettings, type EditorSettings } from '../settings';
+import { Checkbox, Field, Select } from '@/ui/Field';
+import { setEditorSettings, useEditorSettings, type EditorSettings } from '@/text/settings';
 
 const INDENTATIONS = ['2', '3', '4', '8', '0'] as const;
 const CASES: readonly EditorSettings['formatKeywords'][] = ['upper', 'lower', 'keep'];

@@ -2,12 +2,12 @@ import { useCallback, useMemo, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
-import type { EditorProps } from '@/workbench/editors';
-import type { OpenText } from '../documents/useTextDocument';
+import type { EditorProps } from '@/project/editorProps';
+import type { OpenText } from '@/text/useTextDocument';
 import { useFaultLine } from '../online/useFaultLine';
 import { useOnlineView } from '../online/useOnlineView';
-import { CodePane, type CodeEditor } from './CodePane';
-import { addPanelEditor, removePanelEditor } from './focus';
+import { CodePane, type CodeEditor } from '@/text/CodePane';
+import { addPanelEditor, removePanelEditor } from '@/text/focus';
 import { useAutoDeclare } from './useAutoDeclare';
 import { useEditingLock } from './useEditingLock';
 

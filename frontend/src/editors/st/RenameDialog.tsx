@@ -1,10 +1,10 @@
 import { useMemo, useState } from 'react';
 import { useText } from '@/i18n';
 import type { CrossReference } from '@/lsp/symbols';
-import { Button } from '@/workbench/ui/Button';
-import { Dialog } from '@/workbench/ui/Dialog';
-import { Field, TextInput } from '@/workbench/ui/Field';
-import { identifierProblem } from './keywords';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, TextInput } from '@/ui/Field';
+import { identifierProblem } from '@/iec/keywords';
 import styles from './RenameDialog.module.css';
 
 const SHOWN = 200;

@@ -1,4 +1,5 @@
 /** Larger acts of a text editor: input assistant, auto declare, rename, revisions, add to watch. */
+import { kindOf, valuesOf } from '@/project/kinds';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
@@ -9,29 +10,30 @@ import { renameSymbol, renameTarget } from '@/lsp/rename';
 import { crossReferences } from '@/lsp/symbols';
 import { addToList, useWatchLists } from '@/online/watch/lists';
 import { commandContext } from '@/workbench/context';
-import { openDialog } from '@/workbench/dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { showPanel } from '@/workbench/docking/dock';
-import { guard, notify } from '@/workbench/notices';
+import { guard, notify } from '@/ui/notices';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText } from '@/workbench/run';
-import { ancestorOfKind } from '@/workbench/tree/model';
+import { applicationOf } from '@/project/tree';
 import { InputAssistant } from '../assistant/InputAssistant';
 import { findCrossReferences } from '../crossReferences/store';
-import { parseDeclaration } from '../declaration/parse';
-import { insertRow } from '../declaration/structure';
-import { openDocument, type Part } from '../documents/documents';
-import type { OpenText } from '../documents/useTextDocument';
+import { parseDeclaration } from '@/iec/declaration/parse';
+import { insertRow } from '@/iec/declaration/structure';
+import { openDocument } from '@/text/documents';
+import type { Part } from '@/project/partUri';
+import type { OpenText } from '@/text/useTextDocument';
 import { RevisionsDialog } from '../documents/RevisionsDialog';
 import { monitorTarget, owningPou } from '../online/monitorScope';
-import { setEditorSettings, useEditorSettings } from '../settings';
+import { setEditorSettings, useEditorSettings } from '@/text/settings';
 import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
-import type { CodeEditor } from './CodePane';
-import { typeByName } from './declareTarget';
-import type { TextPlace } from './focus';
-import { isKeyword } from './keywords';
-import { partLabels } from './labels';
+import type { CodeEditor } from '@/text/CodePane';
+import { typeByName } from '@/iec/declareTarget';
+import type { TextPlace } from '@/text/focus';
+import { isKeyword } from '@/iec/keywords';
+import { partLabels } from '@/text/labels';
 import { RenameDialog } from './RenameDialog';
-import { expressionOf, findVariables } from './variables';
+import { expressionOf, findVariables } from '@/iec/variables';
 
 export interface TextPanel extends OpenText {
   projectId: string;
@@ -80,10 +82,10 @@ export async function autoDeclare(
   const word = isKeyword(found) ? '' : found;
   const objects = objectsOf(projectId);
   // An action declares in its POU.
-  const own = object.kind === 'action' ? (owningPou(objects, object) ?? object) : object;
-  const application = ancestorOfKind(objects, object.id, 'application')?.id;
+  const own = valuesOf(object) === 'owner' ? (owningPou(objects, object) ?? object) : object;
+  const application = applicationOf(objects, object.id)?.id;
   const lists = objects.filter(
-    (o) => o.kind === 'gvl' && ancestorOfKind(objects, o.id, 'application')?.id === application,
+    (o) => kindOf(o.kind)?.declares !== undefined && applicationOf(objects, o.id)?.id === application,
   );
   const declaration = own.id === object.id ? document.models.declaration.getValue() : '';
   const keyword = parseDeclaration(declaration).header?.keyword.text.toUpperCase() ?? (own.subkind ?? '').toUpperCase();

@@ -3,7 +3,7 @@ import { Braces, Eye, History, Lightbulb, ListTree, Search, WandSparkles, Waypoi
 import { contextChanged, registerCommands, type Command } from '@/workbench/commands';
 import { openPalette } from '@/workbench/palette/state';
 import { mayEdit } from '@/workbench/rights';
-import { setEditorSettings, useEditorSettings } from '../settings';
+import { setEditorSettings, useEditorSettings } from '@/text/settings';
 
 const commands: Command[] = [
   {

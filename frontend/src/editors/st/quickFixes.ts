@@ -1,21 +1,34 @@
-/** What mends the messages of a place, as entries of a menu: in the table of messages, in the declaration as table. */
+/** Quick fixes for the messages of a place, as entries of a menu: in the table of messages, in the declaration as table. */
 import { Lightbulb } from 'lucide-react';
+import type { Diagnostic } from '@/api/types';
+import { useProject } from '@/project/openProject';
+import { partUri } from '@/project/partUri';
 import { titleOfAction, type ServerAction } from '@/lsp/codeActions';
 import type { Range } from '@/lsp/protocol';
 import { languageClient } from '@/lsp/session';
 import { commandContext } from '@/workbench/context';
-import { guard } from '@/workbench/notices';
+import { guard } from '@/ui/notices';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText } from '@/workbench/run';
-import type { MenuEntry } from '@/workbench/ui/Menu';
-import { mend } from './mend';
-import { loadMonaco } from './monacoLoader';
+import type { MenuEntry } from '@/ui/Menu';
+import { applyQuickFix } from './applyQuickFix';
+import { loadMonaco } from '@/text/monacoLoader';
 
 interface Wanted {
-  /** Only what mends messages of this code. */
+  /** Only quick fixes for messages of this code. */
   code?: string;
   /** Done before a fix: shows the place. */
   show?: () => void;
+}
+
+/** Quick fixes of a message, found again at its place. */
+export async function quickFixesOfMessage(message: Diagnostic, show: () => void): Promise<MenuEntry[]> {
+  const { projectId } = useProject.getState();
+  const { object_id, part, line, column, end_line, end_column, code } = message;
+  if (projectId === null || object_id === null || part === null || line === null) return [];
+  const start = { line: line - 1, character: (column ?? 1) - 1 };
+  const end = end_line === null ? start : { line: end_line - 1, character: (end_column ?? 1) - 1 };
+  return quickFixEntries(projectId, partUri(projectId, object_id, part), { start, end }, { code, show });
 }
 
 export async function quickFixEntries(
@@ -38,7 +51,7 @@ export async function quickFixEntries(
       disabledReason: allowed === true ? null : reasonText(allowed),
       run: () => {
         show?.();
-        void guard(() => mend(monaco, { uri, action }));
+        void guard(() => applyQuickFix(monaco, { uri, action }));
       },
     }));
 }

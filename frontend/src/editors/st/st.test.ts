@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { identifierProblem, isConversion } from './keywords';
-import { textOf, tokenize } from './lexer';
-import { expressionOf, findVariables, indexExpressions, type MonitorScope } from './variables';
+import { identifierProblem, isConversion } from '@/iec/keywords';
+import { textOf, tokenize } from '@/iec/lexer';
+import { expressionOf, findVariables, indexExpressions, type MonitorScope } from '@/iec/variables';
 
 const kinds = (text: string) => tokenize(text).map((token) => `${token.kind} ${textOf(text, token)}`);
 
@@ -25,7 +25,7 @@ describe('tokens', () => {
     ['%IX7.2 %QW215 %I*', ['address %IX7.2', 'address %QW215', 'address %I*']],
     ['p REF= q', ['word p', 'operator REF=', 'word q']],
     ['xREF=5', ['word xREF', 'operator =', 'number 5']],
-    ['\uff1b', ['word \uff1b']],
+    ['\uff1b', ['other \uff1b']],
     ['// c\nx', ['comment // c', 'word x']],
   ])('%s', (text, expected) => expect(kinds(text)).toEqual(expected));
 

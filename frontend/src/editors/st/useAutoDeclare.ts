@@ -1,10 +1,10 @@
 import { useEffect } from 'react';
 import { activeLanguageClient } from '@/lsp/session';
 import { toPosition } from '@/lsp/convert';
-import { useEditorSettings } from '../settings';
+import { useEditorSettings } from '@/text/settings';
 import { autoDeclare, type TextPanel } from './acts';
-import type { CodeEditor } from './CodePane';
-import { undeclaredCandidates } from './declareTarget';
+import type { CodeEditor } from '@/text/CodePane';
+import { undeclaredCandidates } from '@/iec/declareTarget';
 
 /** After Enter: a name of the finished line that nobody has declared is asked for (DECL-60), unless the user types on. */
 export function useAutoDeclare(panel: TextPanel, editor: CodeEditor | null): void {

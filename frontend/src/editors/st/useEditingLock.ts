@@ -1,13 +1,13 @@
 import { useEffect } from 'react';
 import { create } from 'zustand';
 import type { ObjectSummary } from '@/api/types';
-import { useSession } from '@/app/session';
+import { useSession } from '@/session/session';
 import { t } from '@/i18n';
 import { useObjectSession } from '@/online/useObjectSession';
-import { confirm } from '@/workbench/dialogs';
-import { useProject } from '@/workbench/project';
+import { confirm } from '@/ui/dialogs';
+import { useProject } from '@/project/openProject';
 import { atLeast } from '@/workbench/rights';
-import type { CodeEditor } from './CodePane';
+import type { CodeEditor } from '@/text/CodePane';
 
 /** Objects the user has begun to edit while logged in. */
 const useUnlocked = create<{ objects: ReadonlySet<string> }>(() => ({ objects: new Set() }));

@@ -1,6 +1,6 @@
 import { useEffect } from 'react';
-import type { Reveal } from '@/workbench/editors';
-import { panelEditor, panelEditorOf, panelTable } from './focus';
+import type { Reveal } from '@/project/editorProps';
+import { panelEditor, panelEditorOf, panelTable } from '@/text/focus';
 
 /** Carries out a jump into an editor; the editor may appear a moment later (the table gives way to the text). */
 export function useReveal(panelId: string, reveal: Reveal | null): void {

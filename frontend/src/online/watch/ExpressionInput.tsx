@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
-import grid from '@/editors/grid/CellInput.module.css';
-import { SuggestionList } from '@/editors/grid/SuggestionList';
+import grid from '@/ui/grid/CellInput.module.css';
+import { SuggestionList } from '@/ui/grid/SuggestionList';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { useSymbols } from '../useLive';
 import { completionsFor, isComplete, preselected, type ExpressionCompletion } from './completion';

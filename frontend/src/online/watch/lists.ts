@@ -1,8 +1,9 @@
 /** Watch lists 1 to 4: expressions per list, kept for user and project, online and offline (WAT-01, WAT-10, WAT-11). */
+import { hasRole, type Role } from '@/project/kinds';
 import { create } from 'zustand';
-import { loadSetting, saveSetting } from '@/app/preferences';
+import { loadSetting, saveSetting } from '@/session/preferences';
 import type { ObjectSummary } from '@/api/types';
-import { useProject } from '@/workbench/project';
+import { useProject } from '@/project/openProject';
 
 export const WATCH_LISTS = [1, 2, 3, 4] as const;
 export type WatchList = (typeof WATCH_LISTS)[number];
@@ -129,8 +130,8 @@ export function plainExpression(expression: string, objects: readonly ObjectSumm
     .replace(/;$/, '')
     .replace(/\s*\.\s*/g, '.');
   const [first = '', second = '', ...rest] = text.split('.');
-  const named = (kind: string, name: string) =>
-    objects.some((o) => o.kind === kind && o.name.toUpperCase() === name.toUpperCase());
+  const named = (role: Role, name: string) =>
+    objects.some((o) => hasRole(o, role) && o.name.toUpperCase() === name.toUpperCase());
   if (rest.length > 0 && named('device', first) && named('application', second)) return rest.join('.');
   if (second !== '' && named('application', first)) return [second, ...rest].join('.');
   return text;

@@ -1,17 +1,27 @@
+import { useQuery } from '@tanstack/react-query';
 import { useRef, useState, type KeyboardEvent } from 'react';
-import { ApiError } from '@/api/client';
-import type { ObjectKind, PlacementRule, ProjectObject } from '@/api/types';
-import { useText } from '@/i18n';
-import { objectIcon } from '@/icons/objects';
-import { explain } from '../notices';
+import { api, ApiError } from '@/api/client';
+import { keys } from '@/api/queries';
+import type { BodyLanguage, PlacementRule, ProjectObject } from '@/api/types';
+import { textOf, useText } from '@/i18n';
+import {
+  kindAbout,
+  kindOf,
+  kindTitle,
+  objectIcon,
+  subkindTitle,
+  type AddOption,
+  type AddValues,
+} from '@/project/kinds';
+import { explain } from '@/ui/notices';
 import { createObject } from '../tree/acts';
-import { firstChoice, ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '../tree/placement';
-import type { Forest, TreeView } from '../tree/model';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Field, Select, TextInput } from '../ui/Field';
+import { firstChoice, ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '@/project/placement';
+import type { Forest, TreeView } from '@/project/tree';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, Select, TextInput } from '@/ui/Field';
 import styles from './AddObjectDialog.module.css';
-import { declarationOf, optionsOf, type ObjectOptions } from './declaration';
+import { declarationOf } from './declaration';
 
 type Language = PlacementRule['languages'][number];
 
@@ -22,7 +32,7 @@ interface AddObjectProps {
   view: TreeView;
   parentId: string | null;
   /** Chosen in a menu: the dialog opens with this kind. */
-  kind?: ObjectKind;
+  kind?: string;
   close: (created?: ProjectObject) => void;
 }
 
@@ -31,18 +41,26 @@ const ACCESS = ['PUBLIC', 'PRIVATE', 'PROTECTED', 'INTERNAL'] as const;
 /** Add Object: kinds that may be here at the left, name and what the kind needs at the right. */
 export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind, close }: AddObjectProps) {
   const t = useText();
+  const languages = useQuery({
+    queryKey: keys.languages,
+    queryFn: () => api.get<BodyLanguage[]>('/languages'),
+    staleTime: Infinity,
+  });
   const kinds = placeableKinds(rules, forest, parentId, view);
   const [rule, setRule] = useState(() => firstChoice(kinds, kind));
   const [subkind, setSubkind] = useState<string | undefined>(rule.subkinds[0]);
   const [language, setLanguage] = useState<Language | undefined>(rule.languages[0]);
   const [name, setName] = useState(() => proposedName(rule, forest, parentId));
-  const [options, setOptions] = useState<ObjectOptions>({});
+  const [options, setOptions] = useState<AddValues>({});
   const [refused, setRefused] = useState<string | null>(null);
   const [busy, setBusy] = useState(false);
   const nameInput = useRef<HTMLInputElement>(null);
   const fixed = fixedNames(rule, forest, parentId);
   const fault = nameFault(rule, forest, parentId, name);
   const owner = ownerOf(forest, parentId);
+
+  const languageTitle = (name: string) =>
+    textOf(`language.${name}`) ?? languages.data?.find((each) => each.name === name)?.title ?? name;
 
   const choose = (next: PlacementRule) => {
     setRule(next);
@@ -58,7 +76,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
     if (fault || busy) return;
     setBusy(true);
     try {
-      const declaration = declarationOf(rule.kind, subkind, name, options);
+      const declaration = declarationOf(rule.kind, { subkind, name, values: options });
       const data = declaration === null ? undefined : withBody(rule.kind, declaration, language);
       const order = { parent_id: parentId, kind: rule.kind, name, subkind, language, data };
       close(await createObject(projectId, order));
@@ -68,7 +86,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
     }
   };
 
-  const option = (key: keyof ObjectOptions) =>
+  const option = (key: AddOption) =>
     key === 'access' ? (
       <Field key={key} label={t('addObject.access')}>
         {(attributes) => (
@@ -124,13 +142,13 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
                 onClick={() => choose(candidate)}
               >
                 <Icon />
-                {t(`kind.${candidate.kind}`)}
+                {kindTitle(candidate.kind)}
               </button>
             );
           })}
         </div>
         <div className={styles.form}>
-          <p className={styles.about}>{t(`about.${rule.kind}`)}</p>
+          <p className={styles.about}>{kindAbout(rule.kind)}</p>
           <Field label={t('addObject.name')} error={refused ?? (fault && t(fault.key, fault.values))}>
             {(attributes) =>
               fixed.length > 0 ? (
@@ -169,20 +187,20 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
                     onClick={() => setSubkind(each)}
                   >
                     <Icon />
-                    {t(`subkind.${each as 'program'}`)}
+                    {subkindTitle(each)}
                   </button>
                 );
               })}
             </div>
           )}
-          {optionsOf(rule.kind, subkind).map(option)}
+          {kindOf(rule.kind)?.add?.optionsOf?.(subkind).map(option)}
           {language !== undefined && (
             <Field label={t('addObject.language')}>
               {(attributes) => (
                 <Select
                   {...attributes}
                   value={language}
-                  choices={rule.languages.map((each) => ({ value: each, text: t(`language.${each}`) }))}
+                  choices={rule.languages.map((each) => ({ value: each, text: languageTitle(each) }))}
                   onValue={setLanguage}
                 />
               )}
@@ -211,6 +229,7 @@ function walk(event: KeyboardEvent<HTMLElement>): void {
 }
 
 /** Kinds with a body have an implementation beside their declaration. */
-function withBody(kind: ObjectKind, declaration: string, language: Language | undefined): Record<string, unknown> {
-  return kind === 'pou' || kind === 'method' ? { declaration, implementation: '', language } : { declaration };
+function withBody(kind: string, declaration: string, language: Language | undefined): Record<string, unknown> {
+  const hasBody = kindOf(kind)?.parts?.includes('implementation');
+  return hasBody ? { declaration, implementation: '', language } : { declaration };
 }

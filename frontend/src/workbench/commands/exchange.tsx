@@ -1,14 +1,14 @@
 import { FileDown, FileUp } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
-import { go } from '@/app/route';
+import { go } from '@/session/route';
 import { registerCommands, type Command } from '../commands';
-import { openDialog } from '../dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { saveEditors } from '../docking/close';
 import { openObject } from '../docking/dock';
 import { ExportDialog } from '../exchange/ExportDialog';
 import { ImportDialog } from '../exchange/ImportDialog';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { mayEdit } from '../rights';
 import { leaveProject } from './file';
 import { showInTree } from './project';

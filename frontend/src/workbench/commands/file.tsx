@@ -1,9 +1,9 @@
 import { FilePlus, FolderOpen, LogOut, SquareArrowOutUpLeft } from 'lucide-react';
 import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
-import { go } from '@/app/route';
-import { setUser, useSession } from '@/app/session';
-import { newProject } from '@/app/start/NewProjectDialog';
+import { go } from '@/session/route';
+import { setUser, useSession } from '@/session/session';
+import { newProject } from '../projectInfo/NewProjectDialog';
 import { registerCommands, type Command } from '../commands';
 import { closeEditors } from '../docking/close';
 import { atLeast } from '../rights';

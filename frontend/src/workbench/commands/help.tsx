@@ -1,8 +1,6 @@
 import { CircleHelp, Keyboard } from 'lucide-react';
 import { registerCommands, type Command } from '../commands';
-import { openDialog } from '../dialogs';
-import { AboutDialog } from '../help/AboutDialog';
-import { ShortcutsDialog } from '../help/ShortcutsDialog';
+import { openDialog } from '@/ui/dialogs';
 
 const commands: Command[] = [
   {
@@ -12,6 +10,7 @@ const commands: Command[] = [
     keys: ['Ctrl+Alt+K'],
     menu: { menu: 'help', group: '1_help' },
     run: async () => {
+      const { ShortcutsDialog } = await import('../help/ShortcutsDialog');
       await openDialog((close) => <ShortcutsDialog close={() => close()} />);
     },
   },
@@ -21,6 +20,7 @@ const commands: Command[] = [
     icon: CircleHelp,
     menu: { menu: 'help', group: '2_about' },
     run: async () => {
+      const { AboutDialog } = await import('../help/AboutDialog');
       await openDialog((close) => <AboutDialog close={() => close()} />);
     },
   },

@@ -4,10 +4,8 @@ import { keys, queryClient } from '@/api/queries';
 import type { LibrarySummary, ProjectSummary } from '@/api/types';
 import { t } from '@/i18n';
 import { registerCommands, type Command } from '../commands';
-import { openDialog } from '../dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { saveEditors } from '../docking/close';
-import { RepositoryDialog } from '../libraries/RepositoryDialog';
-import { SaveLibraryDialog } from '../libraries/SaveLibraryDialog';
 import { atLeast } from '../rights';
 
 const commands: Command[] = [
@@ -25,6 +23,7 @@ const commands: Command[] = [
         queryKey: keys.libraries,
         queryFn: () => api.get<LibrarySummary[]>('/libraries'),
       });
+      const { SaveLibraryDialog } = await import('../libraries/SaveLibraryDialog');
       await openDialog((close) => (
         <SaveLibraryDialog
           projectId={project.id}
@@ -43,6 +42,7 @@ const commands: Command[] = [
     menu: { menu: 'tools', group: '1_options', order: 2 },
     run: async (context) => {
       const readOnly = atLeast(context.role, 'engineer') ? null : t('reason.engineer');
+      const { RepositoryDialog } = await import('../libraries/RepositoryDialog');
       await openDialog((close) => <RepositoryDialog readOnly={readOnly} close={() => close()} />);
     },
   },

@@ -2,7 +2,7 @@ import { CloudUpload, Hammer, LogIn, LogOut, Play, RotateCcw, Square, StepForwar
 import { t } from '@/i18n';
 import { registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
-import { confirm } from '../dialogs';
+import { confirm } from '@/ui/dialogs';
 import { stepMessage } from '../messages/jump';
 import { presentMessages, useMessages } from '../messages/store';
 import { build, download, login, logout, onlineChange, reset, runtimeAct } from '../online/acts';

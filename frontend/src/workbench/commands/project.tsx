@@ -1,23 +1,22 @@
-import { Ban, CircleCheckBig, FilePlus2, FolderOpen, History, Info, ListTree } from 'lucide-react';
+import { hasRole, kindOf, opensEditor } from '@/project/kinds';
+import { Ban, CircleCheckBig, FilePlus2, FolderOpen, History, Info, ListTree, SlidersHorizontal } from 'lucide-react';
 import { api } from '@/api/client';
 import { keys, patchSummary, queryClient } from '@/api/queries';
-import type { ObjectKind, ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
+import type { ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
 import { AddObjectDialog } from '../addObject/AddObjectDialog';
 import { registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
-import { openDialog } from '../dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { openObject, showPanel } from '../docking/dock';
-import { HistoryDialog } from '../history/HistoryDialog';
-import { setActiveApplication } from '../project';
-import { ProjectInfoDialog } from '../projectInfo/ProjectInfoDialog';
+import { setActiveApplication } from '@/project/openProject';
 import { allOf, mayEdit } from '../rights';
-import { forestOf, lineage, type TreeView } from '../tree/model';
-import { placeableKinds } from '../tree/placement';
+import { forestOf, lineage, type TreeView } from '@/project/tree';
+import { placeableKinds } from '@/project/placement';
 import { revealInTree } from '../tree/state';
 
 /** Argument of `project.addObject`; without one the selected object is the parent. */
 interface AddOrder {
-  kind?: ObjectKind;
+  kind?: string;
   parentId: string | null;
   view: TreeView;
 }
@@ -28,7 +27,7 @@ function objectsOf(projectId: string): readonly ObjectSummary[] {
 
 /** Panel that shows an object: Devices or POUs. */
 function viewOf(objects: readonly ObjectSummary[], id: string): TreeView {
-  return lineage(objects, id).at(-1)?.kind === 'device' ? 'devices' : 'pous';
+  return hasRole(lineage(objects, id).at(-1), 'device') ? 'devices' : 'pous';
 }
 
 /** Brings an object into view in the tree that holds it. */
@@ -37,22 +36,9 @@ export function showInTree(projectId: string, id: string): void {
   revealInTree(id);
 }
 
-/** Kinds that the compiler gets. */
-const COMPILED: ReadonlySet<ObjectKind> = new Set<ObjectKind>([
-  'pou',
-  'method',
-  'action',
-  'property',
-  'accessor',
-  'interface',
-  'dut',
-  'gvl',
-  'persistent',
-]);
-
 function excludable(context: CommandContext): Enablement {
   if (context.selection.length === 0) return 'reason.nothingSelected';
-  return context.selection.every((object) => COMPILED.has(object.kind)) ? true : 'reason.notCompiled';
+  return context.selection.every((object) => kindOf(object.kind)?.compiled) ? true : 'reason.notCompiled';
 }
 
 /** Leaves objects out of the build; when all of them are out already, takes them in again. */
@@ -101,7 +87,7 @@ const commands: Command[] = [
       ));
       if (!created) return;
       showInTree(projectId, created.id);
-      if (created.kind !== 'folder' && created.kind !== 'plc_logic') openObject(created.id, created.name);
+      if (opensEditor(created)) openObject(created.id, created.name);
     },
   },
   {
@@ -125,7 +111,7 @@ const commands: Command[] = [
     title: 'command.setActive',
     icon: CircleCheckBig,
     menu: { menu: 'project', group: '2_application' },
-    visible: (context) => context.selection[0]?.kind === 'application',
+    visible: (context) => hasRole(context.selection[0], 'application'),
     enabled: (context) => (context.selection[0]?.id === context.applicationId ? 'reason.activeAlready' : true),
     run: (context) => setActiveApplication(context.selection[0]!.id),
   },
@@ -139,12 +125,28 @@ const commands: Command[] = [
     run: (context) => excludeObjects(context.projectId!, context.selection),
   },
   {
+    id: 'project.properties',
+    title: 'command.properties',
+    icon: SlidersHorizontal,
+    keys: ['Alt+Enter'],
+    scope: 'tree',
+    menu: { menu: 'project', group: '1_objects', order: 5 },
+    enabled: (context) => (context.selection.length > 0 ? true : 'reason.nothingSelected'),
+    run: async (context) => {
+      const { PropertiesDialog } = await import('../properties/PropertiesDialog');
+      await openDialog((close) => (
+        <PropertiesDialog projectId={context.projectId!} object={context.selection[0]!} close={() => close()} />
+      ));
+    },
+  },
+  {
     id: 'project.history',
     title: 'command.history',
     icon: History,
     menu: { menu: 'project', group: '3_project', order: 1 },
     enabled: (context) => (context.projectId ? true : 'reason.noProject'),
     run: async (context) => {
+      const { HistoryDialog } = await import('../history/HistoryDialog');
       const object = context.selection.length === 1 ? context.selection[0]! : null;
       await openDialog((close) => (
         <HistoryDialog projectId={context.projectId!} object={object} close={() => close()} />
@@ -158,6 +160,7 @@ const commands: Command[] = [
     menu: { menu: 'project', group: '3_project', order: 2 },
     enabled: (context) => (context.projectId ? true : 'reason.noProject'),
     run: async (context) => {
+      const { ProjectInfoDialog } = await import('../projectInfo/ProjectInfoDialog');
       await openDialog((close) => <ProjectInfoDialog projectId={context.projectId!} close={() => close()} />);
     },
   },

@@ -1,11 +1,12 @@
+import { hasRole } from '@/project/kinds';
 import { ListChecks, SlidersHorizontal } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
 import { registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
-import { openDialog } from '../dialogs';
-import { notify } from '../notices';
+import { openDialog } from '@/ui/dialogs';
+import { notify } from '@/ui/notices';
 import { analyse } from '../online/acts';
 import { allOf, atLeast, mayEdit } from '../rights';
 import { reasonText } from '../run';
@@ -20,7 +21,7 @@ async function openSettings(context: CommandContext): Promise<boolean> {
   const saved = await openDialog<boolean>((close) => (
     <StaticAnalysisDialog
       projectId={context.projectId!}
-      applications={objects.filter((object) => object.kind === 'application')}
+      applications={objects.filter((object) => hasRole(object, 'application'))}
       applicationId={context.applicationId!}
       readOnly={allowed === true ? null : reasonText(allowed)}
       close={close}

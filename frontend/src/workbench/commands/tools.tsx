@@ -1,9 +1,8 @@
 import { KeyRound, Settings, Users } from 'lucide-react';
 import { registerCommands, type Command } from '../commands';
-import { openDialog } from '../dialogs';
+import { openDialog } from '@/ui/dialogs';
 import { OptionsDialog } from '../tools/OptionsDialog';
 import { PasswordDialog } from '../tools/PasswordDialog';
-import { UsersDialog } from '../tools/UsersDialog';
 
 const commands: Command[] = [
   {
@@ -32,6 +31,7 @@ const commands: Command[] = [
     menu: { menu: 'tools', group: '2_users', order: 2 },
     enabled: (context) => (context.role === 'admin' ? true : 'reason.admin'),
     run: async () => {
+      const { UsersDialog } = await import('../tools/UsersDialog');
       await openDialog((close) => <UsersDialog close={() => close()} />);
     },
   },

@@ -7,8 +7,8 @@ import {
 } from 'dockview-react';
 import 'dockview-react/dist/styles/dockview.css';
 import { useEffect, useMemo, useState } from 'react';
-import { saveSetting, usePreferences } from '@/app/preferences';
-import { notifyError } from '../notices';
+import { saveSetting, usePreferences } from '@/session/preferences';
+import { notifyError } from '@/ui/notices';
 import { useSelection } from '../selection';
 import { resetLayout, setDockApi } from './dock';
 import './dockview.css';

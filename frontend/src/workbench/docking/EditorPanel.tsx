@@ -3,11 +3,12 @@ import { FileQuestion, Trash2 } from 'lucide-react';
 import { Suspense, useEffect, useRef, useState } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
-import { editorFor } from '../editors';
-import { useProject } from '../project';
-import { Button } from '../ui/Button';
-import { Empty, Loading } from '../ui/Empty';
-import { ErrorBoundary } from '../ui/ErrorBoundary';
+import { kindOf } from '@/project/kinds';
+import { useProject } from '@/project/openProject';
+import { Button } from '@/ui/Button';
+import { Empty, Loading } from '@/ui/Empty';
+import { ErrorBoundary } from '@/ui/ErrorBoundary';
+import { DataView } from './DataView';
 import type { EditorParams } from './layout';
 import { OnlineStripe } from './OnlineStripe';
 import styles from './Panel.module.css';
@@ -40,8 +41,9 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
       </Empty>
     );
   }
-  const registration = editorFor(object);
-  if (!registration) {
+  const descriptor = kindOf(object.kind);
+  const Editor = descriptor ? descriptor.editor : DataView;
+  if (!Editor) {
     return (
       <Empty
         icon={FileQuestion}
@@ -50,7 +52,6 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
       />
     );
   }
-  const Editor = registration.component;
   return (
     <div ref={frame} className={styles.panel} data-panel-id={api.id} data-scope="editor" tabIndex={-1}>
       <OnlineStripe object={object} objects={objects} instance={params.instance} />

@@ -1,10 +1,11 @@
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
+import { valuesOf } from '@/project/kinds';
 import { timeText } from '../clock';
 import { useOnline } from '../onlineSession';
 import { toneOfApplication } from '../tones';
-import { ancestorOfKind, objectPath } from '../tree/model';
-import { ToneDot } from '../ui/ToneDot';
+import { applicationOf, objectPath } from '@/project/tree';
+import { ToneDot } from '../online/ToneDot';
 import styles from './Panel.module.css';
 
 interface OnlineStripeProps {
@@ -17,12 +18,12 @@ interface OnlineStripeProps {
 export function OnlineStripe({ object, objects, instance }: OnlineStripeProps) {
   const t = useText();
   const sessions = useOnline((state) => state.sessions);
-  const application = ancestorOfKind(objects, object.id, 'application');
+  const application = applicationOf(objects, object.id);
   const tone = application && toneOfApplication(application.id, sessions);
   if (!application || !tone) return null;
   const since = sessions[application.id]?.lostSince;
   const path = instance ?? withoutPrefix(objectPath(objects, object.id), objectPath(objects, application.id));
-  const isType = !instance && object.subkind === 'function_block';
+  const isType = !instance && valuesOf(object) === 'instance';
   return (
     <div className={styles.stripe} data-tone={tone}>
       <ToneDot tone={tone} />

@@ -3,15 +3,15 @@ import { X } from 'lucide-react';
 import type { MouseEvent, ReactNode } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
-import { ObjectIcon } from '@/icons/objects';
-import { displayName } from '../objectName';
+import { ObjectIcon } from '@/project/ObjectIcon';
+import { displayName } from '@/project/objectName';
 import { useOnline } from '../onlineSession';
 import { findPanel, type PanelRegistration } from '../panels';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { useSelection } from '../selection';
-import { ToneDot } from '../ui/ToneDot';
-import { ContextMenu, type MenuEntry } from '../ui/Menu';
-import { ancestorOfKind } from '../tree/model';
+import { ToneDot } from '../online/ToneDot';
+import { ContextMenu, type MenuEntry } from '@/ui/Menu';
+import { applicationOf } from '@/project/tree';
 import { toneOfApplication } from '../tones';
 import { closeEditors } from './close';
 import { panelEntries } from './panelMenu';
@@ -20,7 +20,6 @@ import styles from './Tab.module.css';
 
 /** The tab of an editor: icon, name, online state, a dot while unsaved. */
 export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
-  const t = useText();
   const { objectId, instance } = props.params;
   const panelId = props.api.id;
   const projectId = useProject((state) => state.projectId);
@@ -28,8 +27,8 @@ export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
   const dirty = useSelection((state) => state.dirty.has(panelId));
   const sessions = useOnline((state) => state.sessions);
   const object = objects?.find((candidate) => candidate.id === objectId);
-  const application = object && objects && ancestorOfKind(objects, object.id, 'application');
-  const name = object ? displayName(object, t) : (props.api.title ?? '');
+  const application = object && objects && applicationOf(objects, object.id);
+  const name = object ? displayName(object) : (props.api.title ?? '');
   const tone = application && toneOfApplication(application.id, sessions);
   return (
     <TabFrame
@@ -38,7 +37,7 @@ export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
       dirty={dirty}
       title={name}
     >
-      <ObjectIcon kind={object?.kind ?? 'folder'} subkind={object?.subkind} name={object?.name} size={15} />
+      <ObjectIcon kind={object?.kind ?? ''} subkind={object?.subkind} name={object?.name} size={15} />
       {tone && <ToneDot tone={tone} />}
       <span className={styles.title} data-gone={objects && !object ? '' : undefined}>
         {name}

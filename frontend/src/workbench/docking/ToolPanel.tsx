@@ -1,8 +1,8 @@
 import type { IDockviewPanelProps } from 'dockview-react';
 import { Suspense } from 'react';
 import { findPanel } from '../panels';
-import { Loading } from '../ui/Empty';
-import { ErrorBoundary } from '../ui/ErrorBoundary';
+import { Loading } from '@/ui/Empty';
+import { ErrorBoundary } from '@/ui/ErrorBoundary';
 import { useVisible } from './EditorPanel';
 import styles from './Panel.module.css';
 

@@ -1,6 +1,6 @@
 import { useText } from '@/i18n';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
 
 export type UnsavedAnswer = 'save' | 'discard';
 

@@ -1,7 +1,7 @@
 import { t } from '@/i18n';
 import { useRegistry } from '../commands';
-import { openDialog } from '../dialogs';
-import { guard } from '../notices';
+import { openDialog } from '@/ui/dialogs';
+import { guard } from '@/ui/notices';
 import { setDirty, useSelection } from '../selection';
 import { dockApi } from './dock';
 import { createElement } from 'react';

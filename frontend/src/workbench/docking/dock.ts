@@ -11,10 +11,10 @@ import type {
   SerializedDockview,
 } from 'dockview-react';
 import { t } from '@/i18n';
-import type { Reveal } from '../editors';
+import type { Reveal } from '@/project/editorProps';
 import { defaultLayout, editorPanelId, type EditorParams } from './layout';
 import { allPanels, findPanel, type DockPosition } from '../panels';
-import type { Place } from '../types';
+import type { Place } from '@/project/place';
 import { isEditor, withDockSizes } from './docks';
 
 let api: DockviewApi | null = null;
@@ -33,7 +33,7 @@ export interface OpenOptions {
   place?: Omit<Place, 'objectId'>;
   /** Online: which instance of a function block the editor shows. */
   instance?: string | null;
-  /** Give the editor the keyboard focus; true unless told otherwise. */
+  /** Give the editor the keyboard focus; true by default. */
   focus?: boolean;
   /** Open beside the active editor instead of in its group. */
   beside?: boolean;

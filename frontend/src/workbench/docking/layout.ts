@@ -1,6 +1,6 @@
 /** The layout as plain data: the default one, and the check of a stored one. Pure functions. */
 import type { SerializedDockview } from 'dockview-react';
-import type { Reveal } from '../editors';
+import type { Reveal } from '@/project/editorProps';
 import type { DockPosition, PanelRegistration } from '../panels';
 
 /** What an editor tab remembers; `reveal` is not stored. */

@@ -1,7 +1,7 @@
 import type { DockviewApi } from 'dockview-react';
 import { t } from '@/i18n';
-import { notify } from '../notices';
-import type { MenuEntry } from '../ui/Menu';
+import { notify } from '@/ui/notices';
+import type { MenuEntry } from '@/ui/Menu';
 import { closeEditors } from './close';
 
 const FLOAT_SIZE = { width: 640, height: 420 };

@@ -2,10 +2,10 @@ import { useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { downloadUrl } from '../downloadFile';
-import { guard } from '../notices';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Field, Select } from '../ui/Field';
+import { guard } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, Select } from '@/ui/Field';
 
 const FORMATS = ['archive', 'plcopen', 'st'] as const;
 type Format = (typeof FORMATS)[number];

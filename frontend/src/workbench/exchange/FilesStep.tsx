@@ -1,8 +1,8 @@
 import { FileUp, FolderUp, X } from 'lucide-react';
 import { useRef, useState, type DragEvent } from 'react';
 import { useText } from '@/i18n';
-import { guard } from '../notices';
-import { Button, IconButton } from '../ui/Button';
+import { guard } from '@/ui/notices';
+import { Button, IconButton } from '@/ui/Button';
 import { chosenFiles, droppedFiles, type NamedFile } from './dropped';
 import styles from './Exchange.module.css';
 

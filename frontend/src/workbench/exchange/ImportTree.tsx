@@ -1,11 +1,11 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { Check, Minus } from 'lucide-react';
 import { useId, useMemo, useRef, useState, type KeyboardEvent } from 'react';
-import type { ObjectKind } from '@/api/types';
+
 import { useText } from '@/i18n';
-import { ObjectIcon } from '@/icons/objects';
-import { useToggleSet } from '../toggleSet';
-import { Twist } from '../ui/Twist';
+import { ObjectIcon } from '@/project/ObjectIcon';
+import { useToggleSet } from '@/ui/toggleSet';
+import { Twist } from '@/ui/Twist';
 import { checkedOf, nodeRows, toggled, type Checked, type NodeForest, type NodeRow } from './model';
 import styles from './Exchange.module.css';
 
@@ -95,7 +95,7 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
                 {state === 'all' && <Check size={12} strokeWidth={3} />}
                 {state === 'some' && <Minus size={12} strokeWidth={3} />}
               </span>
-              <ObjectIcon kind={row.node.kind as ObjectKind} subkind={row.node.subkind} name={row.node.name} />
+              <ObjectIcon kind={row.node.kind} subkind={row.node.subkind} name={row.node.name} />
               <span data-excluded={row.node.excluded ? '' : undefined} className={styles.nodeName}>
                 {row.node.name}
               </span>

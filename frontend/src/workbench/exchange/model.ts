@@ -1,6 +1,7 @@
 /** Imports and exports as data: the tree to choose from, places, the report. Pure functions. */
+import { hasRole } from '@/project/kinds';
 import type { ImportEntry, ImportNode, ObjectSummary } from '@/api/types';
-import { childrenOf, forestOf, lineage, type Forest } from '../tree/model';
+import { childrenOf, forestOf, lineage, type Forest } from '@/project/tree';
 
 export interface NodeForest {
   nodes: readonly ImportNode[];
@@ -96,14 +97,14 @@ export function placesOf(objects: readonly ObjectSummary[]): Place[] {
   const places: Place[] = [];
   const folders = (parent: string | null, names: readonly string[]) => {
     for (const child of childrenOf(forest, parent)) {
-      if (child.kind !== 'folder') continue;
+      if (!hasRole(child, 'folder')) continue;
       places.push({ id: child.id, names: [...names, child.name] });
       folders(child.id, [...names, child.name]);
     }
   };
-  for (const application of objects.filter((object) => object.kind === 'application')) {
+  for (const application of objects.filter((object) => hasRole(object, 'application'))) {
     const names = lineage(forest, application.id)
-      .filter((object) => object.kind === 'application' || object.kind === 'device')
+      .filter((object) => hasRole(object, 'application') || hasRole(object, 'device'))
       .map((object) => object.name)
       .reverse();
     places.push({ id: application.id, names });
@@ -125,7 +126,7 @@ export function proposedPlace(
   const line = selected ? lineage(objects, selected.id) : [];
   const inView = line.find((object) => ids.has(object.id))?.id;
   if (inView) return inView;
-  if (line.length > 0 && line.at(-1)?.kind !== 'device') return 'pous';
+  if (line.length > 0 && !hasRole(line.at(-1), 'device')) return 'pous';
   return applicationId !== null && ids.has(applicationId) ? applicationId : (places[0]?.id ?? 'pous');
 }
 

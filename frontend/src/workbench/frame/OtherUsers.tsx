@@ -1,9 +1,9 @@
-import { useSession } from '@/app/session';
+import { useSession } from '@/session/session';
 import { useText } from '@/i18n';
 import { useObjects } from '@/api/queries';
 import { usePresence } from '../events';
-import { useProject } from '../project';
-import { Tooltip } from '../ui/Tooltip';
+import { useProject } from '@/project/openProject';
+import { Tooltip } from '@/ui/Tooltip';
 import styles from './MenuBar.module.css';
 import { initials } from './UserMenu';
 

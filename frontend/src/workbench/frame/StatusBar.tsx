@@ -1,7 +1,7 @@
 import { CircleX, CloudOff, Equal, TriangleAlert, Unplug, X, Zap, CloudUpload } from 'lucide-react';
 import { useMemo } from 'react';
 import type { LoginRelation } from '@/api/types';
-import { useSession } from '@/app/session';
+import { useSession } from '@/session/session';
 import { useText } from '@/i18n';
 import { timeText } from '../clock';
 import { showPanel } from '../docking/dock';
@@ -11,13 +11,13 @@ import { microsText } from '../online/times';
 import { useRuntimeState, useTasks } from '../online/poll';
 import { runtimeText } from '../online/runtimeText';
 import { useOnline, type OnlineSession } from '../onlineSession';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { runCommand } from '../run';
 import { useSelection } from '../selection';
 import { isSimulated, toneOfApplication } from '../tones';
-import { Spinner } from '../ui/Empty';
-import { ToneDot } from '../ui/ToneDot';
-import { Tooltip } from '../ui/Tooltip';
+import { Spinner } from '@/ui/Empty';
+import { ToneDot } from '../online/ToneDot';
+import { Tooltip } from '@/ui/Tooltip';
 import styles from './StatusBar.module.css';
 
 /** Runtime, task, relation of the program, messages, what is under way; at the right cursor, user, connection. */

@@ -1,17 +1,19 @@
+import { hasRole } from '@/project/kinds';
 import { RotateCcw } from 'lucide-react';
 import { Fragment, useMemo } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
-import { objectIcon } from '@/icons/objects';
+import { kindWithRole } from '@/project/kinds';
 import { useRegistry, type Command } from '../commands';
-import { commandContext, useCommandContext, type CommandContext } from '../context';
+import { commandContext, type CommandContext } from '../context';
+import { useCommandContext } from '../useCommandContext';
 import { keysText } from '../keys';
-import { setActiveApplication, useProject } from '../project';
+import { setActiveApplication, useProject } from '@/project/openProject';
 import { refusal, runCommand, titleOf } from '../run';
-import { lineage, objectPath } from '../tree/model';
-import { Button, IconButton } from '../ui/Button';
-import { Select } from '../ui/Field';
-import { DropdownMenu } from '../ui/Menu';
+import { lineage, objectPath } from '@/project/tree';
+import { Button, IconButton } from '@/ui/Button';
+import { Select } from '@/ui/Field';
+import { DropdownMenu } from '@/ui/Menu';
 import { entriesOf } from './menuEntries';
 import { toolbarOf } from './menuModel';
 import styles from './Toolbar.module.css';
@@ -85,12 +87,12 @@ function ApplicationSelect() {
   const { projectId, applicationId } = useProject();
   const { data: objects } = useObjects(projectId);
   const choices = useMemo(() => {
-    const applications = (objects ?? []).filter((object) => object.kind === 'application');
+    const applications = (objects ?? []).filter((object) => hasRole(object, 'application'));
     const devices = new Set(applications.map((object) => lineage(objects!, object.id).at(-1)?.id));
     return applications.map((object) => ({
       value: object.id,
       text: devices.size > 1 ? objectPath(objects!, object.id) : object.name,
-      icon: objectIcon('application'),
+      icon: kindWithRole('application')?.icon,
     }));
   }, [objects]);
   return (

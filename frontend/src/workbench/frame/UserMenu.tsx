@@ -1,11 +1,11 @@
 import { ChevronDown, KeyRound, Languages, LogOut, Moon, Settings, Sun, SunMoon, Users } from 'lucide-react';
-import { chooseLanguage, chooseTheme, usePreferences, type ThemeChoice } from '@/app/preferences';
-import { useSession } from '@/app/session';
+import { chooseLanguage, chooseTheme, usePreferences, type ThemeChoice } from '@/session/preferences';
+import { useSession } from '@/session/session';
 import { language, useText, type Language } from '@/i18n';
 import { findCommand } from '../commands';
-import { guard } from '../notices';
+import { guard } from '@/ui/notices';
 import { runCommand } from '../run';
-import { DropdownMenu, type MenuEntry } from '../ui/Menu';
+import { DropdownMenu, type MenuEntry } from '@/ui/Menu';
 import styles from './MenuBar.module.css';
 
 const THEME_ICONS = { light: Sun, dark: Moon, system: SunMoon };

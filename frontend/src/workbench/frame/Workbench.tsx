@@ -1,11 +1,12 @@
+import { hasRole } from '@/project/kinds';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef, useState } from 'react';
 import type { SerializedDockview } from 'dockview-react';
 import { api } from '@/api/client';
 import { keys, useObjects } from '@/api/queries';
 import type { ObjectSummary, ProjectSummary } from '@/api/types';
-import { loadSetting, saveSetting } from '@/app/preferences';
-import { go } from '@/app/route';
+import { loadSetting, saveSetting } from '@/session/preferences';
+import { go } from '@/session/route';
 import { useText } from '@/i18n';
 import { warnBeforeLeaving } from '../docking/close';
 import { DockArea } from '../docking/DockArea';
@@ -17,13 +18,13 @@ import { resumeLogins } from '../online/resume';
 import { useOnline } from '../onlineSession';
 import { Palette } from '../palette/Palette';
 import { findPanel } from '../panels';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { listenToKeys } from '../run';
 import { selectObjects, useSelection } from '../selection';
 import { startTree } from '../tree/state';
 import { usePlacement } from '../tree/TreePanel';
-import { Button } from '../ui/Button';
-import { Failed, Loading } from '../ui/Empty';
+import { Button } from '@/ui/Button';
+import { Failed, Loading } from '@/ui/Empty';
 import { MenuBar } from './MenuBar';
 import { StatusBar } from './StatusBar';
 import { Toolbar } from './Toolbar';
@@ -141,13 +142,13 @@ function useActiveApplication(projectId: string, objects: readonly ObjectSummary
     void loadSetting<string>(`application.${projectId}`)
       .catch(() => null)
       .then((stored) => {
-        if (stored && objects.some((object) => object.id === stored && object.kind === 'application'))
+        if (stored && objects.some((object) => object.id === stored && hasRole(object, 'application')))
           useProject.setState({ applicationId: stored });
       });
     // eslint-disable-next-line react-hooks/exhaustive-deps -- the stored choice is read once per project
   }, [projectId]);
   useEffect(() => {
-    const applications = objects.filter((object) => object.kind === 'application');
+    const applications = objects.filter((object) => hasRole(object, 'application'));
     if (!applications.some((application) => application.id === applicationId)) {
       useProject.setState({ applicationId: applications[0]?.id ?? null });
     } else if (applicationId) void saveSetting(`application.${projectId}`, applicationId).catch(() => undefined);

@@ -3,7 +3,7 @@ import type { Command, MenuId } from '../commands';
 import type { CommandContext } from '../context';
 import { keysText } from '../keys';
 import { refusal, runCommand, titleOf } from '../run';
-import type { MenuEntry } from '../ui/Menu';
+import type { MenuEntry } from '@/ui/Menu';
 import { menuOf } from './menuModel';
 
 /** One command as a menu entry. */

@@ -1,9 +1,9 @@
 import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import { useText } from '@/i18n';
-import { TappetMark } from '@/icons/objects';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
+import { TappetMark } from '@/icons/TappetMark';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
 
 interface Health {
   version?: string;

@@ -3,12 +3,12 @@ import { useText } from '@/i18n';
 import { useRegistry, type Command } from '../commands';
 import { keysText } from '../keys';
 import { titleOf } from '../run';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Empty } from '../ui/Empty';
-import { TextInput } from '../ui/Field';
-import { Table } from '../ui/Table';
-import type { Column } from '../ui/table';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Empty } from '@/ui/Empty';
+import { TextInput } from '@/ui/Field';
+import { Table } from '@/ui/Table';
+import type { Column } from '@/ui/table';
 
 /** Every command that has a key. */
 export function ShortcutsDialog({ close }: { close: () => void }) {

@@ -5,16 +5,16 @@ import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary, Revision } from '@/api/types';
 import { useText } from '@/i18n';
 import { secondText } from '../clock';
-import { confirm } from '../dialogs';
-import { guard, notify } from '../notices';
+import { confirm } from '@/ui/dialogs';
+import { guard, notify } from '@/ui/notices';
 import { commandContext } from '../context';
 import { mayEdit } from '../rights';
 import { reasonText } from '../run';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Empty, Failed, Loading } from '../ui/Empty';
-import { Table } from '../ui/Table';
-import type { Column } from '../ui/table';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Empty, Failed, Loading } from '@/ui/Empty';
+import { Table } from '@/ui/Table';
+import type { Column } from '@/ui/table';
 import styles from './HistoryDialog.module.css';
 
 interface HistoryDialogProps {

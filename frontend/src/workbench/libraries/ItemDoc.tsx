@@ -1,17 +1,18 @@
 import { BookOpenText } from 'lucide-react';
 import type { LibraryItem, Pin } from '@/api/types';
 import { useText, type TextKey } from '@/i18n';
-import { ObjectIcon } from '@/icons/objects';
-import { Empty } from '../ui/Empty';
+import { kindOfSubkind } from '@/project/kinds';
+import { ObjectIcon } from '@/project/ObjectIcon';
+import { Empty } from '@/ui/Empty';
 import { BlockPicture } from './BlockPicture';
 import styles from './Libraries.module.css';
-import { groupOf, objectKindOf } from './model';
+import { groupOf } from './model';
 
 /** Documentation of a library item: comment, picture, pins, members, values. */
 export function ItemDoc({ library, item }: { library: string | null; item: LibraryItem | null }) {
   const t = useText();
   if (!item) return <Empty icon={BookOpenText} title={t('libraryDoc.none')} text={t('libraryDoc.noneText')} />;
-  const { kind, subkind } = objectKindOf(item);
+  const { kind, subkind } = kindOfSubkind(item.kind);
   const drawn = groupOf(item.kind) === 'function_block' || item.kind === 'function';
   return (
     <article className={styles.doc} tabIndex={0}>

@@ -1,10 +1,11 @@
+import { kindOfSubkind, kindWithRole } from '@/project/kinds';
 import { useId, useRef, useState, type KeyboardEvent } from 'react';
 import type { LibraryItem, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { ObjectIcon } from '@/icons/objects';
-import { findTyped, MOTION_OF_KEY, moveFocus, type Row } from '../tree/model';
-import { Twist } from '../ui/Twist';
-import { groupsOf, idOf, objectKindOf } from './model';
+import { ObjectIcon } from '@/project/ObjectIcon';
+import { findTyped, MOTION_OF_KEY, moveFocus, type Row } from '@/project/tree';
+import { Twist } from '@/ui/Twist';
+import { groupsOf, idOf } from './model';
 import styles from './Libraries.module.css';
 import { useContents } from './useLibraries';
 
@@ -192,7 +193,7 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
 
 function NodeIcon({ node }: { node: Node }) {
   const { kind, subkind } = node.item
-    ? objectKindOf(node.item)
-    : { kind: node.kind === 'group' ? ('folder' as const) : ('library_manager' as const), subkind: null };
+    ? kindOfSubkind(node.item.kind)
+    : { kind: kindWithRole(node.kind === 'group' ? 'folder' : 'libraries')?.kind ?? '', subkind: null };
   return <ObjectIcon kind={kind} subkind={subkind} style={{ flex: 'none' }} />;
 }

@@ -5,10 +5,10 @@ import type { Diagnostic, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { showPanel } from '../docking/dock';
 import { buildFinished } from '../messages/store';
-import { notify, notifyError } from '../notices';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Field, TextInput } from '../ui/Field';
+import { notify, notifyError } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, TextInput } from '@/ui/Field';
 import { idOf, libraryFaults, nextVersion } from './model';
 
 interface SaveLibraryDialogProps {

@@ -1,6 +1,6 @@
 import type { LibrarySummary } from '@/api/types';
 import type { useText } from '@/i18n';
-import type { Column } from '../ui/table';
+import type { Column } from '@/ui/table';
 
 type Text = ReturnType<typeof useText>;
 

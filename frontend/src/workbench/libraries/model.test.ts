@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Library, LibraryItem } from '@/api/types';
-import { blockPins, groupsOf, objectKindOf, libraryFaults, nextVersion } from './model';
+import { blockPins, groupsOf, libraryFaults, nextVersion } from './model';
 
 const item = (name: string, kind: string, more: Partial<LibraryItem> = {}): LibraryItem => ({
   name,
@@ -24,7 +24,7 @@ const library = (items: LibraryItem[]): Library => ({
   description: '',
   removable: false,
   requires: [],
-  stands_for: [],
+  replaces: [],
   items,
 });
 
@@ -45,12 +45,6 @@ describe('library contents', () => {
       'DELAY',
     );
     expect(groups.flatMap((group) => group.items.map((one) => one.name))).toEqual(['TON']);
-  });
-
-  it('have the icons of objects', () => {
-    expect(objectKindOf(item('E', 'enum'))).toEqual({ kind: 'dut', subkind: 'enum' });
-    expect(objectKindOf(item('g', 'global')).kind).toBe('gvl');
-    expect(objectKindOf(item('p', 'parameter_list'))).toEqual({ kind: 'gvl', subkind: 'parameter_list' });
   });
 });
 

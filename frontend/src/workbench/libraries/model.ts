@@ -1,5 +1,5 @@
 /** Library contents as a tree of folders by kind, and the pins of a block as it is drawn. Pure functions. */
-import type { Library, LibraryItem, ObjectKind, Pin } from '@/api/types';
+import type { Library, LibraryItem, Pin } from '@/api/types';
 import type { TextKey } from '@/i18n';
 
 /** What tells an installed library from all others. */
@@ -64,20 +64,6 @@ export function groupOf(kind: string): Group {
   if (kind === 'parameter_list') return 'global';
   if (kind === 'function_block' || kind === 'function' || kind === 'interface' || kind === 'global') return kind;
   return kind === 'program' ? 'function_block' : 'data';
-}
-
-/** Icon keys of an item: kind and subkind of the object it would be in a project. */
-export function objectKindOf(item: LibraryItem): { kind: ObjectKind; subkind: string | null } {
-  switch (groupOf(item.kind)) {
-    case 'interface':
-      return { kind: 'interface', subkind: null };
-    case 'global':
-      return { kind: 'gvl', subkind: item.kind };
-    case 'data':
-      return { kind: 'dut', subkind: item.kind };
-    default:
-      return { kind: 'pou', subkind: item.kind };
-  }
 }
 
 export interface ItemGroup {

@@ -1,6 +1,6 @@
 import { queryClient } from '@/api/queries';
 import { showPanel } from '../docking/dock';
-import { guard } from '../notices';
+import { guard } from '@/ui/notices';
 import { chooseItem } from './chosen';
 import { contentsQuery } from './useLibraries';
 

@@ -1,7 +1,7 @@
 import type { Severity } from '@/api/types';
 import { useText } from '@/i18n';
-import { TextInput } from '../ui/Field';
-import { FilterToggle } from '../ui/FilterToggle';
+import { TextInput } from '@/ui/Field';
+import { FilterToggle } from '@/ui/FilterToggle';
 import styles from './Severity.module.css';
 import { SeverityIcon } from './SeverityIcon';
 

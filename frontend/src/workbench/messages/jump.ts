@@ -2,8 +2,8 @@ import { keys, queryClient } from '@/api/queries';
 import type { Diagnostic, ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
 import { openObject } from '../docking/dock';
-import { notify } from '../notices';
-import { useProject } from '../project';
+import { notify } from '@/ui/notices';
+import { useProject } from '@/project/openProject';
 import { hasPlace, presentMessages, setCurrent, useMessages } from './store';
 
 /** Opens the object a message is about, at its place. Messages about libraries or the application have none,

@@ -1,13 +1,13 @@
-/** What can be done with a message: what mends it, going to its place, copying it. */
+/** What can be done with a message: its quick fixes, going to its place, copying it. */
 import { Copy, CornerDownRight } from 'lucide-react';
 import type { Diagnostic } from '@/api/types';
 import type { useText } from '@/i18n';
-import { useProject } from '../project';
-import type { MenuEntry } from '../ui/Menu';
+import type { MenuEntry } from '@/ui/Menu';
 import { jumpTo } from './jump';
+import { quickFixesOf } from './quickFixes';
 
 export async function messageEntries(message: Diagnostic, t: ReturnType<typeof useText>): Promise<MenuEntry[]> {
-  const fixes = await fixesOf(message);
+  const fixes = await quickFixesOf(message, () => jumpTo(message));
   return [
     ...fixes,
     ...(fixes.length > 0 ? [{ kind: 'line', key: 'fixes' } as const] : []),
@@ -34,15 +34,4 @@ export async function messageEntries(message: Diagnostic, t: ReturnType<typeof u
 function messageText({ severity, code, message, advice, object_path, line, column }: Diagnostic): string {
   const place = line === null ? object_path : `${object_path}:${String(line)}:${String(column ?? 1)}`;
   return `${place}: ${severity} ${code}: ${[message, advice].filter(Boolean).join('. ')}`;
-}
-
-async function fixesOf(message: Diagnostic): Promise<MenuEntry[]> {
-  const { projectId } = useProject.getState();
-  const { object_id, part, line, column, end_line, end_column, code } = message;
-  if (projectId === null || object_id === null || part === null || line === null) return [];
-  const start = { line: line - 1, character: (column ?? 1) - 1 };
-  const end = end_line === null ? start : { line: end_line - 1, character: (end_column ?? 1) - 1 };
-  const { quickFixEntries } = await import('@/editors/st/quickFixes');
-  const uri = `tappet:/${projectId}/${object_id}/${part}`;
-  return quickFixEntries(projectId, uri, { start, end }, { code, show: () => jumpTo(message) });
 }

@@ -10,6 +10,7 @@ const message = (object_id: string | null, severity: Diagnostic['severity'], tex
   object_id,
   object_path: '',
   part: null,
+  element: null,
   line: null,
   column: null,
   end_line: null,

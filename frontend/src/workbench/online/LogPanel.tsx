@@ -10,12 +10,12 @@ import { saveBlob } from '../downloadFile';
 import { SeverityFilter } from '../messages/SeverityFilter';
 import { SeverityIcon } from '../messages/SeverityIcon';
 import { runCommand } from '../run';
-import { useToggleSet } from '../toggleSet';
-import { Button, IconButton } from '../ui/Button';
-import { Empty, Failed, Loading } from '../ui/Empty';
-import { Panel, PanelBar, PanelRest } from '../ui/Panel';
-import { Table } from '../ui/Table';
-import type { Column } from '../ui/table';
+import { useToggleSet } from '@/ui/toggleSet';
+import { Button, IconButton } from '@/ui/Button';
+import { Empty, Failed, Loading } from '@/ui/Empty';
+import { Panel, PanelBar, PanelRest } from '@/ui/Panel';
+import { Table } from '@/ui/Table';
+import type { Column } from '@/ui/table';
 import { countByLevel, levelOf, logCsv, merged, shownEntries } from './log';
 import { useActiveSession } from './session';
 

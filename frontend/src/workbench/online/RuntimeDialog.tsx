@@ -1,9 +1,9 @@
 import { useState } from 'react';
 import type { RuntimeState } from '@/api/types';
 import { useText } from '@/i18n';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { ToneDot } from '../ui/ToneDot';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { ToneDot } from './ToneDot';
 import styles from './dialogs.module.css';
 import { runtimeText, toneOfRuntime } from './runtimeText';
 

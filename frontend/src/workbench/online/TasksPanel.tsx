@@ -2,8 +2,8 @@ import { LogIn, Timer } from 'lucide-react';
 import { useText } from '@/i18n';
 import { useActiveSession } from './session';
 import { runCommand } from '../run';
-import { Button } from '../ui/Button';
-import { Empty } from '../ui/Empty';
+import { Button } from '@/ui/Button';
+import { Empty } from '@/ui/Empty';
 import { TaskTable } from './TaskTable';
 
 /** The tasks of the active application's runtime. */

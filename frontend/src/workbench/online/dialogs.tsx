@@ -2,10 +2,10 @@
 import { useState } from 'react';
 import type { LoginAnswer, RuntimeState } from '@/api/types';
 import { t, useText } from '@/i18n';
-import { openDialog } from '../dialogs';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Checkbox } from '../ui/Field';
+import { openDialog } from '@/ui/dialogs';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Checkbox } from '@/ui/Field';
 import styles from './dialogs.module.css';
 import { RuntimeDialog } from './RuntimeDialog';
 

@@ -14,6 +14,7 @@ const exception = (name: string, line: number | null = 2): RuntimeException => (
   object_id: null,
   object_path: null,
   part: 'implementation',
+  element: null,
   call_stack: [],
   values: {},
 });

@@ -3,10 +3,10 @@ import { keys, queryClient } from '@/api/queries';
 import type { CallFrame, ObjectSummary, RuntimeException } from '@/api/types';
 import { t, type TextKey } from '@/i18n';
 import { openObject, showPanel } from '../docking/dock';
-import { notify } from '../notices';
+import { notify } from '@/ui/notices';
 import { useOnline, type OnlineSession } from '../onlineSession';
-import { useProject } from '../project';
-import { objectPath } from '../tree/model';
+import { useProject } from '@/project/openProject';
+import { objectPath } from '@/project/tree';
 
 const KINDS: Readonly<Record<string, TextKey>> = {
   DIV_ZERO: 'exception.divisionByZero',

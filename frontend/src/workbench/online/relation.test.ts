@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { LoginAnswer } from '@/api/types';
 import { loggedIn, useOnline } from '../onlineSession';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { followRelation, QUIET_MS } from './relation';
 
 const answer = (relation: LoginAnswer['relation']) => ({ relation, reasons: [] }) as unknown as LoginAnswer;

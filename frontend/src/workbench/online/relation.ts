@@ -2,7 +2,7 @@
 import { api } from '@/api/client';
 import type { LoginAnswer } from '@/api/types';
 import { relationChanged, useOnline, type OnlineSession } from '../onlineSession';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 
 /** Saving comes in bursts; only the last of them is compared. */
 export const QUIET_MS = 800;

@@ -1,4 +1,4 @@
-/** A page loaded anew takes up the logins it had: the tab remembers them, the project's end forgets them. */
+/** A reloaded page takes up the logins it had: the tab remembers them, the project's end forgets them. */
 import { api } from '@/api/client';
 import type { LoginRelation, RuntimeState } from '@/api/types';
 import { loggedIn, runtimePolled, useOnline } from '../onlineSession';

@@ -1,5 +1,5 @@
 import { useOnline, type OnlineSession } from '../onlineSession';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 
 /** Login of the active application; undefined while logged out. */
 export function useActiveSession(): OnlineSession | undefined {

@@ -1,15 +1,15 @@
 import type { ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
-import { objectIcon } from '@/icons/objects';
+import { objectIcon, opensEditor } from '@/project/kinds';
 import type { Command } from '../commands';
 import type { CommandContext } from '../context';
 import { openObject } from '../docking/dock';
 import { keysText } from '../keys';
-import { displayName } from '../objectName';
+import { displayName } from '@/project/objectName';
 import { refusal, runCommand, titleOf } from '../run';
 import { placesOf } from '../frame/menuModel';
-import { lineage, objectPath } from '../tree/model';
-import type { IconComponent } from '../types';
+import { lineage, objectPath } from '@/project/tree';
+import type { IconComponent } from '@/icons/IconComponent';
 
 export interface PaletteItem {
   id: string;
@@ -45,12 +45,12 @@ export function commandItems(commands: Iterable<Command>, context: CommandContex
 /** Every object that has an editor or a meaning of its own, with the path to where it is. */
 export function objectItems(objects: readonly ObjectSummary[]): PaletteItem[] {
   return objects
-    .filter((object) => object.kind !== 'folder' && object.kind !== 'plc_logic')
+    .filter(opensEditor)
     .map((object) => {
       const owner = lineage(objects, object.id)[1];
       return {
         id: object.id,
-        text: displayName(object, t),
+        text: displayName(object),
         detail: owner ? objectPath(objects, owner.id) : t('panel.pous'),
         icon: objectIcon(object.kind, object.subkind, object.name),
         run: () => openObject(object.id, object.name),

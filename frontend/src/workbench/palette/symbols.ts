@@ -2,17 +2,16 @@
 import { Braces, CircleDot, ListTree, Variable } from 'lucide-react';
 import { useEffect, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
-import type { DocumentSymbol } from '@/lsp/protocol';
-import type { ProjectSymbol } from '@/lsp/symbols';
 import { commandContext } from '../context';
 import { openObject } from '../docking/dock';
-import { objectPath } from '../tree/model';
-import type { IconComponent } from '../types';
+import { parsePartUri, type Part } from '@/project/partUri';
+import { objectPath } from '@/project/tree';
+import type { IconComponent } from '@/icons/IconComponent';
 import type { PaletteItem } from './items';
+import { symbolSource, type MemberSymbol, type ProjectSymbol } from './symbolSource';
 
 const SHORTEST = 2;
 const PAUSE_MS = 120;
-const PART = /^tappet:\/+[^/]+\/([^/]+)\/(declaration|implementation)$/;
 /** Kinds of the protocol: enum 10, enum member 22, struct 23. */
 const ICONS: Readonly<Record<number, IconComponent>> = { 10: ListTree, 22: CircleDot, 23: Braces };
 /** Sections of a declaration (VAR_INPUT ...) are namespaces. */
@@ -20,7 +19,7 @@ const SECTION = 3;
 
 interface Target {
   objectId: string;
-  part: 'declaration' | 'implementation';
+  part: Part;
   line: number;
   column: number;
 }
@@ -48,24 +47,23 @@ function item(
 /** Symbols as entries; what is an object of the tree is in the list of objects already. */
 function symbolItems(found: readonly ProjectSymbol[], objects: readonly ObjectSummary[]): PaletteItem[] {
   return found.flatMap((symbol) => {
-    const [, objectId, part] = PART.exec(symbol.location.uri) ?? [];
-    const object = objects.find((candidate) => candidate.id === objectId);
-    if (object === undefined || objectId === undefined || object.name.toUpperCase() === symbol.name.toUpperCase())
-      return [];
+    const address = parsePartUri(symbol.location.uri);
+    const object = objects.find((candidate) => candidate.id === address?.objectId);
+    if (address === null || object === undefined || object.name.toUpperCase() === symbol.name.toUpperCase()) return [];
     const { line, character } = symbol.location.range.start;
-    const target = { objectId, part: part as Target['part'], line: line + 1, column: character + 1 };
-    return [item(symbol.name, symbol.kind, objectPath(objects, objectId), target, objects)];
+    const target = { objectId: object.id, part: address.part, line: line + 1, column: character + 1 };
+    return [item(symbol.name, symbol.kind, objectPath(objects, object.id), target, objects)];
   });
 }
 
 /** What the texts of one object declare, without the sections around it. */
 function memberItems(
-  outlines: Readonly<Record<Target['part'], readonly DocumentSymbol[]>>,
+  outlines: Readonly<Record<Part, readonly MemberSymbol[]>>,
   objectId: string,
   objects: readonly ObjectSummary[],
 ): PaletteItem[] {
   const items = new Map<string, PaletteItem>();
-  const collect = (part: Target['part'], symbols: readonly DocumentSymbol[], section: string) => {
+  const collect = (part: Part, symbols: readonly MemberSymbol[], section: string) => {
     for (const symbol of symbols) {
       const { line, character } = symbol.selectionRange.start;
       const nested = symbol.children ?? [];
@@ -102,8 +100,8 @@ export function useProjectSymbols(
     if (projectId === null || wanted === '') return;
     let current = true;
     const timer = setTimeout(() => {
-      void import('@/lsp/symbols')
-        .then(({ projectSymbols }) => projectSymbols(projectId, wanted))
+      void symbolSource()
+        ?.project(projectId, wanted)
         .then((symbols) => {
           if (current) setFound({ query: wanted, symbols });
         })
@@ -129,14 +127,12 @@ export function useMembers(
   useEffect(() => {
     if (!enabled || projectId === null || objectId === null) return;
     let current = true;
-    const uri = (part: Target['part']) => `tappet:/${projectId}/${objectId}/${part}`;
-    void import('@/lsp/symbols')
-      .then(({ documentSymbols }) =>
-        Promise.all([
-          documentSymbols(projectId, uri('declaration')),
-          documentSymbols(projectId, uri('implementation')),
-        ]),
-      )
+    const source = symbolSource();
+    if (source === null) return;
+    void Promise.all([
+      source.members(projectId, objectId, 'declaration'),
+      source.members(projectId, objectId, 'implementation'),
+    ])
       .then(([declaration, implementation]) => {
         if (current) setItems(memberItems({ declaration, implementation }, objectId, objects));
       })

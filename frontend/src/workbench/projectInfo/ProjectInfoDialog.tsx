@@ -7,13 +7,13 @@ import { useText } from '@/i18n';
 import { secondText } from '../clock';
 import { atLeast } from '../rights';
 import { commandContext } from '../context';
-import { guard } from '../notices';
-import { useProject } from '../project';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Failed, Loading } from '../ui/Empty';
-import { Field, TextInput } from '../ui/Field';
-import fields from '../ui/Field.module.css';
+import { guard } from '@/ui/notices';
+import { useProject } from '@/project/openProject';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Failed, Loading } from '@/ui/Empty';
+import { Field, TextInput } from '@/ui/Field';
+import fields from '@/ui/Field.module.css';
 
 /** Name, description and size of the project. */
 export function ProjectInfoDialog({ projectId, close }: { projectId: string; close: () => void }) {

@@ -1,6 +1,6 @@
 import type { CodingRule, StaticAnalysisData } from '@/api/types';
 import { useText } from '@/i18n';
-import { Select, TextInput } from '../ui/Field';
+import { Select, TextInput } from '@/ui/Field';
 import { isPrefix, LEVELS, levelOf, limitKey, messageText, titleKey, withLevel, withLimit, withPrefix } from './model';
 import styles from './StaticAnalysis.module.css';
 

@@ -11,6 +11,7 @@ const failure = (message: string): TestFailure => ({
   object_id: 'o',
   object_path: 'FB_Sum_Test/Bad',
   part: 'implementation',
+  element: null,
   line: 2,
   call_stack: [],
 });

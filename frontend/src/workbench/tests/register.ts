@@ -8,15 +8,6 @@ import type { CommandContext } from '../context';
 import { namesOfBad } from './model';
 import { lastRunOf, runFailedTests, runTests } from './store';
 
-registerPanel({
-  id: 'tests',
-  title: 'tests.title',
-  icon: FlaskConical,
-  component: lazy(() => import('./TestsPanel')),
-  position: 'bottom',
-  order: 30,
-});
-
 const runnable = (context: CommandContext) =>
   allOf(
     !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication',
@@ -24,24 +15,35 @@ const runnable = (context: CommandContext) =>
     context.busy ? 'reason.busy' : true,
   );
 
-registerCommands([
-  {
-    id: 'build.runTests',
-    title: 'tests.run',
+export function registerTests(): void {
+  registerPanel({
+    id: 'tests',
+    title: 'tests.title',
     icon: FlaskConical,
-    menu: { menu: 'build', group: '3_tests' },
-    enabled: runnable,
-    run: runTests,
-  },
-  {
-    id: 'build.runFailedTests',
-    title: 'tests.runFailed',
-    icon: RotateCcw,
-    menu: { menu: 'build', group: '3_tests' },
-    enabled: (context) => {
-      const last = lastRunOf(context.projectId);
-      return allOf(runnable(context), last && namesOfBad(last.report).length > 0 ? true : 'tests.noneFailed');
+    component: lazy(() => import('./TestsPanel')),
+    position: 'bottom',
+    order: 30,
+  });
+
+  registerCommands([
+    {
+      id: 'build.runTests',
+      title: 'tests.run',
+      icon: FlaskConical,
+      menu: { menu: 'build', group: '3_tests' },
+      enabled: runnable,
+      run: runTests,
     },
-    run: runFailedTests,
-  },
-]);
+    {
+      id: 'build.runFailedTests',
+      title: 'tests.runFailed',
+      icon: RotateCcw,
+      menu: { menu: 'build', group: '3_tests' },
+      enabled: (context) => {
+        const last = lastRunOf(context.projectId);
+        return allOf(runnable(context), last && namesOfBad(last.report).length > 0 ? true : 'tests.noneFailed');
+      },
+      run: runFailedTests,
+    },
+  ]);
+}

@@ -7,7 +7,7 @@ import type { CommandContext } from '../context';
 import { saveEditors } from '../docking/close';
 import { showPanel } from '../docking/dock';
 import { buildFinished } from '../messages/store';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { namesOfBad, withOthers } from './model';
 
 interface Run {

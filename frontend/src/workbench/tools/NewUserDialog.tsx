@@ -2,11 +2,11 @@ import { useState } from 'react';
 import { api } from '@/api/client';
 import type { Account, Role } from '@/api/types';
 import { useText } from '@/i18n';
-import { refusalOf } from '../notices';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Field, Select, TextInput } from '../ui/Field';
-import { PasswordField } from '../ui/PasswordField';
+import { refusalOf } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, Select, TextInput } from '@/ui/Field';
+import { PasswordField } from '@/ui/PasswordField';
 
 const ROLES: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
 

@@ -1,16 +1,16 @@
-import { chooseLanguage, chooseTheme, usePreferences, type ThemeChoice } from '@/app/preferences';
-import { IlOptions } from '@/editors/il/IlOptions';
-import { FormatOptions } from '@/editors/st/FormatOptions';
+import { Fragment } from 'react';
+import { chooseLanguage, chooseTheme, usePreferences, type ThemeChoice } from '@/session/preferences';
 import { useLanguage, useText, type Language } from '@/i18n';
-import { guard } from '../notices';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { Field, Select } from '../ui/Field';
+import { guard } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { Field, Select } from '@/ui/Field';
+import { optionGroups } from './optionGroups';
 import styles from './OptionsDialog.module.css';
 
 const THEMES: readonly ThemeChoice[] = ['light', 'dark', 'system'];
 
-/** Language, theme, how ST is formatted, what the table of IL shows; every choice acts at once. */
+/** Language, theme and what other rooms register; every choice acts at once. */
 export function OptionsDialog({ close }: { close: () => void }) {
   const t = useText();
   const language = useLanguage();
@@ -40,10 +40,12 @@ export function OptionsDialog({ close }: { close: () => void }) {
           />
         )}
       </Field>
-      <h3 className={styles.group}>{t('format.title')}</h3>
-      <FormatOptions />
-      <h3 className={styles.group}>{t('il.options')}</h3>
-      <IlOptions />
+      {optionGroups().map(({ title, component: Options }) => (
+        <Fragment key={title}>
+          <h3 className={styles.group}>{t(title)}</h3>
+          <Options />
+        </Fragment>
+      ))}
     </Dialog>
   );
 }

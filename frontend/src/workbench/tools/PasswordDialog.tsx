@@ -1,10 +1,10 @@
 import { useState } from 'react';
 import { api } from '@/api/client';
 import { useText } from '@/i18n';
-import { notify, refusalOf } from '../notices';
-import { Button } from '../ui/Button';
-import { Dialog } from '../ui/Dialog';
-import { PasswordField } from '../ui/PasswordField';
+import { notify, refusalOf } from '@/ui/notices';
+import { Button } from '@/ui/Button';
+import { Dialog } from '@/ui/Dialog';
+import { PasswordField } from '@/ui/PasswordField';
 
 /** A new password for oneself. */
 export function PasswordDialog({ close }: { close: () => void }) {

@@ -1,15 +1,16 @@
+import { hasRole, opensEditor } from '@/project/kinds';
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { useEffect, useId, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
 import type { ObjectSummary, PlacementRule } from '@/api/types';
 import { t, useText } from '@/i18n';
 import { useHandlers } from '../useHandlers';
-import { guard } from '../notices';
+import { guard } from '@/ui/notices';
 import { useOnline } from '../onlineSession';
 import { openObject } from '../docking/dock';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { selectObjects, useSelection } from '../selection';
 import { toneOfApplication } from '../tones';
-import { ContextMenu } from '../ui/Menu';
+import { ContextMenu } from '@/ui/Menu';
 import { renameObject } from './acts';
 import { pasteInto, treeHandlers } from './handlers';
 import {
@@ -24,12 +25,12 @@ import {
   type Motion,
   type Row,
   type TreeView,
-} from './model';
-import { nameFault } from './placement';
+} from '@/project/tree';
+import { nameFault } from '@/project/placement';
 import { indentOf, TreeRow } from './Row';
 import { setExpanded, useTree } from './state';
 import { treeEntries } from './treeMenu';
-import { isMenuKey, openMenuAt } from '../ui/menuKey';
+import { isMenuKey, openMenuAt } from '@/ui/menuKey';
 import styles from './Tree.module.css';
 import { useDrag } from './useDrag';
 import { useMarks } from './useMarks';
@@ -55,7 +56,7 @@ interface ObjectTreeProps {
   label: string;
 }
 
-/** The tree of one view. One tab stop; the focused row is told by `aria-activedescendant`, so rows can be virtual. */
+/** The tree of one view. One tab stop; the focused row is announced by `aria-activedescendant`, so rows can be virtual. */
 export function ObjectTree({
   panelId,
   projectId,
@@ -129,8 +130,8 @@ export function ObjectTree({
   });
 
   const open = (object: ObjectSummary) => {
-    if (object.kind === 'folder' || object.kind === 'plc_logic') setExpanded([object.id], !expanded.has(object.id));
-    else openObject(object.id, object.name);
+    if (opensEditor(object)) openObject(object.id, object.name);
+    else setExpanded([object.id], !expanded.has(object.id));
   };
 
   const onKeyDown = (event: KeyboardEvent) => {
@@ -230,7 +231,7 @@ export function ObjectTree({
           {virtual.getVirtualItems().map((entry) => {
             const row = rows[entry.index]!;
             const { object } = row;
-            const tone = object.kind === 'application' ? toneOfApplication(object.id, sessions) : undefined;
+            const tone = hasRole(object, 'application') ? toneOfApplication(object.id, sessions) : undefined;
             return (
               <div
                 key={object.id}

@@ -1,15 +1,16 @@
+import { kindOf } from '@/project/kinds';
 import { CloudUpload, Zap } from 'lucide-react';
 import { useRef, useState, type KeyboardEvent } from 'react';
 import type { LoginRelation, ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { ObjectIcon } from '@/icons/objects';
-import { displayName } from '../objectName';
+import { ObjectIcon } from '@/project/ObjectIcon';
+import { displayName } from '@/project/objectName';
 import type { OnlineTone } from '../onlineSession';
-import { Floating } from '../ui/Floating';
-import { ToneDot } from '../ui/ToneDot';
-import { Twist } from '../ui/Twist';
+import { Floating } from '@/ui/Floating';
+import { ToneDot } from '../online/ToneDot';
+import { Twist } from '@/ui/Twist';
 import type { Mark } from './marks';
-import type { Row } from './model';
+import type { Row } from '@/project/tree';
 import styles from './Tree.module.css';
 
 const INDENT = 14;
@@ -82,7 +83,7 @@ export function TreeRow({
             data-severity={mark?.severity}
             title={excluded ? t('tree.excluded') : undefined}
           >
-            <Marked text={displayName(object, t)} filter={filter} />
+            <Marked text={displayName(object)} filter={filter} />
           </span>
           <Suffix object={object} tone={tone} />
           {relation && relation !== 'same' && <RelationMark relation={relation} />}
@@ -110,7 +111,7 @@ function Suffix({ object, tone }: { object: ObjectSummary; tone: OnlineTone | un
       </span>
     );
   }
-  const short = SHORT[object.subkind ?? ''];
+  const short = kindOf(object.kind)?.subkinds?.[object.subkind ?? '']?.short;
   return short ? <span className={styles.suffix}>({short})</span> : null;
 }
 
@@ -120,17 +121,6 @@ function RelationMark({ relation }: { relation: LoginRelation }) {
   const Icon = relation === 'online_change' ? Zap : CloudUpload;
   return <Icon className={styles.relation} size={13} aria-label={t(`relation.${relation}`)} />;
 }
-
-const SHORT: Record<string, string> = {
-  program: 'PRG',
-  function_block: 'FB',
-  function: 'FUN',
-  struct: 'STRUCT',
-  enum: 'ENUM',
-  union: 'UNION',
-  alias: 'ALIAS',
-  subrange: 'SUBRANGE',
-};
 
 function Marked({ text, filter }: { text: string; filter: string }) {
   const at = filter ? text.toLowerCase().indexOf(filter.toLowerCase()) : -1;

@@ -1,6 +1,6 @@
 import { Search, X } from 'lucide-react';
 import { useText } from '@/i18n';
-import { IconButton } from '../ui/Button';
+import { IconButton } from '@/ui/Button';
 import styles from './TreeFilter.module.css';
 
 interface TreeFilterProps {

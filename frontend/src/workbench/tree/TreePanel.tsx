@@ -4,15 +4,16 @@ import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
-import { useCommandContext } from '../context';
+import { useCommandContext } from '../useCommandContext';
 import type { PanelProps } from '../panels';
-import { useProject } from '../project';
+import { useProject } from '@/project/openProject';
 import { mayEdit } from '../rights';
 import { reasonText, runCommand } from '../run';
-import { Button } from '../ui/Button';
-import { Empty, Failed, Loading } from '../ui/Empty';
-import { Panel } from '../ui/Panel';
-import { forestOf, rootsOf, rowsOf, type TreeView } from './model';
+import { firstKind, kindWithRole } from '@/project/kinds';
+import { Button } from '@/ui/Button';
+import { Empty, Failed, Loading } from '@/ui/Empty';
+import { Panel } from '@/ui/Panel';
+import { forestOf, rootsOf, rowsOf, type TreeView } from '@/project/tree';
 import { ObjectTree } from './ObjectTree';
 import type { PlacementRule } from '@/api/types';
 import { TreeFilter } from './TreeFilter';
@@ -69,6 +70,7 @@ function NoObjects({ view }: { view: TreeView }) {
   const t = useText();
   const allowed = mayEdit(useCommandContext());
   const devices = view === 'devices';
+  const kind = (devices ? kindWithRole('device') : firstKind())?.kind;
   return (
     <Empty
       icon={FolderTree}
@@ -78,7 +80,7 @@ function NoObjects({ view }: { view: TreeView }) {
       <Button
         icon={Plus}
         disabledReason={allowed === true ? null : reasonText(allowed)}
-        onClick={() => void runCommand('project.addObject', { kind: devices ? 'device' : 'pou', parentId: null, view })}
+        onClick={() => void runCommand('project.addObject', { kind, parentId: null, view })}
       >
         {t(devices ? 'tree.addDevice' : 'tree.addPou')}
       </Button>

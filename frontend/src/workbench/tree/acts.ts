@@ -1,9 +1,10 @@
 /** What the trees do with objects: create, rename, move, copy, delete. Shown at once, taken back when the server refuses. */
+import { kindOf } from '@/project/kinds';
 import { api } from '@/api/client';
 import { keys, patchSummary, queryClient, summaryOf } from '@/api/queries';
-import type { ObjectKind, ObjectSummary, ProjectObject } from '@/api/types';
+import type { ObjectSummary, ProjectObject } from '@/api/types';
 import { closePanelsOf } from '../docking/dock';
-import { applyChange, moved, renamed, without } from './changes';
+import { applyChange, moved, renamed, without } from '@/project/changes';
 
 type Objects = ObjectSummary[];
 
@@ -34,17 +35,17 @@ function put(projectId: string, change: 'created' | 'moved', object: ObjectSumma
 
 export interface NewObject {
   parent_id: string | null;
-  kind: ObjectKind;
+  kind: string;
   name: string;
   subkind?: string;
   data?: Record<string, unknown>;
 }
 
-/** Creates an object. Kinds that bring children with them (device, application, property) are read anew. */
+/** Creates an object; what the server creates below it is read as well. */
 export async function createObject(projectId: string, order: NewObject): Promise<ProjectObject> {
   const created = await api.post<ProjectObject>(`/projects/${projectId}/objects`, order);
   put(projectId, 'created', created);
-  if (['device', 'plc_logic', 'application', 'property'].includes(order.kind)) {
+  if (kindOf(order.kind)?.add?.bringsChildren ?? true) {
     await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
   }
   return created;

@@ -4,11 +4,11 @@ import type { ObjectSummary, PlacementRule } from '@/api/types';
 import { t } from '@/i18n';
 import type { Enablement, Handlers } from '../commands';
 import { commandContext } from '../context';
-import { confirm } from '../dialogs';
+import { confirm } from '@/ui/dialogs';
 import { selectObjects, useSelection } from '../selection';
 import { copyObject, deleteObjects, moveObject } from './acts';
-import { childrenOf, forestOf, subtree, topMost, type Forest, type TreeView } from './model';
-import { mayDrop } from './placement';
+import { childrenOf, forestOf, subtree, topMost, type Forest, type TreeView } from '@/project/tree';
+import { mayDrop } from '@/project/placement';
 import { revealInTree, useTree } from './state';
 
 function present(projectId: string): Forest {

@@ -1,13 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import type { Diagnostic, ObjectKind, ObjectSummary, Severity } from '@/api/types';
+import type { Diagnostic, ObjectSummary, Severity } from '@/api/types';
 import { marksOf } from './marks';
 
-const object = (
-  id: string,
-  kind: ObjectKind,
-  parent_id: string | null,
-  subkind: string | null = null,
-): ObjectSummary => ({
+const object = (id: string, kind: string, parent_id: string | null, subkind: string | null = null): ObjectSummary => ({
   id,
   kind,
   parent_id,
@@ -15,7 +10,6 @@ const object = (
   name: id,
   index: 0,
   revision: 1,
-  badges: [],
 });
 const objects = [
   object('App', 'application', null),

@@ -1,6 +1,7 @@
 /** What the trees mark beside names: messages of the compiler and forced variables. Pure functions. */
 import type { Diagnostic, ObjectSummary, Severity } from '@/api/types';
-import { ancestorOfKind } from './model';
+import { holdsValues } from '@/project/kinds';
+import { applicationOf } from '@/project/tree';
 
 export interface Mark {
   severity?: Exclude<Severity, 'info'>;
@@ -31,8 +32,8 @@ export function marksOf(
   if ([...forces.values()].every((paths) => paths.length === 0)) return marks;
   const roots = new Map([...forces].map(([application, paths]) => [application, new Set(paths.map(rootOf))]));
   for (const object of objects) {
-    if (object.kind !== 'gvl' && object.kind !== 'persistent' && object.subkind !== 'program') continue;
-    const application = ancestorOfKind(objects, object.id, 'application')?.id;
+    if (!holdsValues(object)) continue;
+    const application = applicationOf(objects, object.id)?.id;
     const name = object.name.toUpperCase();
     const forced = application
       ? roots.get(application)?.has(name)

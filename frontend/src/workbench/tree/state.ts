@@ -1,7 +1,8 @@
 /** What the trees remember: which objects are open, what is cut or copied, which one is being renamed. */
 import { create } from 'zustand';
-import { loadSetting, saveSetting } from '@/app/preferences';
-import type { ObjectKind, ObjectSummary } from '@/api/types';
+import { loadSetting, saveSetting } from '@/session/preferences';
+import type { ObjectSummary } from '@/api/types';
+import { kindOf } from '@/project/kinds';
 
 interface TreeState {
   expanded: ReadonlySet<string>;
@@ -19,7 +20,6 @@ export const useTree = create<TreeState>(() => ({
   reveal: null,
 }));
 
-const OPEN_AT_FIRST: ReadonlySet<ObjectKind> = new Set(['device', 'plc_logic', 'application', 'task_configuration']);
 const SAVE_AFTER_MS = 1500;
 
 let project: string | null = null;
@@ -31,7 +31,7 @@ export async function startTree(projectId: string, objects: readonly ObjectSumma
   const stored = await loadSetting<string[]>(`tree.${projectId}`).catch(() => null);
   const ids = Array.isArray(stored)
     ? stored
-    : objects.filter((object) => OPEN_AT_FIRST.has(object.kind)).map((object) => object.id);
+    : objects.filter((object) => kindOf(object.kind)?.tree?.openAtFirst).map((object) => object.id);
   project = projectId;
   useTree.setState({ expanded: new Set(ids), renaming: null, clipboard: null, reveal: null });
 }

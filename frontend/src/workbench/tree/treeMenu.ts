@@ -1,16 +1,16 @@
 import type { PlacementRule } from '@/api/types';
 import { t } from '@/i18n';
-import { objectIcon } from '@/icons/objects';
+import { kindTitle, objectIcon } from '@/project/kinds';
 import { findCommand, useRegistry } from '../commands';
 import { commandContext, type CommandContext } from '../context';
-import { guard } from '../notices';
+import { guard } from '@/ui/notices';
 import { entriesOf } from '../frame/menuEntries';
 import { reasonText, runCommand } from '../run';
 import { mayEdit } from '../rights';
-import type { MenuEntry } from '../ui/Menu';
+import type { MenuEntry } from '@/ui/Menu';
 import { pasteEnablement } from './handlers';
-import type { Forest, TreeView } from './model';
-import { placeableKinds } from './placement';
+import type { Forest, TreeView } from '@/project/tree';
+import { placeableKinds } from '@/project/placement';
 
 interface TreeMenuOptions {
   view: TreeView;
@@ -45,7 +45,11 @@ export function treeEntries({ view, forest, rules, paste }: TreeMenuOptions): Me
     { kind: 'line', key: 'line-edit' },
     ...entriesOf(edit, commands, context),
     pasteEntry,
-    ...entriesOf(['edit.delete', 'edit.rename', null, 'project.exclude', 'project.history'], commands, context),
+    ...entriesOf(
+      ['edit.delete', 'edit.rename', null, 'project.exclude', 'project.history', 'project.properties'],
+      commands,
+      context,
+    ),
   ];
 }
 
@@ -63,7 +67,7 @@ function addEntries(
   const entries: MenuEntry[] = kinds.map((rule) => ({
     kind: 'item',
     key: rule.kind,
-    text: t(`kind.${rule.kind}`),
+    text: kindTitle(rule.kind),
     icon: objectIcon(rule.kind),
     run: () => void runCommand('project.addObject', { kind: rule.kind, parentId, view }),
   }));

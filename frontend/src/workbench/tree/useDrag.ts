@@ -1,10 +1,10 @@
 import type { PlacementRule } from '@/api/types';
 import { useState, type DragEvent } from 'react';
 import { commandContext } from '../context';
-import { guard } from '../notices';
+import { guard } from '@/ui/notices';
 import { copyObject, moveObject } from './acts';
-import { topMost, type Forest, type Row, type TreeView } from './model';
-import { dropPlace, mayDrop } from './placement';
+import { topMost, type Forest, type Row, type TreeView } from '@/project/tree';
+import { dropPlace, mayDrop } from '@/project/placement';
 
 const FORMAT = 'application/x-tappet-objects';
 

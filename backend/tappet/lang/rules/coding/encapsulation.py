@@ -69,7 +69,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.project_parts import named_in
+from tappet.lang.named_symbols import named_in
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Elementary, Enum, FunctionBlock, String, Subrange

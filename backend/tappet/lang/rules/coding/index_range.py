@@ -36,7 +36,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.intervals import Interval, interval
+from tappet.lang.dataflow.for_loops import iterations
+from tappet.lang.dataflow.intervals import Interval, interval
 from tappet.lang.symbols import BuiltinSymbol
 from tappet.lang.types import Array
 from tappet.lang.walk import bodies, expressions, own_expressions, statements
@@ -63,11 +64,11 @@ def _body(b: Body, chosen: frozenset[str], body: list[ast.Stmt], known: Mapping[
                 if isinstance(e, ast.Index) and isinstance(e.base.type, Array):
                     _check(b, e, e.base.type, {} if id(e) in guarded else known)
         if isinstance(s, ast.For):
-            turns = _turns(s)
-            if turns is not None and "S1247" in chosen:
-                _left_out(b, s, turns)
+            values = _values(s)
+            if values is not None and "S1247" in chosen:
+                _left_out(b, s, values)
             leaves = any(isinstance(inner, _LEAVING) for inner in statements(s.body))
-            inside = {} if leaves or turns is None else {**known, id(_counter(s)): turns}
+            inside = {} if leaves or values is None else {**known, id(_counter(s)): values}
             _body(b, chosen, s.body, inside)
         else:
             for part in bodies(s):
@@ -87,20 +88,12 @@ def _counter(s: ast.For) -> object:
     return s.variable.symbol if isinstance(s.variable, ast.Name) else None
 
 
-def _turns(s: ast.For) -> Interval | None:
+def _values(s: ast.For) -> Interval | None:
     """First and last value of the counter, smaller one first; None when they are not constant."""
-    start, stop = s.start.constant, s.stop.constant
-    step = 1 if s.step is None else s.step.constant
-    numbers = all(isinstance(n, int) and not isinstance(n, bool) for n in (start, stop, step))
-    if not numbers or _counter(s) is None or _is_written(s):
+    found = iterations(s)
+    if found is None or not found.any or _counter(s) is None or _is_written(s):
         return None
-    assert isinstance(start, int)
-    assert isinstance(stop, int)
-    assert isinstance(step, int)
-    if step == 0 or (stop - start) * step < 0:
-        return None
-    last = start + (stop - start) // step * step
-    return min(start, last), max(start, last)
+    return found.interval
 
 
 def _is_written(s: ast.For) -> bool:
@@ -112,13 +105,13 @@ def _is_written(s: ast.For) -> bool:
 
 def _check(b: Body, e: ast.Index, array: Array, known: Mapping[int, Interval]) -> None:
     for index, (first, last) in zip(e.indices, array.bounds, strict=False):
-        told_elsewhere = isinstance(index, ast.Name) and id(index.symbol) in known
-        found = None if index.is_constant or told_elsewhere else interval(index, known)
+        reported_elsewhere = isinstance(index, ast.Name) and id(index.symbol) in known
+        found = None if index.is_constant or reported_elsewhere else interval(index, known)
         if found is not None and (found[0] < first or found[1] > last):
             b.report("S1246", index.span, low=found[0], high=found[1], first=first, last=last)
 
 
-def _left_out(b: Body, s: ast.For, turns: Interval) -> None:
+def _left_out(b: Body, s: ast.For, values: Interval) -> None:
     """Arrays that the loop indexes by its counter only, and all but their first or last element."""
     if s.step is not None and s.step.constant not in (1, -1):
         return
@@ -135,6 +128,6 @@ def _left_out(b: Body, s: ast.For, turns: Interval) -> None:
         plain = all(isinstance(e.indices[0], ast.Name) and e.indices[0].symbol is counter for e in found)
         if plain and isinstance(array, Array) and len(array.bounds) == 1:
             first, last = array.bounds[0]
-            missed = (turns[0] - first, last - turns[1])
+            missed = (values[0] - first, last - values[1])
             if missed != (0, 0) and all(0 <= count <= 1 for count in missed):
-                b.report("S1247", found[0].span, low=turns[0], high=turns[1], first=first, last=last)
+                b.report("S1247", found[0].span, low=values[0], high=values[1], first=first, last=last)

@@ -35,7 +35,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.flow import handed_over
+from tappet.lang.dataflow.flow import handed_over
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Elementary, Enum, Reference, Subrange
 from tappet.lang.walk import bodies, expressions, own_expressions, root, statements

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tappet.lang.rules.flow import Reaching
+from tappet.lang.dataflow.flow import Reaching
 from tappet.lang.rules.temporary_values import temporaries
 from tappet.lang.walk import statements
 

@@ -45,7 +45,7 @@ from typing import TYPE_CHECKING
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import Related
-from tappet.lang.rules.coding.project_parts import is_own, named_in, with_parts
+from tappet.lang.named_symbols import is_own, named_in, with_parts
 from tappet.lang.symbols import (
     GvlSymbol,
     InterfaceSymbol,

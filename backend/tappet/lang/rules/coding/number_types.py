@@ -47,7 +47,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.intervals import interval
+from tappet.lang.dataflow.intervals import interval
 from tappet.lang.symbols import BuiltinSymbol
 from tappet.lang.types import Elementary, Kind, Subrange, value_type
 from tappet.lang.walk import own_expressions, statements

@@ -115,12 +115,12 @@ def _fits(source: Type | None, target: Type | None) -> bool:
     return value_type(source) == value_type(target)
 
 
-def _orders(e: ast.Binary, arithmetic_told: bool) -> bool:
+def _orders(e: ast.Binary, arithmetic_reported: bool) -> bool:
     """Whether an operation asks where pointers lie; `pointer - number` only if nothing else tells it."""
     if not isinstance(e.left.type, Pointer):
         return False
     other = isinstance(e.right.type, Pointer)
-    return (e.op in _ORDER and other) or (e.op == "-" and (other or not arithmetic_told))
+    return (e.op in _ORDER and other) or (e.op == "-" and (other or not arithmetic_reported))
 
 
 def _bound_before(pou: PouSymbol) -> set[str]:

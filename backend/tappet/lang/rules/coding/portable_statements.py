@@ -88,11 +88,11 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
                 say("S1610", e, name=symbol.name)
 
 
-def _number(e: ast.Expr | None, signed_told: bool) -> Elementary | None:
+def _number(e: ast.Expr | None, signed_reported: bool) -> Elementary | None:
     """The type of an integer that is no bit string; a signed one only if no other rule tells of it."""
     if e is None or e.type is None or e.is_constant:
         return None
     type_ = value_type(e.type)
     if not isinstance(type_, Elementary) or type_.kind not in (Kind.SIGNED, Kind.UNSIGNED):
         return None
-    return None if type_.kind is Kind.SIGNED and signed_told else type_
+    return None if type_.kind is Kind.SIGNED and signed_reported else type_

@@ -39,7 +39,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.flow import Reaching
+from tappet.lang.dataflow.flow import Reaching
 from tappet.lang.symbols import PouSymbol
 from tappet.lang.walk import all_expressions, statements
 

@@ -36,7 +36,7 @@ from tappet.lang.diagnostics import Diagnostic, report
 from tappet.lang.source import NOWHERE
 
 if TYPE_CHECKING:
-    from tappet.lang.analysis.tasks import Task
+    from tappet.iec.task import Task
 
 CODES = ("S1501", "S1502", "S1503", "S1504", "S1505")
 """S1505 needs to know what the tasks read and write: see `analysis.task_access`."""

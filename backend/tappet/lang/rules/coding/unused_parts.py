@@ -51,7 +51,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.rules.coding.project_parts import Named, is_own, named_in, with_parts
+from tappet.lang.named_symbols import Named, is_own, named_in, with_parts
 from tappet.lang.types import Array, Enum, Pointer, Reference, Struct
 from tappet.lang.walk import expressions
 

@@ -1,0 +1,156 @@
+"""The library texts that a program can reach: as a linker takes from an archive what is named.
+
+An index tells the identifiers of every library text and the names that it makes known. A text is taken when
+something taken before names one of its names; texts with data of their own (variable lists, programs, static
+variables), exported functions and check functions are always taken, so that the memory of an application does
+not depend on what is left out. The index is made once, by content, and kept in the user's cache folder.
+
+Nothing is left out of libraries that have messages of their own or depend on the application. A program with
+errors is to be analysed with everything: messages propose names that exist.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections import OrderedDict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from tappet.iec.tokens import NAME, code_of
+from tappet.lang.source import Source
+from tappet.user_cache import cache_folder, compiler_stamp, store
+
+FORMAT = 1
+KEPT = 8
+"""Indexes in memory."""
+_ALWAYS = re.compile(r"\b(?:VAR_GLOBAL|VAR_STAT|PROGRAM|tappet_export)\b|\bCheck", re.IGNORECASE)
+_IMPLICIT = "SFC"
+"""Begins the names that a chart looks for although they do not stand in its text."""
+_CONDITIONAL = "CN"
+"""Ends the name of a function that IL calls on a condition."""
+_CONVERSION = "Conversion"
+"""Library whose functions stand behind the conversion operators, which do not name them."""
+_CONVERTS = re.compile(r"(?:^|_)TO_")
+
+
+@dataclass(slots=True)
+class Index:
+    """What the texts of some libraries name and make known, in the order of the texts."""
+
+    everything: bool
+    """Nothing may be left out."""
+    always: list[bool]
+    names: list[str]
+    """Upper-case names that a text makes known, separated by spaces."""
+    identifiers: list[str]
+    """Upper-case identifiers in a text, separated by spaces."""
+
+    def to_bytes(self) -> bytes:
+        """For the cache: a check sum and JSON."""
+        data = json.dumps([FORMAT, self.everything, self.always, self.names, self.identifiers]).encode()
+        return hashlib.blake2b(data, digest_size=16).digest() + data
+
+    @classmethod
+    def from_bytes(cls, content: bytes, texts: int) -> Index | None:
+        """The index of so many texts; None when it is damaged or of another format."""
+        check, data = content[:16], content[16:]
+        if hashlib.blake2b(data, digest_size=16).digest() != check:
+            return None
+        try:
+            version, everything, always, names, identifiers = json.loads(data)
+        except ValueError:
+            return None
+        if version != FORMAT or not len(always) == len(names) == len(identifiers) == texts:
+            return None
+        return cls(everything, always, names, identifiers)
+
+
+_kept: OrderedDict[str, Index] = OrderedDict()
+
+
+def named_texts(libraries: Sequence[Source], own: Iterable[Source]) -> list[Source]:
+    """The texts of `libraries` that a program of the texts `own` can reach, in their order."""
+    index = index_of(libraries)
+    if index.everything:
+        return list(libraries)
+    declared: dict[str, list[int]] = {}
+    for number, names in enumerate(index.names):
+        for name in names.split():
+            declared.setdefault(name, []).append(number)
+    taken = [False] * len(libraries)
+    waiting: list[set[str]] = [identifiers(source.text) for source in own]
+    converts = any(_CONVERTS.search(name) for found in waiting for name in found)
+    for number, source in enumerate(libraries):
+        if index.always[number] or (converts and source.library == _CONVERSION):
+            taken[number] = True
+            waiting += [set(index.identifiers[number].split()), set(index.names[number].split())]
+        waiting += [identifiers(given.value) for given in source.given]
+    while waiting:
+        for name in waiting.pop().intersection(declared):
+            for number in declared.pop(name):
+                if not taken[number]:
+                    taken[number] = True
+                    waiting.append(set(index.identifiers[number].split()))
+    return [source for source, wanted in zip(libraries, taken, strict=True) if wanted]
+
+
+def index_of(libraries: Sequence[Source]) -> Index:
+    """The index of these texts: kept in memory, read from the cache, or made."""
+    key = _key(libraries)
+    found = _kept.get(key)
+    if found is None:
+        folder = cache_folder("libraries")
+        try:
+            content = (folder / key).read_bytes() if folder is not None else b""
+        except OSError:
+            content = b""
+        found = Index.from_bytes(content, len(libraries))
+        if found is None:
+            found = _made(libraries)
+            if folder is not None:
+                store(folder / key, found.to_bytes())
+        _kept[key] = found
+        while len(_kept) > KEPT:
+            _kept.popitem(last=False)
+    return found
+
+
+def identifiers(text: str) -> set[str]:
+    """The upper-case identifiers of a text, those in comments and strings included."""
+    found = set(NAME.findall(text.upper()))
+    found.update([name.removesuffix(_CONDITIONAL) for name in found if name.endswith(_CONDITIONAL)])
+    return found
+
+
+def _key(libraries: Sequence[Source]) -> str:
+    digest = hashlib.blake2b(f"{FORMAT}|{compiler_stamp()}|".encode(), digest_size=20)
+    for source in libraries:
+        head: tuple[Any, ...] = (source.uri, source.owner, source.name, source.library, source.namespace)
+        head = (*head, source.uses, source.private, source.given, source.bodies, len(source.text))
+        digest.update(f"{head!r}\n{source.text}".encode("utf-8", "surrogatepass"))
+    return digest.hexdigest()
+
+
+def _made(libraries: Sequence[Source]) -> Index:
+    """The index, made by an analysis of the libraries for themselves."""
+    from tappet.lang.analysis import AnalysisOptions, analyse
+    from tappet.lang.analysis.edits.identifiers import identifiers_of
+    from tappet.lang.analysis.libraries import read_program
+
+    results, shared = read_program(libraries, AnalysisOptions())
+    silent = shared is not None and not any(result.diagnostics for result in results)
+    if not silent or analyse([], libraries=shared).diagnostics:
+        return Index(True, [True] * len(results), [""] * len(results), [""] * len(results))
+    always, names, words = [], [], []
+    for result in results:
+        source = result.unit.source
+        read = code_of(source.text)
+        made = identifiers_of(result.unit).global_names | ({source.owner.upper()} if source.owner else set())
+        hidden = any(name.startswith(_IMPLICIT) for name in made)
+        always.append(hidden or _ALWAYS.search(source.text) is not None)
+        names.append(" ".join(sorted(made)))
+        words.append(" ".join(sorted(identifiers(read))))
+    return Index(False, always, names, words)

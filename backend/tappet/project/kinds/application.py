@@ -1,0 +1,57 @@
+"""An application: what is compiled and downloaded as one (CON-05)."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StrictBool, StrictInt
+
+from tappet.project.data import Data, Line
+from tappet.project.object_kind import Child, Codesys, JsonFile, Naming, ObjectKind, Placement, Plcopen
+
+RuleCode = Annotated[str, Field(pattern=r"^S[0-9]{4}$")]
+Prefix = Annotated[str, Field(pattern=r"^[A-Za-z0-9_]{0,20}$")]
+
+
+class StaticAnalysisData(Data):
+    """The coding rules of an application (`tappet check --static`); what is not named is as it is for all."""
+
+    with_build: StrictBool = Field(default=True, description="The rules run with every build.")
+    rules: dict[RuleCode, Literal["warning", "error"]] = Field(
+        default_factory=dict, description="Rules that are switched on, by code, and what their findings are."
+    )
+    prefixes: dict[Line, Prefix] = Field(
+        default_factory=dict, description="What names begin with, by kind of object or type."
+    )
+    limits: dict[Line, Annotated[StrictInt, Field(ge=0, le=1_000_000)]] = Field(
+        default_factory=dict, description="Limits of sizes, by what they limit."
+    )
+
+
+NO_RULES = StaticAnalysisData()
+
+
+class ApplicationData(Data):
+    """An application: how it is checked."""
+
+    static_analysis: StaticAnalysisData = Field(
+        default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
+    )
+
+
+APPLICATION = ObjectKind(
+    name="application",
+    words="application",
+    description="An application: what is compiled and downloaded as one.",
+    data=ApplicationData,
+    placement=Placement(parents=("plc_logic", "application"), in_folders=False),
+    naming=Naming(proposal="Application", from_imports="adapted"),
+    order=40,
+    children=(
+        Child("library_manager", "Library Manager"),
+        Child("task_configuration", "Task Configuration"),
+    ),
+    folder=JsonFile(optional=True),
+    plcopen=Plcopen(),
+    codesys=Codesys(type_ids=("639b491f5557464caf911471bac9f549",)),
+)

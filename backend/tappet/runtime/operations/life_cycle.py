@@ -1,0 +1,78 @@
+"""Who a runtime is, and the life cycle of its application: start, stop, single cycle, resets."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+from tappet.runtime.operations.declaration import Fact, Operation, Rest, Text
+from tappet.runtime.plc import RuntimeInfo, SoftPlc
+
+
+class Hello(Operation[RuntimeInfo], frozen=True):
+    """The first message of a connection: the token of the runtime."""
+
+    op: ClassVar[str] = "hello"
+    token: Text
+
+    def run(self, plc: SoftPlc) -> RuntimeInfo:
+        """The service has compared the token."""
+        return plc.info()
+
+
+class GetInfo(Operation[RuntimeInfo], frozen=True):
+    """Identity, state and application."""
+
+    op: ClassVar[str] = "info"
+
+    def run(self, plc: SoftPlc) -> RuntimeInfo:
+        """Ask the PLC."""
+        return plc.info()
+
+
+class Start(Operation[None], frozen=True):
+    """Start the application."""
+
+    op: ClassVar[str] = "start"
+    rest: ClassVar[Rest | None] = Rest("POST", "/start", "operator", lambda _: Fact("start"), "state")
+
+    def run(self, plc: SoftPlc) -> None:
+        """From the next cycle on."""
+        plc.start()
+
+
+class Stop(Operation[None], frozen=True):
+    """Stop the application; its outputs go to their safe values."""
+
+    op: ClassVar[str] = "stop"
+    rest: ClassVar[Rest | None] = Rest("POST", "/stop", "operator", lambda _: Fact("stop"), "state")
+
+    def run(self, plc: SoftPlc) -> None:
+        """At the end of the cycles."""
+        plc.stop()
+
+
+class SingleCycle(Operation[None], frozen=True):
+    """Run one cycle of each cyclic and freewheeling task of a stopped application."""
+
+    op: ClassVar[str] = "single_cycle"
+    rest: ClassVar[Rest | None] = Rest(
+        "POST", "/single-cycle", "operator", lambda _: Fact("single-cycle"), "state"
+    )
+
+    def run(self, plc: SoftPlc) -> None:
+        """Returns when the cycle is over."""
+        plc.single_cycle()
+
+
+class Reset(Operation[None], frozen=True):
+    """Initialise the variables: warm (not RETAIN), cold (not PERSISTENT), origin (all, and unload)."""
+
+    op: ClassVar[str] = "reset"
+    rest: ClassVar[Rest | None] = Rest(
+        "POST", "/reset", "engineer", lambda order: Fact(f"reset-{order.kind}"), "state"
+    )
+    kind: Literal["warm", "cold", "origin"]
+
+    def run(self, plc: SoftPlc) -> None:
+        """Stops a running application first."""
+        plc.reset(self.kind)

@@ -1,0 +1,65 @@
+"""Finds the operations: in the modules of this folder, and in those of entry points `tappet.operations`."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import pkgutil
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from importlib.metadata import entry_points
+from types import ModuleType
+from typing import Any
+
+from tappet.runtime import operations
+from tappet.runtime.operations.declaration import Operation, reply_type
+
+GROUP = "tappet.operations"
+"""Entry points of this group name modules with operations."""
+
+
+class RegistrationError(RuntimeError):
+    """Two operations of one name, or a module of an entry point that cannot be loaded."""
+
+
+@cache
+def known() -> Mapping[str, type[Operation[Any]]]:
+    """All operations by name."""
+    return collect(_modules())
+
+
+def collect(modules: Iterable[ModuleType]) -> dict[str, type[Operation[Any]]]:
+    """The operations that modules declare. RegistrationError when two have one name."""
+    found: dict[str, type[Operation[Any]]] = {}
+    for module in modules:
+        for kind in _declared(module):
+            other = found.setdefault(kind.op, kind)
+            if other is not kind:
+                raise RegistrationError(
+                    f"the operation '{kind.op}' is declared twice: in {other.__module__}"
+                    f" and {kind.__module__}"
+                )
+            reply_type(kind)
+    return found
+
+
+def _declared(module: ModuleType) -> Iterator[type[Operation[Any]]]:
+    for value in vars(module).values():
+        kind = value if inspect.isclass(value) and issubclass(value, Operation) else None
+        if kind is not None and kind.op and kind.__module__ == module.__name__:
+            yield kind
+
+
+def _modules() -> Iterator[ModuleType]:
+    for entry in pkgutil.iter_modules(operations.__path__):
+        yield importlib.import_module(f"{operations.__name__}.{entry.name}")
+    for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
+        try:
+            module = point.load()
+        except Exception as error:
+            raise RegistrationError(
+                f"the entry point '{point.name}' of {GROUP} ({point.value}) cannot be loaded: {error}"
+            ) from error
+        if not isinstance(module, ModuleType):
+            raise RegistrationError(f"the entry point '{point.name}' of {GROUP} names no module")
+        yield module

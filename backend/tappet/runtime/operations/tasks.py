@@ -1,0 +1,77 @@
+"""Task monitoring."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from msgspec import Meta, Struct
+
+from tappet.runtime.operations.declaration import Operation, OperationError, Rest, Text
+from tappet.runtime.plc import SoftPlc
+from tappet.runtime.tasks import TaskStatistics
+
+
+class TaskState(Struct, frozen=True):
+    """Statistics of one task since its start or the last reset of them; times in µs (TASK-50 .. TASK-59)."""
+
+    name: str
+    kind: str
+    priority: int
+    status: str
+    interval_us: float
+    iec_cycles: Annotated[int, Meta(description="Cycles that ran the programs.")]
+    cycles: Annotated[int, Meta(description="Cycles altogether, those of a stopped application too.")]
+    last_us: float
+    average_us: float
+    min_us: float
+    max_us: float
+    jitter_us: Annotated[float, Meta(description="Lateness of the last start.")]
+    min_jitter_us: float
+    max_jitter_us: float
+    average_jitter_us: float
+    p999_jitter_us: Annotated[float, Meta(description="99.9 % of the starts were not later than this.")]
+    overruns: Annotated[int, Meta(description="Cycles that were still running when the next was due.")]
+    missed: Annotated[int, Meta(description="Starts dropped because of that.")]
+
+
+def _us(ns: int) -> float:
+    return round(ns / 1000, 3)
+
+
+def in_us(tasks: list[TaskStatistics]) -> list[TaskState]:
+    """Statistics as people read them."""
+    return [
+        TaskState(
+            t.name, t.kind, t.priority, t.status, _us(t.interval_ns), t.iec_cycles, t.cycles,
+            _us(t.last_ns), _us(t.average_ns), _us(t.min_ns), _us(t.max_ns), _us(t.jitter_ns),
+            _us(t.jitter_min_ns), _us(t.jitter_max_ns), _us(t.jitter_average_ns), _us(t.jitter_p999_ns),
+            t.overruns, t.missed,
+        )
+        for t in tasks
+    ]  # fmt: skip
+
+
+class ListTasks(Operation[list[TaskStatistics]], frozen=True):
+    """Statistics of all tasks."""
+
+    op: ClassVar[str] = "tasks"
+    rest: ClassVar[Rest | None] = Rest("GET", "/tasks", "viewer", None, in_us)
+
+    def run(self, plc: SoftPlc) -> list[TaskStatistics]:
+        """As of now."""
+        return plc.tasks()
+
+
+class ResetStatistics(Operation[None], frozen=True):
+    """Reset the statistics of a task, of all tasks without a name."""
+
+    op: ClassVar[str] = "reset_statistics"
+    rest: ClassVar[Rest | None] = Rest("POST", "/tasks/{task}/reset", "operator", None)
+    task: Text | None = None
+
+    def run(self, plc: SoftPlc) -> None:
+        """Counts from the next cycle on."""
+        names = [task.name for task in plc.tasks()]
+        if self.task is not None and self.task not in names:
+            raise OperationError("not_found", f"there is no task '{self.task}'; there are {', '.join(names)}")
+        plc.reset_statistics(self.task)

@@ -1,0 +1,105 @@
+"""Reading, writing and forcing bytes of the image."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Annotated, ClassVar
+
+from msgspec import Meta, Struct
+
+from tappet.codegen.symbol_types import Bit
+from tappet.runtime.forces import PlacedValue
+from tappet.runtime.operations.declaration import (
+    MAX_ITEMS,
+    Offset,
+    Operation,
+    Places,
+    Session,
+    SessionOperation,
+    Values,
+)
+from tappet.runtime.places import Place
+from tappet.runtime.plc import SoftPlc
+
+WRITE_TIMEOUT_S = 1.0
+_POLL_S = 0.001
+
+
+class ForcedValue(Struct, frozen=True):
+    """A forced variable: its place, the forced bytes, the bytes before, and its path when it has one."""
+
+    offset: int
+    bit: int | None
+    data: bytes
+    before: bytes
+    path: str | None
+
+
+class Read(Operation[list[bytes]], frozen=True):
+    """Bytes at (offset, size) places, all of one moment."""
+
+    op: ClassVar[str] = "read"
+    places: Places
+
+    def run(self, plc: SoftPlc) -> list[bytes]:
+        """Waits for properties that are monitored by a call."""
+        return plc.read(self.places)
+
+
+class Write(SessionOperation[bool], frozen=True):
+    """Store values together at a cycle begin.
+
+    True when that has happened, False when the task takes longer than a second to its next cycle.
+    """
+
+    op: ClassVar[str] = "write"
+    values: Values
+
+    async def serve(self, session: Session) -> bool:
+        """Waits without a thread of its own."""
+        done = await asyncio.to_thread(session.plc.write, _placed(self.values))
+        waited = 0.0
+        while not (finished := await asyncio.to_thread(done)) and waited < WRITE_TIMEOUT_S:
+            await asyncio.sleep(_POLL_S)
+            waited += _POLL_S
+        return finished
+
+
+class Force(Operation[None], frozen=True):
+    """Hold places at values until they are released."""
+
+    op: ClassVar[str] = "force"
+    values: Values
+
+    def run(self, plc: SoftPlc) -> None:
+        """From the next cycle on."""
+        plc.force(_placed(self.values))
+
+
+class Unforce(Operation[int], frozen=True):
+    """Release (offset, bit) places, all with None; `restore` brings the values before back (WAT-09)."""
+
+    op: ClassVar[str] = "unforce"
+    keys: Annotated[list[tuple[Offset, Bit | None]], Meta(max_length=MAX_ITEMS)] | None
+    restore: bool = False
+
+    def run(self, plc: SoftPlc) -> int:
+        """How many were released."""
+        return plc.unforce(self.keys, restore=self.restore)
+
+
+class ListForces(Operation[list[ForcedValue]], frozen=True):
+    """All forces."""
+
+    op: ClassVar[str] = "forces"
+
+    def run(self, plc: SoftPlc) -> list[ForcedValue]:
+        """In the order in which they were set."""
+        return [
+            ForcedValue(f.value.place.offset, f.value.place.bit, f.value.data, f.before, path)
+            for f, path in plc.forces()
+        ]
+
+
+def _placed(rows: list[tuple[int, bytes, int | None]]) -> list[PlacedValue]:
+    return [PlacedValue(Place(offset, len(data), bit), data) for offset, data, bit in rows]

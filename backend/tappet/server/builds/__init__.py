@@ -1,0 +1,1 @@
+"""Builds, checks and downloads. Start at `commissioning`; `builder` orders builds of `worker` processes."""

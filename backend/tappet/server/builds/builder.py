@@ -1,0 +1,394 @@
+"""Builds applications in compiler processes, off the event loop; a build can be cancelled."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import logging
+import sys
+from collections import OrderedDict
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import msgpack
+from msgspec import to_builtins
+
+from tappet.iec.places import Span
+from tappet.iec.task import Task
+from tappet.project import sources as texts
+from tappet.project.kinds.application import NO_RULES, StaticAnalysisData
+from tappet.project.library_reference import LibraryReference
+from tappet.project.library_texts import library_requirements, library_sources
+from tappet.project.model import Project
+from tappet.project.source_text import SourceText
+from tappet.server.builds.shapes import BuildReport, Diagnostic, Part, Severity
+from tappet.server.builds.worker import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
+from tappet.server.problems import Problem
+
+log = logging.getLogger(__name__)
+KEPT_BUILDS = 32
+"""Newest build of so many applications stay at hand."""
+WORKER = (sys.executable, "-m", "tappet.server.builds.worker")
+GRACE_S = 3.0
+"""A compiler process that does not end a cancelled build within this time is killed."""
+
+
+class BuildCrashedError(RuntimeError):
+    """The compiler process died or failed; a fault of the product, not of the program."""
+
+
+@dataclass(frozen=True, slots=True)
+class Application:
+    """An application of a project as it is to be built: its texts, tasks and libraries."""
+
+    project_id: str
+    application_id: str
+    name: str
+    sources: tuple[SourceText, ...]
+    tasks: tuple[Task, ...]
+    libraries: tuple[LibraryReference, ...]
+    paths: dict[str, str]
+    """Path in the tree of each object that messages are about, by id."""
+    static: StaticAnalysisData = NO_RULES
+    """The coding rules that are checked."""
+
+    @classmethod
+    def of(cls, project_id: str, project: Project, application_id: str) -> Application:
+        """Raises UnknownObjectError when the id is no application."""
+        found = tuple(texts.application_sources(project, application_id))
+        tasks = tuple(texts.tasks(project, application_id))
+        ids = {segment.object_id for source in found for segment in source.map.segments}
+        ids |= {task.object_id for task in tasks if task.object_id} | {application_id}
+        ids |= {manager.id for manager in texts.objects_with_libraries(project, application_id)}
+        return cls(
+            project_id,
+            application_id,
+            project.get(application_id).name,
+            found,
+            tasks,
+            tuple(texts.libraries(project, application_id)),
+            {id: project.path_of(id) for id in ids},
+            texts.static_analysis(project, application_id),
+        )
+
+    @classmethod
+    def library(cls, project_id: str, project: Project) -> Application:
+        """What a project is as a library: all its code but programs, in no application."""
+        found = tuple(library_sources(project))
+        ids = {segment.object_id for source in found for segment in source.map.segments}
+        ids |= {item.id for item in project.walk() if texts.compiled(item).libraries is not None}
+        return cls(
+            project_id,
+            "",
+            project.name,
+            found,
+            (),
+            tuple(library_requirements(project)),
+            {id: project.path_of(id) for id in ids} | {"": project.name},
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """A finished build."""
+
+    application: Application
+    fingerprint: str
+    report: BuildReport
+    package: bytes | None
+    change_base: str | None
+    """Code id of the package that this one can be changed over from."""
+    change_reasons: tuple[str, ...]
+
+
+class Builder:
+    """Orders builds, one at a time per application, and remembers the newest of each."""
+
+    def __init__(self, workers: int, cache: Path, command: Sequence[str] = WORKER) -> None:
+        self._cache = cache
+        self._workers = [_Worker(command) for _ in range(max(1, workers))]
+        self._built: OrderedDict[tuple[str, str], Built] = OrderedDict()
+        self._running: dict[tuple[str, str], tuple[str, asyncio.Task[Built]]] = {}
+
+    async def build(self, application: Application, previous: tuple[str, bytes] | None) -> Built:
+        """The build of exactly these texts on top of `previous` (code id, package), from memory if known.
+
+        Raises problems: 409 when it was cancelled, 500 when the compiler crashed.
+        """
+        key = (application.project_id, application.application_id)
+        order, fingerprint = await asyncio.to_thread(self._order, application, previous)
+        known = self._built.get(key)
+        if known is not None and known.fingerprint == fingerprint:
+            self._built.move_to_end(key)
+            return known
+        while key in self._running:
+            running, task = self._running[key]
+            if running == fingerprint:
+                return await self._wait(task)
+            with suppress(asyncio.CancelledError, BuildCrashedError):
+                await asyncio.shield(task)
+        task = asyncio.create_task(self._run(key, application, order, fingerprint))
+        self._running[key] = (fingerprint, task)
+        task.add_done_callback(lambda done: self._finished(key, done))
+        return await self._wait(task)
+
+    async def check(self, application: Application) -> BuildReport:
+        """All messages about an application, without code; it does not count as a build.
+
+        Raises the problem 500 when the compiler crashed.
+        """
+        order, _ = await asyncio.to_thread(self._order, application, None, check_only=True)
+        try:
+            outcome = await self._worker(order).build(order)
+        except BuildCrashedError as error:
+            raise _crashed(error) from error
+        report = _report(application, outcome)
+        faulty = any(diagnostic.severity is Severity.ERROR for diagnostic in report.diagnostics)
+        return report.model_copy(update={"ok": not faulty})
+
+    async def warm(self) -> None:
+        """Starts the compiler processes before the first build asks for them."""
+        await asyncio.gather(*(worker.warm() for worker in self._workers))
+
+    def cancel(self, project_id: str, application_id: str) -> bool:
+        """Ends the running build of an application; False when there is none."""
+        running = self._running.get((project_id, application_id))
+        return running is not None and running[1].cancel()
+
+    def newest(self, project_id: str, application_id: str) -> Built | None:
+        """The newest finished build."""
+        return self._built.get((project_id, application_id))
+
+    async def close(self) -> None:
+        """Ends the compiler processes."""
+        for _, task in list(self._running.values()):
+            task.cancel()
+        await asyncio.gather(*(worker.close() for worker in self._workers))
+
+    async def _wait(self, task: asyncio.Task[Built]) -> Built:
+        try:
+            return await asyncio.shield(task)
+        except asyncio.CancelledError:
+            if task.cancelled():
+                raise Problem(409, "build-cancelled", "The build was cancelled.") from None
+            raise
+        except BuildCrashedError as error:
+            raise _crashed(error) from error
+
+    def _finished(self, key: tuple[str, str], task: asyncio.Task[Built]) -> None:
+        if self._running.get(key, (None, None))[1] is task:
+            del self._running[key]
+        if not task.cancelled() and task.exception() is not None:
+            log.error("build of %s failed", key, exc_info=task.exception())
+
+    def _order(
+        self, application: Application, previous: tuple[str, bytes] | None, *, check_only: bool = False
+    ) -> tuple[BuildOrder, str]:
+        """The order, and a fingerprint of everything the outcome depends on.
+
+        A check has caches of its own: other coding rules would make the next build one of everything.
+        """
+        key = f"{application.project_id}/{application.application_id}"
+        order = BuildOrder(
+            key=f"{key}/check" if check_only else key,
+            application=application.name,
+            sources=tuple(_source_fields(source) for source in application.sources),
+            tasks=tuple(asdict(task) for task in application.tasks),
+            libraries=application.libraries,
+            previous=previous[1] if previous else None,
+            cache=str(self._cache),
+            static=application.static.model_dump(),
+            check_only=check_only,
+        )
+        return order, _fingerprint(order, previous[0] if previous else None)
+
+    def _worker(self, order: BuildOrder) -> _Worker:
+        number = int(hashlib.sha256(order.key.encode()).hexdigest(), 16) % len(self._workers)
+        return self._workers[number]
+
+    async def _run(
+        self, key: tuple[str, str], application: Application, order: BuildOrder, fingerprint: str
+    ) -> Built:
+        outcome = await self._worker(order).build(order)
+        built = Built(
+            application,
+            fingerprint,
+            _report(application, outcome),
+            outcome["package"],
+            outcome["change_base"],
+            tuple(outcome["change_reasons"]),
+        )
+        self._built[key] = built
+        self._built.move_to_end(key)
+        while len(self._built) > KEPT_BUILDS:
+            self._built.popitem(last=False)
+        return built
+
+
+class _Worker:
+    """One compiler process, started when it is first needed and again after it was killed."""
+
+    def __init__(self, command: Sequence[str]) -> None:
+        self._command = tuple(command)
+        self._process: asyncio.subprocess.Process | None = None
+        self._turn = asyncio.Lock()
+
+    async def build(self, order: BuildOrder) -> dict[str, Any]:
+        """One build; when this call is cancelled, the process ends the build and keeps its caches."""
+        async with self._turn:
+            process = await self._start()
+            exchange = asyncio.create_task(self._exchange(process, order))
+            try:
+                return await asyncio.shield(exchange)
+            except asyncio.CancelledError:
+                ready = False
+                try:
+                    ready = await _ends(process, exchange)
+                finally:
+                    if not ready:
+                        await self._kill()
+                raise
+            except BaseException:
+                await self._kill()
+                raise
+
+    async def warm(self) -> None:
+        """Starts the process."""
+        async with self._turn:
+            await self._start()
+
+    async def _start(self) -> asyncio.subprocess.Process:
+        if self._process is None or self._process.returncode is not None:
+            self._process = await asyncio.create_subprocess_exec(
+                *self._command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
+            )
+        return self._process
+
+    async def _exchange(self, process: asyncio.subprocess.Process, order: BuildOrder) -> dict[str, Any]:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        frame = await asyncio.to_thread(pack_frame, asdict(order))
+        try:
+            process.stdin.write(frame)
+            await process.stdin.drain()
+            head = await process.stdout.readexactly(LENGTH.size)
+            body = await process.stdout.readexactly(LENGTH.unpack(head)[0])
+        except (OSError, asyncio.IncompleteReadError):
+            raise BuildCrashedError("its process ended") from None
+        outcome: dict[str, Any] = await asyncio.to_thread(
+            msgpack.unpackb, body, raw=False, max_bin_len=LARGEST_FRAME
+        )
+        if "crash" in outcome:
+            raise BuildCrashedError(outcome["crash"])
+        return outcome
+
+    async def _kill(self) -> None:
+        process, self._process = self._process, None
+        if process is not None and process.returncode is None:
+            with suppress(ProcessLookupError):
+                process.kill()
+            await process.wait()
+
+    async def close(self) -> None:
+        await self._kill()
+
+
+async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict[str, Any]]) -> bool:
+    """Whether a process ends its build when told to, and is ready for the next one."""
+    with suppress(ProcessLookupError):
+        process.send_signal(CANCEL)
+    await asyncio.wait([exchange], timeout=GRACE_S)
+    if not exchange.done():
+        exchange.cancel()
+        return False
+    return exchange.exception() is None
+
+
+def _crashed(error: BuildCrashedError) -> Problem:
+    return Problem(500, "compiler-crashed", f"The compiler failed: {error}.")
+
+
+def _source_fields(source: SourceText) -> dict[str, Any]:
+    names = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line")
+    fields = {name: getattr(source, name) for name in names}
+    return fields | {"bodies": to_builtins(source.bodies), "map": to_builtins(source.map)}
+
+
+def _fingerprint(order: BuildOrder, previous_code: str | None) -> str:
+    content = asdict(order) | {"previous": previous_code}
+    return hashlib.blake2b(msgpack.packb(content), digest_size=16).hexdigest()
+
+
+def _report(application: Application, outcome: dict[str, Any]) -> BuildReport:
+    by_uri: dict[str, SourceText] = {}
+    for source in application.sources:
+        if source.uri.upper() not in by_uri or source.scope == "application":
+            by_uri[source.uri.upper()] = source
+    return BuildReport(
+        ok=outcome["package"] is not None,
+        diagnostics=[_diagnostic(application, by_uri, item) for item in outcome["diagnostics"]],
+        code_id=outcome["code_id"],
+        data_id=outcome["data_id"],
+        code_size=outcome["code_size"] if outcome["package"] is not None else None,
+        data_size=outcome["data_size"] if outcome["package"] is not None else None,
+        seconds=round(outcome["seconds"], 4),
+    )
+
+
+def _diagnostic(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
+    """The message with its place in the project; lines and columns then count from 1."""
+    found = _placed(application, by_uri, item)
+    found.keep_facts(item.get("facts", {}))
+    return found
+
+
+def _placed(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
+    source = by_uri.get(item["uri"].upper())
+    fields: dict[str, Any] = {
+        "code": item["code"],
+        "severity": Severity(item["severity"]),
+        "message": item["message"],
+        "advice": item["advice"] or None,
+    }
+    if source is None:
+        return Diagnostic(**fields, **_place_without_text(application, item))
+    found = source.map.place(Span(item["line"], item["column"], item["end_line"], item["end_column"]))
+    return Diagnostic(
+        **fields,
+        object_id=found.object_id,
+        object_path=application.paths[found.object_id],
+        part=Part(found.part),
+        element=found.element,
+        line=found.span.line + 1,
+        column=found.span.column + 1,
+        end_line=found.span.end_line + 1,
+        end_column=found.span.end_column + 1,
+    )
+
+
+def _place_without_text(application: Application, item: dict[str, Any]) -> dict[str, Any]:
+    """A task that the message names, a library manager, a library text, or the application as a whole."""
+    path = item["uri"]
+    object_id = next((id for id, known in application.paths.items() if path and known == path), None)
+    if object_id is not None:
+        item = item | {"uri": ""}  # lines are those of texts
+    elif not path:
+        object_id = next(
+            (t.object_id for t in application.tasks if t.object_id and f"'{t.name}'" in item["message"]),
+            application.application_id,
+        )
+        path = application.paths[object_id]
+    line = item["line"] + 1 if item["uri"] else None
+    column = item["column"] + 1 if item["uri"] else None
+    return {
+        "object_id": object_id or None,
+        "object_path": path,
+        "part": None,
+        "line": line,
+        "column": column,
+        "end_line": item["end_line"] + 1 if item["uri"] else None,
+        "end_column": item["end_column"] + 1 if item["uri"] else None,
+    }

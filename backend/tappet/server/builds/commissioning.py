@@ -1,0 +1,134 @@
+"""Login and download: how the application of a project and the one in a runtime come together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from starlette.concurrency import run_in_threadpool
+
+from tappet.project.kinds.application import ApplicationData
+from tappet.project.store import Store
+from tappet.runtime.operations.life_cycle import Start
+from tappet.server.builds.builder import Application, Builder, Built
+from tappet.server.builds.packages import PackageStore, StoredPackage
+from tappet.server.builds.shapes import BuildReport, LoginReport, Relation
+from tappet.server.builds.source_places import SourcePlaces
+from tappet.server.problems import Problem
+from tappet.server.runtimes.links import RuntimeLink
+from tappet.server.runtimes.plc_client import LoadMode
+
+
+@dataclass(slots=True)
+class Commissioning:
+    """Builds, compares and loads."""
+
+    store: Store
+    builder: Builder
+    packages: PackageStore
+
+    async def application(self, project_id: str, application_id: str) -> Application:
+        """The application as it is stored now. Raises UnknownProjectError, UnknownObjectError."""
+
+        def read() -> Application:
+            return Application.of(project_id, self.store.load(project_id), application_id)
+
+        return await run_in_threadpool(read)
+
+    async def build(self, project_id: str, application_id: str) -> Built:
+        """Builds on top of what was downloaded last, so that data keep their places."""
+        application = await self.application(project_id, application_id)
+        last = await run_in_threadpool(self.packages.latest, project_id, application_id)
+        return await self.builder.build(application, _base(last))
+
+    async def analyse(self, project_id: str, application_id: str) -> BuildReport:
+        """Checks with all coding rules that the application has chosen; makes no code."""
+
+        def read() -> Application:
+            project = self.store.load(project_id)
+            application = Application.of(project_id, project, application_id)
+            data = project.get(application_id).data
+            assert isinstance(data, ApplicationData)
+            return replace(application, static=data.static_analysis)
+
+        return await self.builder.check(await run_in_threadpool(read))
+
+    async def compare(self, project_id: str, application_id: str, link: RuntimeLink) -> LoginReport:
+        """What login finds; builds when the loaded application is one of this project."""
+        application = await self.application(project_id, application_id)
+        if not link.connected:
+            link.loaded_symbols()  # raises the problem that says since when
+        info = link.info
+        if info is None or info.code_id is None:
+            return LoginReport(
+                relation=Relation.EMPTY, reasons=[f"There is no application in '{link.name}'."]
+            )
+        loaded = await run_in_threadpool(self.packages.find, info.code_id)
+        if loaded is None:
+            if info.application != application.name:
+                reason = f"'{link.name}' runs the application '{info.application}' of another project."
+                return LoginReport(relation=Relation.FOREIGN, reasons=[reason])
+            reason = (
+                f"'{link.name}' runs a version of '{info.application}' that this server has not "
+                "downloaded; it can only be replaced."
+            )
+            return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason])
+        if (loaded.project_id, loaded.application_id) != (project_id, application_id):
+            reason = f"'{link.name}' runs the application '{info.application}' of another project."
+            return LoginReport(relation=Relation.FOREIGN, reasons=[reason])
+        built = await self.builder.build(application, _base(loaded))
+        if not built.report.ok:
+            reason = "The project has errors; the running application is older than it."
+            return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason, *_first_errors(built)])
+        if built.report.code_id == info.code_id:
+            return LoginReport(relation=Relation.SAME, reasons=[])
+        if built.change_base == info.code_id:
+            reasons = list(built.change_reasons) or ["Only code has changed; all data stay in place."]
+            return LoginReport(relation=Relation.ONLINE_CHANGE, reasons=reasons)
+        reasons = list(built.change_reasons) or ["The running application is another one."]
+        return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons)
+
+    async def download(
+        self, project_id: str, application_id: str, link: RuntimeLink, mode: LoadMode, start: bool
+    ) -> Built:
+        """Builds and loads. Raises problems: 422 errors in the project, 409 no such online change."""
+        application = await self.application(project_id, application_id)
+        loaded: StoredPackage | None = None
+        if link.info is not None and link.info.code_id is not None:
+            loaded = await run_in_threadpool(self.packages.find, link.info.code_id)
+            if loaded and (loaded.project_id, loaded.application_id) != (project_id, application_id):
+                loaded = None
+        if mode == "online_change" and loaded is None:
+            raise Problem(
+                409,
+                "no-online-change",
+                f"'{link.name}' does not run a version of '{application.name}' that can be changed over "
+                "from; download instead.",
+            )
+        built = await self.builder.build(application, _base(loaded))
+        if built.package is None:
+            raise Problem(
+                422,
+                "build-errors",
+                f"'{application.name}' has errors and cannot be downloaded.",
+                diagnostics=[d.model_dump() for d in built.report.diagnostics if d.severity == "error"],
+            )
+        assert built.report.code_id is not None
+        places = SourcePlaces.of(project_id, built.application.sources, built.application.paths)
+        code_id = built.report.code_id
+        # Kept first: without it the next login would take the application for a stranger's.
+        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, built.package, places)
+        async with link.client() as client:
+            await client.download(built.package, mode)
+            if start and mode == "download":
+                await client.call(Start())
+        await link.refresh()
+        return built
+
+
+def _base(stored: StoredPackage | None) -> tuple[str, bytes] | None:
+    return (stored.code_id, stored.data) if stored is not None else None
+
+
+def _first_errors(built: Built) -> list[str]:
+    errors = [d for d in built.report.diagnostics if d.severity == "error"]
+    return [f"{d.object_path}: {d.code}: {d.message}" for d in errors[:3]]

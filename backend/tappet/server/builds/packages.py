@@ -1,0 +1,86 @@
+"""Code packages that were downloaded: online changes start from them, also after a restart of the server."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from tappet.codegen.package import CodePackage, PackageError
+from tappet.runtime.retain import write_atomically
+from tappet.server.builds.source_places import SourcePlaces
+
+KEEP = 10
+"""Newest packages of one application that are kept."""
+_ID = re.compile(r"[0-9A-Za-z_-]{1,128}")
+
+
+@dataclass(frozen=True, slots=True)
+class StoredPackage:
+    """A package and the application it was built from."""
+
+    project_id: str
+    application_id: str
+    code_id: str
+    data: bytes
+
+
+class PackageStore:
+    """Files named `<project>.<application>.<code>.package`, each with a `.places`. All methods block."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def put(
+        self, project_id: str, application_id: str, code_id: str, data: bytes, places: SourcePlaces
+    ) -> None:
+        """Keeps a package and where its lines come from; the oldest ones of the application go."""
+        self._folder.mkdir(parents=True, exist_ok=True)
+        path = self._folder / f"{_safe(project_id)}.{_safe(application_id)}.{_safe(code_id)}.package"
+        write_atomically(path.with_suffix(".places"), places.to_json())
+        write_atomically(path, data)
+        for old in self._newest_first(f"{project_id}.{application_id}.*.package")[KEEP:]:
+            old.with_suffix(".places").unlink(missing_ok=True)
+            old.unlink(missing_ok=True)
+
+    def places(self, code_id: str) -> SourcePlaces | None:
+        """Where the lines of the package with this code come from."""
+        if not _ID.fullmatch(code_id):
+            return None
+        for path in self._newest_first(f"*.*.{code_id}.places"):
+            try:
+                return SourcePlaces.from_json(path.read_bytes())
+            except (OSError, ValueError):
+                continue
+        return None
+
+    def find(self, code_id: str) -> StoredPackage | None:
+        """The package with this code, whatever application it was built from."""
+        if not _ID.fullmatch(code_id):
+            return None
+        return self._read_first(f"*.*.{code_id}.package")
+
+    def latest(self, project_id: str, application_id: str) -> StoredPackage | None:
+        """The package of an application that was downloaded last."""
+        return self._read_first(f"{_safe(project_id)}.{_safe(application_id)}.*.package")
+
+    def _read_first(self, pattern: str) -> StoredPackage | None:
+        for path in self._newest_first(pattern):
+            project_id, application_id, code_id, _ = path.name.split(".")
+            try:
+                data = path.read_bytes()
+                CodePackage.from_bytes(data)
+            except (OSError, PackageError):
+                continue  # of an older version, or damaged: as good as none
+            return StoredPackage(project_id, application_id, code_id, data)
+        return None
+
+    def _newest_first(self, pattern: str) -> list[Path]:
+        found = [(path.stat().st_mtime_ns, path) for path in self._folder.glob(pattern)]
+        return [path for _, path in sorted(found, reverse=True)]
+
+
+def _safe(id: str) -> str:
+    if not _ID.fullmatch(id):
+        raise ValueError(f"'{id}' is no id")
+    return id

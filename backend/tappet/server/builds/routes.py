@@ -1,0 +1,116 @@
+"""Building an application, login, download."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from tappet.lang.diagnostic_translations import Language
+from tappet.server import audit
+from tappet.server.audit import Act
+from tappet.server.builds.commissioning import Commissioning
+from tappet.server.builds.shapes import (
+    BuildReport,
+    DownloadOrder,
+    DownloadReport,
+    LoginReport,
+    LoginTarget,
+)
+from tappet.server.dependencies import (
+    CommissioningDep,
+    DatabaseDep,
+    Engineer,
+    RuntimesDep,
+    ServicesDep,
+    Viewer,
+)
+from tappet.server.metrics.service import Metrics
+from tappet.server.problems import Problem
+
+router = APIRouter(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
+
+
+async def _build(
+    commissioning: Commissioning, metrics: Metrics, project_id: str, application_id: str
+) -> BuildReport:
+    try:
+        built = await commissioning.build(project_id, application_id)
+    except Problem as problem:
+        metrics.builds[problem.kind] += 1
+        raise
+    metrics.builds["ok" if built.report.ok else "errors"] += 1
+    metrics.build_seconds += built.report.seconds
+    return built.report
+
+
+@router.post("/build")
+async def build(
+    project_id: str,
+    application_id: str,
+    who: Engineer,
+    commissioning: CommissioningDep,
+    services: ServicesDep,
+    language: Language = "en",
+) -> BuildReport:
+    """Build the application as it is stored. Errors of the program are diagnostics, not problems."""
+    report = await _build(commissioning, services.metrics, project_id, application_id)
+    return report.in_language(language)
+
+
+@router.delete("/build", status_code=204)
+async def cancel_build(
+    project_id: str, application_id: str, who: Engineer, commissioning: CommissioningDep
+) -> None:
+    """Cancel the running build; who waits for it gets the problem `build-cancelled`."""
+    if not commissioning.builder.cancel(project_id, application_id):
+        raise Problem(404, "not-found", "No build of this application is running.")
+
+
+@router.post("/login")
+async def log_in(
+    project_id: str,
+    application_id: str,
+    body: LoginTarget,
+    who: Viewer,
+    commissioning: CommissioningDep,
+    runtimes: RuntimesDep,
+) -> LoginReport:
+    """Compare the application with the one in the runtime: shown at once, changed online, or downloaded."""
+    return await commissioning.compare(project_id, application_id, runtimes.get(body.runtime_id))
+
+
+@router.post("/logout", status_code=204)
+async def log_out(project_id: str, application_id: str, who: Viewer, commissioning: CommissioningDep) -> None:
+    """End the login. Nothing is kept per login; the browser closes its online channel."""
+    await commissioning.application(project_id, application_id)
+
+
+@router.post("/download")
+async def download(
+    project_id: str,
+    application_id: str,
+    body: DownloadOrder,
+    who: Engineer,
+    commissioning: CommissioningDep,
+    runtimes: RuntimesDep,
+    database: DatabaseDep,
+) -> DownloadReport:
+    """Build and load the application, by download (which stops) or online change (which does not)."""
+    link = runtimes.get(body.runtime_id)
+    old = link.info.code_id if link.info is not None else None
+    built = await commissioning.download(project_id, application_id, link, body.mode, body.start)
+    act = Act(
+        body.mode.replace("_", "-"),
+        built.application.name,
+        old_value=old,
+        new_value=built.report.code_id,
+        project_id=project_id,
+        runtime_id=link.id,
+    )
+    await database.write_async(lambda db: audit.record(db, who, act))
+    info = link.info
+    return DownloadReport(
+        application=built.application.name,
+        code_id=built.report.code_id or "",
+        data_id=built.report.data_id or "",
+        state=info.state if info is not None else "unknown",
+    )

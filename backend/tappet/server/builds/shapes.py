@@ -1,0 +1,109 @@
+"""Building an application and bringing it into a runtime."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Literal
+
+from pydantic import Field, PrivateAttr
+
+from tappet.lang.diagnostic_translations import Language, Texts, said
+from tappet.server.shapes import Reply, Request
+
+
+class Part(StrEnum):
+    """Which text of an object."""
+
+    DECLARATION = "declaration"
+    IMPLEMENTATION = "implementation"
+
+
+class Severity(StrEnum):
+    """How bad."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+class Diagnostic(Reply):
+    """A message of the compiler with its place; lines and columns count from 1."""
+
+    code: str = Field(description="Code of the table of diagnostics, such as `E0204`.")
+    severity: Severity
+    message: str
+    advice: str | None
+    object_id: str | None = Field(description="Null for library texts and for the application as a whole.")
+    object_path: str
+    part: Part | None
+    element: str | None = Field(default=None, description="Id of the element in a drawn part.")
+    line: int | None
+    column: int | None
+    end_line: int | None
+    end_column: int | None
+    _facts: dict[str, str] = PrivateAttr(default_factory=dict)
+
+    def keep_facts(self, facts: dict[str, str]) -> None:
+        """What the message is about, for `in_language`."""
+        self._facts = facts
+
+    def in_language(self, language: Language) -> Diagnostic:
+        """The message in the words of a language."""
+        message, advice = said(self.code, Texts(self.message, self.advice or ""), self._facts, language)
+        return self.model_copy(update={"message": message, "advice": advice or None})
+
+
+class BuildReport(Reply):
+    """What came out of a build."""
+
+    ok: bool
+    diagnostics: list[Diagnostic]
+    code_id: str | None
+    data_id: str | None
+    code_size: int | None = Field(description="Bytes of machine code and constants.")
+    data_size: int | None = Field(description="Bytes of the variable image.")
+    seconds: float
+
+    def in_language(self, language: Language) -> BuildReport:
+        """The report with its messages in the words of a language."""
+        return self.model_copy(update={"diagnostics": [d.in_language(language) for d in self.diagnostics]})
+
+
+class Relation(StrEnum):
+    """How the application of the project relates to the one in the runtime."""
+
+    SAME = "same"
+    ONLINE_CHANGE = "online_change"
+    DOWNLOAD = "download"
+    FOREIGN = "foreign"
+    EMPTY = "empty"
+
+
+class LoginTarget(Request):
+    """The runtime to log in to."""
+
+    runtime_id: str
+
+
+class LoginReport(Reply):
+    """Whether values may be shown at once, and what must be loaded first otherwise."""
+
+    relation: Relation
+    reasons: list[str] = Field(description="What differs, one sentence each.")
+
+
+class DownloadOrder(Request):
+    """How to bring the built application into the runtime."""
+
+    runtime_id: str
+    mode: Literal["download", "online_change"]
+    start: bool = Field(default=True, description="Start after a download; an online change never stops.")
+
+
+class DownloadReport(Reply):
+    """What the runtime now has."""
+
+    application: str
+    code_id: str
+    data_id: str
+    state: str

@@ -1,0 +1,231 @@
+"""The compiler as a process of its own: reads build orders from its input, writes outcomes to its output.
+
+A frame is the length of what follows (8 bytes, little endian) and a msgpack map. Parsed texts and objects are
+kept from one build of an application to the next.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import struct
+import sys
+import time
+import traceback
+from collections import OrderedDict
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from typing import Any, BinaryIO
+
+import msgpack
+from msgspec import convert, structs
+
+from tappet.codegen.build import BuildOptions, BuildSession, build_application
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task, Watchdog
+from tappet.lang.coding_settings import static_analysis
+from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.source import BodyText, Scope, Source, SourceMap
+from tappet.project.library_reference import LibraryReference
+
+LENGTH = struct.Struct("<Q")
+KEPT_SESSIONS = 8
+"""Applications whose parsed texts are kept."""
+LARGEST_FRAME = 1 << 31
+PARTIAL_BUILDS = 20
+"""Builds of single bodies leave little garbage: it is looked for after so many."""
+BEHIND_TYPING = 5
+"""Niceness of a build: the messages for who is typing come before it."""
+CANCEL = signal.SIGUSR1
+"""Ends the running build; what earlier ones left for the next stays."""
+
+
+class BuildCancelled(BaseException):
+    """The running build is to end. No Exception: nothing on the way may take it for a failure."""
+
+
+@dataclass(frozen=True, slots=True)
+class BuildOrder:
+    """Everything a build depends on, as plain data."""
+
+    key: str
+    """Names the application; builds of one key share their caches."""
+    application: str
+    sources: tuple[dict[str, Any], ...]
+    """Fields of `lang.source.Source`."""
+    tasks: tuple[dict[str, Any], ...]
+    """Fields of `iec.task.Task`."""
+    libraries: tuple[LibraryReference, ...]
+    previous: bytes | None
+    """Package that runs now; unchanged data keep their places."""
+    cache: str
+    """Folder of compiled objects."""
+    static: dict[str, Any]
+    """Fields of `project.data.StaticAnalysisData`."""
+    check_only: bool = False
+    """Make no package."""
+
+
+class Compiler:
+    """Builds orders one after the other."""
+
+    def __init__(self) -> None:
+        self._sessions: OrderedDict[str, BuildSession] = OrderedDict()
+        self._previous: tuple[bytes, CodePackage] | None = None
+        self._built: tuple[bytes, CodePackage] | None = None
+        """The last package made here: the next order's running one, mostly."""
+        self._at_work = False
+        self._partial = False
+        self._since = 0
+
+    def cancel(self, number: int, frame: FrameType | None) -> None:
+        """Signal handler: ends the running build, if there is one."""
+        if self._at_work:
+            self._at_work = False
+            raise BuildCancelled
+
+    def outcome(self, order: dict[str, Any]) -> dict[str, Any]:
+        """Outcome of an order, also of one that was cancelled or that the compiler fails at."""
+        try:
+            self._at_work = True
+            found = self.build(order)
+            self._at_work = False
+        except BuildCancelled:
+            return {"cancelled": True}
+        except Exception as error:
+            self._at_work = False
+            traceback.print_exc()
+            return {"crash": f"{type(error).__name__}: {error}"}
+        return found
+
+    def tidy(self) -> None:
+        """What can wait until the answer is out: what the next build needs, and looking for garbage after
+        builds of everything, and now and then."""
+        for session in self._sessions.values():
+            session.settle()
+        self._since += 1
+        if not self._partial or self._since >= PARTIAL_BUILDS:
+            self._since = 0
+            gc.collect()
+
+    def build(self, order: dict[str, Any]) -> dict[str, Any]:
+        """Outcome of an order: package or None, diagnostics as maps, sizes, seconds."""
+        started = time.perf_counter()
+        session = self._sessions.pop(order["key"], None) or BuildSession()
+        self._sessions[order["key"]] = session
+        while len(self._sessions) > KEPT_SESSIONS:
+            self._sessions.popitem(last=False)
+        previous = self._package(order["previous"])
+        static = order["static"]
+        options = BuildOptions(
+            application=order["application"],
+            libraries=tuple(LibraryReference.of(fields) for fields in order["libraries"]),
+            cache=Path(order["cache"]),
+            static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
+            check_only=order["check_only"],
+        )
+        sources = [_source(fields) for fields in order["sources"]]
+        tasks = [_task(task) for task in order["tasks"]]
+        result = build_application(sources, tasks, options, previous, session)
+        self._partial = result.partial
+        package = result.package
+        packed = package.to_bytes() if package else None
+        if package is not None and packed is not None:
+            self._built = packed, package
+        change = package.online_change if package else None
+        if change is not None and change.refused:
+            change = structs.replace(change, base_code_id="", reasons=(change.refused,))
+        return {
+            "package": packed,
+            "code_id": package.code_id if package else None,
+            "data_id": package.data_id if package else None,
+            "change_base": (change.base_code_id or None) if change else None,
+            "change_reasons": list(change.reasons) if change else [],
+            "code_size": result.code_size,
+            "data_size": result.data_size,
+            "diagnostics": [_fields(diagnostic) for diagnostic in result.diagnostics],
+            "timings": result.timings,
+            "seconds": time.perf_counter() - started,
+        }
+
+    def _package(self, data: bytes | None) -> CodePackage | None:
+        """The running package; from one build to the next it is mostly the same."""
+        if not data:
+            return None
+        for known in (self._previous, self._built):
+            if known is not None and known[0] == data:
+                self._previous = known
+                return known[1]
+        self._previous = data, CodePackage.from_bytes(data)
+        return self._previous[1]
+
+
+def _source(fields: dict[str, Any]) -> Source:
+    """A text as the order holds it."""
+    converted = {
+        "scope": Scope(fields["scope"]),
+        "bodies": convert(fields.get("bodies", ()), tuple[BodyText, ...]),
+        "map": convert(fields.get("map"), SourceMap | None),
+    }
+    return Source(**{**fields, **converted})
+
+
+def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
+    span = diagnostic.span
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "message": diagnostic.message,
+        "advice": diagnostic.advice,
+        "facts": dict(diagnostic.facts),
+        "uri": diagnostic.uri,
+        "line": span.line,
+        "column": span.column,
+        "end_line": span.end_line,
+        "end_column": span.end_column,
+    }
+
+
+def _task(fields: dict[str, Any]) -> Task:
+    watchdog = Watchdog(**fields["watchdog"]) if fields["watchdog"] else None
+    return Task(**{**fields, "watchdog": watchdog, "programs": tuple(fields["programs"])})
+
+
+def read_frame(stream: BinaryIO) -> dict[str, Any] | None:
+    """The next map; None at the end of the stream."""
+    head = stream.read(LENGTH.size)
+    if len(head) < LENGTH.size:
+        return None
+    (length,) = LENGTH.unpack(head)
+    body = stream.read(length)
+    if len(body) < length:
+        return None
+    frame: dict[str, Any] = msgpack.unpackb(body, raw=False, max_bin_len=LARGEST_FRAME)
+    return frame
+
+
+def pack_frame(content: dict[str, Any]) -> bytes:
+    """A map with its length in front."""
+    body: bytes = msgpack.packb(content, use_bin_type=True)
+    return LENGTH.pack(len(body)) + body
+
+
+def main() -> None:
+    """Serves orders until the input ends."""
+    os.nice(BEHIND_TYPING)
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever prints in here must not get between the frames
+    compiler = Compiler()
+    signal.signal(CANCEL, compiler.cancel)
+    gc.disable()  # looking for garbage in large trees takes longer than a small build: done between builds
+    while (order := read_frame(sys.stdin.buffer)) is not None:
+        output.write(pack_frame(compiler.outcome(order)))
+        output.flush()
+        del order
+        compiler.tidy()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""The events socket of a project: changed objects and who is present."""

@@ -1,0 +1,43 @@
+"""Messages of the WebSocket `/api/v1/events`: who changes what in a project."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StringConstraints
+
+from tappet.server.objects.shapes import ObjectSummary
+from tappet.server.shapes import Reply, Request
+
+
+class OpenObject(Request):
+    """Tells the others which object one looks at; null for none."""
+
+    op: Literal["open"]
+    object_id: Annotated[str, StringConstraints(max_length=64)] | None
+
+
+class ObjectChanged(Reply):
+    """An object was created, changed, moved or deleted."""
+
+    op: Literal["object"] = "object"
+    change: Literal["created", "updated", "deleted", "moved"]
+    object: ObjectSummary
+    author: str
+
+
+class PresentUser(Reply):
+    """Somebody who has the project open."""
+
+    username: str
+    object_id: str | None
+
+
+class Presence(Reply):
+    """All who have the project open."""
+
+    op: Literal["presence"] = "presence"
+    users: list[PresentUser]
+
+
+EventMessage = Annotated[ObjectChanged | Presence, Field(discriminator="op")]

@@ -1,0 +1,179 @@
+"""Files of other systems into projects, and projects or parts of them as PLCopen XML or ST."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Form, Query, UploadFile
+from fastapi.responses import Response
+from pydantic import TypeAdapter, ValidationError
+
+from tappet.libraries.missing import report_missing
+from tappet.project.errors import FolderFormatError
+from tappet.project.exchange import ARCHIVES, ImportReport, Place, import_files, importable
+from tappet.project.exchange.parts import part_of, st_files
+from tappet.project.exchange.plcopen_write import write_plcopen
+from tappet.project.folder.archive import DEFAULT_LIMITS, unpack, zip_files
+from tappet.project.model import Project
+from tappet.project.store import Store
+from tappet.server import audit
+from tappet.server.audit import Act
+from tappet.server.dependencies import DatabaseDep, Engineer, StoreDep, Viewer
+from tappet.server.exchange.shapes import ImportPreview, ImportResult
+from tappet.server.problems import Problem
+from tappet.server.projects.replies import project_summary
+from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
+
+router = APIRouter(tags=["projects"])
+_KEYS = TypeAdapter(list[str])
+
+
+Chosen = Annotated[
+    str | None, Form(description="JSON list: keys of the objects that are wanted; null: all of them.")
+]
+PlaceId = Annotated[
+    str | None,
+    Form(description="The application or folder that takes the objects, `pous` for the POUs view."),
+]
+
+
+@router.post("/projects/preview-files", max_body_size=MAX_ARCHIVE_BYTES)
+def preview_files(
+    files: list[UploadFile],
+    who: Engineer,
+    store: StoreDep,
+    project_id: Annotated[
+        str | None, Form(description="The project to import into; null: a new one.")
+    ] = None,
+    place: PlaceId = None,
+) -> ImportPreview:
+    """What an import of these files would bring, and what it would say; nothing is changed."""
+    project = store.load(project_id) if project_id is not None else None
+    imported = import_files(_uploaded(files), project, where=_place(place))
+    report_missing(imported.project, imported.report)
+    return ImportPreview(name=imported.project.name, nodes=imported.nodes, report=imported.report)
+
+
+@router.post("/projects/import-files", status_code=201, max_body_size=MAX_ARCHIVE_BYTES)
+def import_files_as_project(
+    files: list[UploadFile],
+    who: Engineer,
+    store: StoreDep,
+    database: DatabaseDep,
+    name: Annotated[str | None, Form(description="Another name than the one in the files.")] = None,
+    chosen: Chosen = None,
+) -> ImportResult:
+    """Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, archives of them, or our own one."""
+    imported = import_files(_uploaded(files), name=name or "", chosen=_keys(chosen))
+    content = imported.project
+    report_missing(content, imported.report)
+    info = store.create_project(
+        name or content.name,
+        who.username,
+        description=content.description,
+        content=content,
+        comment=_named(files),
+        free_name=True,
+    )
+    act = Act("project-imported", info.name, new_value=_named(files), project_id=info.id)
+    database.write(lambda db: audit.record(db, who, act))
+    return ImportResult(project=project_summary(info), report=imported.report)
+
+
+@router.post("/projects/{project_id}/import-files", max_body_size=MAX_ARCHIVE_BYTES)
+def import_files_into_project(
+    project_id: str,
+    files: list[UploadFile],
+    who: Engineer,
+    store: StoreDep,
+    database: DatabaseDep,
+    place: PlaceId = None,
+    chosen: Chosen = None,
+) -> ImportResult:
+    """Import files into a project, as one change; nothing in the project is overwritten.
+
+    Without a place, the first application takes the objects.
+    """
+    content, where, keys = _uploaded(files), _place(place), _keys(chosen)
+
+    def grown(project: Project) -> tuple[Project, ImportReport]:
+        imported = import_files(content, project, where=where, chosen=keys)
+        report_missing(imported.project, imported.report)
+        return imported.project, imported.report
+
+    report = store.edit(project_id, who.username, "import", grown, _named(files))
+    info = store.project(project_id)
+    act = Act("files-imported", info.name, new_value=_named(files), project_id=project_id)
+    database.write(lambda db: audit.record(db, who, act))
+    return ImportResult(project=project_summary(info), report=report)
+
+
+def _place(text: str | None) -> Place | None:
+    if text is None:
+        return None
+    return Place(None if text == "pous" else text)
+
+
+def _keys(text: str | None) -> list[str] | None:
+    try:
+        return None if text is None else _KEYS.validate_json(text)
+    except ValidationError:
+        raise Problem(422, "invalid-request", "`chosen` should be a JSON list of texts.") from None
+
+
+Objects = Annotated[
+    list[str], Query(alias="object", description="Only these objects with all below them; none: everything.")
+]
+
+
+@router.get(
+    "/projects/{project_id}/export/plcopen",
+    response_class=Response,
+    responses={200: {"content": {"application/xml": {"schema": {"type": "string", "format": "binary"}}}}},
+)
+def export_plcopen(project_id: str, who: Viewer, store: StoreDep, objects: Objects = []) -> Response:  # noqa: B006
+    """A project as PLCopen XML (TC6 0201); the same content always gives the same bytes."""
+    project = _chosen(store, project_id, objects)
+    return download(write_plcopen(project), f"{project.name}.xml", "application/xml")
+
+
+@router.get(
+    "/projects/{project_id}/export/st",
+    response_class=Response,
+    responses={200: {"content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}}}},
+)
+def export_st(project_id: str, who: Viewer, store: StoreDep, objects: Objects = []) -> Response:  # noqa: B006
+    """POUs, types and variable lists as ST: the text of a single one, else an archive of texts."""
+    project = _chosen(store, project_id, objects)
+    texts = st_files(project)
+    if len(texts) == 1:
+        path, text = next(iter(texts.items()))
+        return download(text.encode(), path.rpartition("/")[2], "text/plain; charset=utf-8")
+    content = zip_files({path: text.encode() for path, text in texts.items()})
+    return download(content, f"{project.name} ST.zip", "application/zip")
+
+
+def _chosen(store: Store, project_id: str, objects: list[str]) -> Project:
+    project = store.load(project_id)
+    return part_of(project, objects) if objects else project
+
+
+def _uploaded(files: list[UploadFile]) -> dict[str, bytes]:
+    """The uploaded files by path, archives unpacked; paths stay below a folder of their own."""
+    found: dict[str, bytes] = {}
+    for file in files:
+        parts = (file.filename or "file").replace("\\", "/").split("/")
+        path = "/".join(part for part in parts if part not in ("", ".", "..") and ":" not in part) or "file"
+        if path.lower().endswith(ARCHIVES):
+            found |= importable(unpack(file.file))
+        else:
+            found[path] = file.file.read()
+    if not found:
+        raise FolderFormatError("archive", "holds no file that can be imported")
+    if len(found) > DEFAULT_LIMITS.files or sum(map(len, found.values())) > DEFAULT_LIMITS.total_bytes:
+        raise FolderFormatError("files", "are too many or too large for one import")
+    return found
+
+
+def _named(files: list[UploadFile]) -> str:
+    return ", ".join(file.filename or "file" for file in files)[:200]

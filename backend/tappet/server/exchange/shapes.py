@@ -1,0 +1,24 @@
+"""Imports of files of other systems."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from tappet.project.exchange import ImportNode, ImportReport
+from tappet.server.projects.shapes import ProjectSummary
+from tappet.server.shapes import Reply
+
+
+class ImportPreview(Reply):
+    """What an import would bring."""
+
+    name: str = Field(description="Of the project it would go into.")
+    nodes: list[ImportNode] = Field(description="Everything in the files, parents before their children.")
+    report: ImportReport
+
+
+class ImportResult(Reply):
+    """The project that was made or changed, and what the import has to say."""
+
+    project: ProjectSummary
+    report: ImportReport

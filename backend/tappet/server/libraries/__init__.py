@@ -1,0 +1,1 @@
+"""The library repository and library managers."""

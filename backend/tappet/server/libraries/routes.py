@@ -1,0 +1,190 @@
+"""The installed libraries: what they offer, installing and removing them, and projects saved as libraries."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Annotated
+
+from fastapi import APIRouter, Query, UploadFile
+from fastapi.responses import Response
+from pydantic import TypeAdapter
+from starlette.concurrency import run_in_threadpool
+
+from tappet import libraries
+from tappet.libraries import UnknownLibraryError, archive, catalog, repository
+from tappet.libraries.archive import LibraryFileError
+from tappet.libraries.library import Library
+from tappet.project.errors import ProjectError
+from tappet.project.library_texts import library_requirements, library_texts, requirements
+from tappet.server import audit
+from tappet.server.audit import Act
+from tappet.server.auth.identity import Identity
+from tappet.server.builds.builder import Application
+from tappet.server.builds.shapes import BuildReport, Severity
+from tappet.server.dependencies import CommissioningDep, Engineer, ServicesDep, StoreDep, Viewer
+from tappet.server.libraries.shapes import (
+    LibraryDetail,
+    LibraryItem,
+    LibrarySource,
+    LibrarySummary,
+    LibraryUse,
+    NewLibrary,
+    RequiredLibrary,
+)
+from tappet.server.problems import Problem, not_found
+from tappet.server.projects.routes import download
+from tappet.server.services import Services
+
+router = APIRouter(tags=["libraries"])
+_ITEMS = TypeAdapter(list[LibraryItem])
+Version = Annotated[str, Query(description="A version, or * for the newest one.")]
+
+
+def _load(name: str, version: str = "*") -> Library:
+    try:
+        return libraries.load(name, version)
+    except UnknownLibraryError as error:
+        raise Problem(404, "not-found", f"{error}.") from None
+
+
+@lru_cache(maxsize=32)
+def _items(library: Library) -> list[LibraryItem]:
+    return _ITEMS.validate_python(catalog.items(library), from_attributes=True)
+
+
+def _summary(library: Library) -> LibrarySummary:
+    return LibrarySummary(
+        name=library.name,
+        version=library.version,
+        namespace=library.namespace,
+        company=library.company,
+        description=library.description,
+        removable=library.removable,
+        requires=[
+            RequiredLibrary.model_validate(required, from_attributes=True) for required in library.requires
+        ],
+        replaces=list(library.replaces),
+    )
+
+
+@router.get("/libraries")
+def list_libraries(who: Viewer) -> list[LibrarySummary]:
+    """All libraries a project may refer to, in all versions, newest first."""
+    return [_summary(library) for library in libraries.every_version()]
+
+
+@router.get("/libraries/{name}")
+def get_library(name: str, who: Viewer, version: Version = "*") -> LibraryDetail:
+    """A library with its POUs and types, their pins, defaults and comments."""
+    library = _load(name, version)
+    return LibraryDetail(**_summary(library).model_dump(), items=_items(library))
+
+
+@router.get("/libraries/{name}/sources/{item}")
+def get_library_source(name: str, item: str, who: Viewer, version: Version = "*") -> LibrarySource:
+    """The ST text of an item: libraries are open."""
+    for source in _load(name, version).sources:
+        if (source.name or "").upper() == item.upper():
+            return LibrarySource(uri=source.uri, text=source.text)
+    raise not_found(f"item of library {name}", item)
+
+
+@router.get("/libraries/{name}/{version}/projects")
+def list_library_uses(name: str, version: str, who: Viewer, store: StoreDep) -> list[LibraryUse]:
+    """The projects that refer to a version of a library, or to its newest version when it is that."""
+    wanted = _load(name, version)
+    newest = _load(wanted.name).version == wanted.version
+    return [
+        LibraryUse(project_id=info.id, project_name=info.name, version=reference.version)
+        for info, reference in store.library_references()
+        if reference.name.upper() == wanted.name.upper()
+        and (reference.version == wanted.version or (newest and reference.version == "*"))
+    ]
+
+
+@router.get(
+    "/libraries/{name}/{version}/file",
+    response_class=Response,
+    responses={200: {"content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}}}},
+)
+def get_library_file(name: str, version: str, who: Viewer) -> Response:
+    """A library as a file, to be installed elsewhere."""
+    found = _load(name, version)
+    facts, texts = archive.read(repository.find(found.name, found.version).folder)
+    filename = f"{found.name} {found.version}{archive.SUFFIX}"
+    return download(archive.pack(facts, texts), filename, "application/zip")
+
+
+@router.post("/libraries", status_code=201, max_body_size=archive.MAX_BYTES)
+def install_library(file: UploadFile, who: Engineer, services: ServicesDep) -> LibrarySummary:
+    """Install a library file; the same version of a library is replaced."""
+    try:
+        facts, texts = archive.unpack(file.file.read())
+        found = archive.install(facts, texts)
+    except LibraryFileError as error:
+        raise Problem(422, "library-file", f"{error}.") from None
+    return _installed(services, who, found.name, found.version)
+
+
+@router.delete("/libraries/{name}/{version}", status_code=204)
+def remove_library(name: str, version: str, who: Engineer, services: ServicesDep) -> None:
+    """Uninstall one version of a library; those of the product stay."""
+    library = _load(name, version)
+    try:
+        archive.remove(library.name, library.version)
+    except LibraryFileError as error:
+        raise Problem(409, "library-stays", f"{error}.") from None
+    _note(services, who, "library-removed", f"{library.name} {library.version}")
+
+
+@router.post("/projects/{project_id}/library", status_code=201)
+async def save_as_library(
+    project_id: str,
+    body: NewLibrary,
+    who: Engineer,
+    store: StoreDep,
+    services: ServicesDep,
+    commissioning: CommissioningDep,
+) -> LibrarySummary:
+    """Make a library of a project, everything but its programs, and install it.
+
+    A project with errors is refused: the problem `library-errors` has them in `diagnostics`.
+    """
+    project = await run_in_threadpool(store.load, project_id)
+    try:
+        texts = library_texts(project)
+        facts = archive.manifest(
+            body.name or project.name,
+            body.version,
+            namespace=body.namespace,
+            company=body.company,
+            description=body.description or project.description,
+            requires=requirements(library_requirements(project)),
+        )
+        report = await commissioning.builder.check(Application.library(project_id, project))
+        if not report.ok:
+            raise _with_errors(report)
+        found = await run_in_threadpool(archive.install, facts, texts)
+    except (ProjectError, LibraryFileError) as error:
+        raise Problem(422, "no-library", f"{error}.") from None
+    return await run_in_threadpool(_installed, services, who, found.name, found.version)
+
+
+def _with_errors(report: BuildReport) -> Problem:
+    errors = [diagnostic for diagnostic in report.diagnostics if diagnostic.severity is Severity.ERROR]
+    return Problem(
+        422,
+        "library-errors",
+        f"The project has {len(errors)} error(s), so no library was made of it.",
+        diagnostics=[diagnostic.model_dump(mode="json") for diagnostic in report.diagnostics],
+    )
+
+
+def _installed(services: Services, who: Identity, name: str, version: str) -> LibrarySummary:
+    _note(services, who, "library-installed", f"{name} {version}")
+    return _summary(libraries.load(name, version))
+
+
+def _note(services: Services, who: Identity, action: str, target: str) -> None:
+    services.analysis.libraries_changed()
+    services.database.write(lambda db: audit.record(db, who, Act(action, target)))

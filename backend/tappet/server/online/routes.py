@@ -1,0 +1,30 @@
+"""The WebSocket of live values."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, WebSocket
+
+from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
+from tappet.server.online.channel import OnlineChannel
+
+router = APIRouter(tags=["online"])
+
+
+@router.websocket("/online")
+async def online(
+    socket: WebSocket,
+    who: Viewer,
+    services: ServicesDep,
+    still_allowed: SessionCheck,
+    runtime: Annotated[str, Query(description="Id of the runtime.")],
+) -> None:
+    """Live values of a runtime; `shapes` has the messages."""
+    link = services.runtimes.get(runtime)
+    channel = OnlineChannel(socket, link, services.samplers(link), still_allowed)
+    services.metrics.online_channels.add(channel)
+    try:
+        await channel.run()
+    finally:
+        services.metrics.channel_closed(channel)

@@ -1,0 +1,98 @@
+"""Messages of the WebSocket `/api/v1/online`.
+
+Samples are binary frames, little endian: u32 subscription, u32 flags (0), u64 cycle, i64 nanoseconds since
+1970, then the values as raw bytes; the offsets of the `subscribed` message count from the end of this header.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tappet.server.runtimes.shapes import RuntimeState
+from tappet.server.shapes import Reply, Request
+from tappet.server.values.shapes import MAX_EXPRESSIONS, Expression
+
+SubscriptionId = Annotated[int, Field(ge=0, le=0xFFFFFFFF, strict=True)]
+
+
+class Subscribe(Request):
+    """Ask for values; a second one with the same id replaces the first."""
+
+    op: Literal["subscribe"]
+    id: SubscriptionId
+    expressions: Annotated[list[Expression], Field(max_length=MAX_EXPRESSIONS)]
+    interval_ms: Annotated[int, Field(ge=10, le=60_000)] = 100
+
+
+class Unsubscribe(Request):
+    """End a subscription."""
+
+    op: Literal["unsubscribe"]
+    id: SubscriptionId
+
+
+ClientMessage = Annotated[Subscribe | Unsubscribe, Field(discriminator="op")]
+
+
+class ImagePlace(Reply):
+    """Bytes of the memory image, or one bit of the byte at `offset`."""
+
+    offset: int
+    size: int
+    bit: int | None = None
+
+
+class Item(Reply):
+    """How to read one value of the frames. `kind` is `error` when there is none; structures and arrays have
+    no bytes of their own (size 0)."""
+
+    expression: str
+    offset: int = Field(description="Bytes from the end of the frame's header.")
+    size: int
+    type: str
+    kind: str = Field(description="bool bits int uint real time date ... enum string wstring error.")
+    enum: dict[str, int] | None = Field(default=None, description="Numbers of an enumeration by name.")
+    base: str | None = Field(default=None, description="int, uint or bits below an enumeration.")
+    bit: int | None = Field(default=None, description="Bit of the byte, counted from 0.")
+    flags: tuple[str, ...] = Field(default=(), description="Of CONSTANT, RETAIN, PERSISTENT.")
+    section: str = ""
+    place: ImagePlace | None = Field(
+        default=None, description="Where it lies: two names of one place, or parts of it, share a force."
+    )
+    error: str | None = None
+
+
+class Subscribed(Reply):
+    """The layout of the frames that follow; sent again when it changes (download, reconnection)."""
+
+    op: Literal["subscribed"] = "subscribed"
+    id: int
+    items: list[Item]
+    renewed: bool = Field(default=False, description="Set up again after a lost connection or a download.")
+
+
+class StateChanged(RuntimeState):
+    """The runtime's state; the first message after opening, then at every change."""
+
+    op: Literal["state"] = "state"
+
+
+class ForcesChanged(Reply):
+    """All forced variables."""
+
+    op: Literal["forces"] = "forces"
+    expressions: list[str]
+    places: list[ImagePlace]
+
+
+class OnlineError(Reply):
+    """A message that could not be served; the connection stays open."""
+
+    op: Literal["error"] = "error"
+    id: int | None = None
+    detail: str
+
+
+ServerMessage = Annotated[Subscribed | StateChanged | ForcesChanged | OnlineError, Field(discriminator="op")]

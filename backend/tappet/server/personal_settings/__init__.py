@@ -1,0 +1,1 @@
+"""What each user has set for oneself."""

@@ -1,0 +1,1 @@
+"""Soft PLCs: connections (`links`), the local one, control and state."""

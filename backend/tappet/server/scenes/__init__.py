@@ -1,0 +1,1 @@
+"""3D scenes of a project, fed with values of a runtime."""

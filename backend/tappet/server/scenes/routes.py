@@ -1,0 +1,41 @@
+"""3D scenes of a project, shown with the values of a runtime."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+from pydantic import BaseModel, Field
+from starlette.concurrency import run_in_threadpool
+
+from tappet.project.scene import Scene
+from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
+from tappet.server.problems import Problem
+from tappet.server.scenes.service import open_scene
+from tappet.server.settings import LOCAL_RUNTIME
+
+router = APIRouter(prefix="/projects/{project_id}/objects/{object_id}/view", tags=["objects"])
+
+
+class SceneOrder(BaseModel):
+    """How to show a scene."""
+
+    runtime_id: str = Field(default=LOCAL_RUNTIME, description="Runtime whose values move the scene.")
+    dark: bool = False
+
+
+class SceneAddress(BaseModel):
+    """Where a view is shown; put it into a frame of a logged-in page."""
+
+    path: str
+
+
+@router.post("")
+async def open_view(
+    project_id: str, object_id: str, body: SceneOrder, who: Viewer, store: StoreDep, services: ServicesDep
+) -> SceneAddress:
+    """Begin to show a scene, or join the view that shows it already."""
+    item = await run_in_threadpool(store.get, project_id, object_id)
+    if not isinstance(item.data, Scene):
+        raise Problem(422, "no-scene", f"'{item.name}' is a {item.kind}; only a scene can be shown in 3D.")
+    link = services.runtimes.get(body.runtime_id)
+    view_id = await open_scene(services.views, item.data, link, services.samplers(link), dark=body.dark)
+    return SceneAddress(path=f"/views/{view_id}/")

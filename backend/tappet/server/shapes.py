@@ -1,0 +1,44 @@
+"""Base classes of all JSON shapes of the API.
+
+Request bodies refuse unknown fields, so that a misspelt one is an error and not silently ignored.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+Line = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f]*$")]
+"""Text without control characters; NUL would not fit into every database."""
+
+
+class Request(BaseModel):
+    """What a client sends."""
+
+    model_config = ConfigDict(extra="forbid", str_max_length=4_000_000)
+
+
+class Reply(BaseModel):
+    """What the server sends; fields with defaults are always present."""
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+
+
+class InvalidField(Reply):
+    """One field of a request that is wrong."""
+
+    location: str = Field(description="Path of the field, such as `body.username`.")
+    message: str
+
+
+class ProblemDetails(BaseModel):
+    """An error (RFC 9457). Further members depend on `type`."""
+
+    model_config = ConfigDict(extra="allow")
+
+    type: str = Field(description="`urn:tappet:problem:<kind>`; stable, to be tested by programs.")
+    title: str
+    status: int
+    detail: str = Field(description="What is wrong with this request and what would be right.")
+    errors: list[InvalidField] | None = Field(default=None, description="With `invalid-request`.")

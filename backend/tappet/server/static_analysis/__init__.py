@@ -1,0 +1,1 @@
+"""Coding rules, and their check without a build."""

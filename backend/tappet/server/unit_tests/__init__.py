@@ -1,0 +1,1 @@
+"""Unit tests of an application, on virtual time."""

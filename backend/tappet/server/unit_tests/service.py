@@ -1,0 +1,172 @@
+"""Runs the unit tests of an application in a process of their own, one run at a time for each application."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from contextlib import suppress
+
+from tappet.codegen.build import BuildOptions, as_source
+from tappet.runtime.unit_tests import process
+from tappet.runtime.unit_tests.attempts import Attempts
+from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome, TestOutcome
+from tappet.server.builds.builder import Application
+from tappet.server.builds.shapes import Diagnostic, Part, Severity
+from tappet.server.builds.source_places import SourcePlaces
+from tappet.server.problems import Problem
+from tappet.server.unit_tests.shapes import TestFailure, TestReport, TestResult, TestSuite
+
+CANCELLED = "the run was cancelled"
+
+
+class TestRuns:
+    """The running test processes of a server."""
+
+    __test__ = False  # no test class of pytest
+
+    def __init__(self) -> None:
+        self._running: dict[tuple[str, str], _Runner] = {}
+
+    async def run(self, application: Application, test_filter: str, only: Sequence[str] = ()) -> TestReport:
+        """Run and wait; the process is killed when the caller goes away. 409 while a run is in progress."""
+        key = (application.project_id, application.application_id)
+        if key in self._running:
+            raise Problem(409, "tests-running", "Tests of this application are running; wait for their end.")
+        runner = self._running[key] = _Runner()
+        try:
+            order = await asyncio.to_thread(_order, application, test_filter, only)
+            report = await runner.run(order)
+        finally:
+            del self._running[key]
+        return _reply(report, application)
+
+    def cancel(self, project_id: str, application_id: str) -> bool:
+        """Ends the tests of an application; False when none are running."""
+        runner = self._running.get((project_id, application_id))
+        if runner is None:
+            return False
+        runner.cancel()
+        return True
+
+
+class _Runner:
+    """The processes of one run."""
+
+    def __init__(self) -> None:
+        self._child: asyncio.subprocess.Process | None = None
+        self._cancelled = False
+
+    async def run(self, order: bytes) -> Report:
+        with Attempts(order) as attempts:
+            report = None
+            while report is None:
+                report = await self._attempt(attempts)
+            return report
+
+    def cancel(self) -> None:
+        self._cancelled = True
+        if self._child is not None:
+            with suppress(ProcessLookupError):
+                self._child.kill()
+
+    async def _attempt(self, attempts: Attempts) -> Report | None:
+        if self._cancelled:
+            return attempts.ended(b"", CANCELLED)
+        child = self._child = await asyncio.create_subprocess_exec(
+            *attempts.command,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            pass_fds=attempts.pass_fds,
+        )
+        try:
+            async with asyncio.timeout(attempts.seconds_left):
+                output, _ = await child.communicate(attempts.order)
+        except TimeoutError:
+            return attempts.take(b"", None)
+        finally:
+            if child.returncode is None:
+                with suppress(ProcessLookupError):
+                    child.kill()
+                await child.wait()
+        if self._cancelled:
+            return attempts.ended(output, CANCELLED)
+        return attempts.take(output, child.returncode)
+
+
+def _order(application: Application, test_filter: str, only: Sequence[str]) -> bytes:
+    tasks = list(application.tasks)
+    sources = [as_source(text) for text in application.sources]
+    options = BuildOptions(application.name, libraries=application.libraries)
+    return process.order(sources, tasks, options, test_filter=test_filter, only=only)
+
+
+def _reply(report: Report, application: Application) -> TestReport:
+    places = SourcePlaces.of(application.project_id, application.sources, application.paths)
+    return TestReport(
+        ok=report.ok,
+        total=report.total,
+        passed=report.count("passed"),
+        failed=report.count("failed"),
+        error=report.count("error"),
+        skipped=report.count("skipped"),
+        problem=report.problem,
+        suites=[_suite(suite, places) for suite in report.suites],
+        diagnostics=[_diagnostic(d, places) for d in report.diagnostics],
+    )
+
+
+def _suite(suite: SuiteOutcome, places: SourcePlaces) -> TestSuite:
+    found = places.locate(suite.block, 1)
+    return TestSuite(
+        name=suite.name,
+        block=suite.block,
+        object_id=found.object_id if found else None,
+        tests=[_test(test, places) for test in suite.tests],
+        failures=[_failure(failure, places) for failure in suite.failures],
+    )
+
+
+def _test(test: TestOutcome, places: SourcePlaces) -> TestResult:
+    return TestResult(
+        name=test.name,
+        outcome=test.outcome,
+        assertions=test.assertions,
+        seconds=test.seconds,
+        failures=[_failure(failure, places) for failure in test.failures],
+    )
+
+
+def _failure(failure: Failure, places: SourcePlaces) -> TestFailure:
+    found = places.locate(failure.uri, failure.line)
+    return TestFailure(
+        message=failure.message,
+        expected=failure.expected,
+        actual=failure.actual,
+        code=failure.code,
+        pou=failure.pou,
+        object_id=found.object_id if found else None,
+        object_path=found.object_path if found else "",
+        part=Part(found.part) if found else None,
+        element=found.element if found else None,
+        line=found.line if found else None,
+        call_stack=list(failure.call_stack),
+    )
+
+
+def _diagnostic(fields: dict[str, object], places: SourcePlaces) -> Diagnostic:
+    line, end_line = int(str(fields["line"])), int(str(fields["end_line"]))
+    found = places.locate(str(fields["file"]), line)
+    return Diagnostic(
+        code=str(fields["code"]),
+        severity=Severity(str(fields["severity"])),
+        message=str(fields["message"]),
+        advice=str(fields["advice"]) if fields["advice"] else None,
+        object_id=found.object_id if found else None,
+        object_path=found.object_path if found else str(fields["file"]),
+        part=Part(found.part) if found else None,
+        element=found.element if found else None,
+        line=found.line if found else None,
+        column=int(str(fields["column"])) if found else None,
+        end_line=found.line + end_line - line if found else None,
+        end_column=int(str(fields["end_column"])) if found else None,
+    )

@@ -1,0 +1,1 @@
+"""Accounts for administrators, and the audit log."""

@@ -1,0 +1,1 @@
+"""Pages of 3D views behind the server's own address and login."""

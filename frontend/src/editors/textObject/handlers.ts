@@ -1,0 +1,99 @@
+/** What the delegated commands do in a text editor. */
+import { partsOf } from '@/project/kinds';
+import type { Handler, Handlers } from '@/workbench/commands';
+import { setDirty } from '@/workbench/selection';
+import { bodyOf } from './bodies';
+import {
+  addExpressionsToWatch,
+  addToWatch,
+  autoDeclare,
+  inputAssistant,
+  rename,
+  revisions,
+  showCrossReferences,
+  type TextPanel,
+} from '../st/acts';
+import type { CodeEditor } from '@/text/CodePane';
+import { ACTIONS } from '../st/actions';
+import { panelChosen, panelEditor, panelPlace, panelTable, type TextPlace } from '@/text/focus';
+
+/** Acts of a panel with Monaco editors: they go to the one that had the focus last. */
+export function textHandlers(panelId: string, panel: TextPanel): Handlers {
+  const { document, object } = panel;
+  const onEditor = (run: (editor: CodeEditor) => Promise<void> | void) => ({
+    run: () => {
+      const editor = panelEditor(panelId);
+      if (editor !== null) return run(editor);
+    },
+  });
+  const onPlace = (run: (place: TextPlace) => Promise<void> | void) => ({
+    run: () => {
+      const place = panelPlace(panelId);
+      if (place !== null) return run(place);
+    },
+  });
+  const act = (id: string) => ({
+    run: () => {
+      const editor = panelEditor(panelId);
+      editor?.focus();
+      // Not every command of Monaco is an action of the editor; `trigger` finds all of them.
+      editor?.trigger('command', id, null);
+    },
+  });
+  const history = (command: 'undo' | 'redo') => ({
+    run: () => {
+      const table = panelTable(panelId);
+      if (table !== null) {
+        table[command]();
+        return;
+      }
+      const editor = panelEditor(panelId);
+      if (editor?.getRawOptions().readOnly === true) return;
+      editor?.focus();
+      editor?.trigger('command', command, null);
+    },
+  });
+  const handlers: Handlers = {
+    ...Object.fromEntries(Object.entries(ACTIONS).map(([command, action]) => [command, act(action)])),
+    'edit.undo': history('undo'),
+    'edit.redo': history('redo'),
+    'st.inputAssistant': onEditor((editor) => inputAssistant(panel, editor)),
+    'st.autoDeclare': onPlace((place) => autoDeclare(panel, place)),
+    'st.renameSymbol': onPlace((place) => rename(panel, place)),
+    'st.crossReferences': onPlace((place) => showCrossReferences(panel, place)),
+    'watch.add': {
+      run: () => {
+        const chosen = panelChosen(panelId);
+        const place = panelPlace(panelId);
+        if (chosen !== null) addExpressionsToWatch(chosen);
+        else if (place !== null) addToWatch(panel, place);
+      },
+    },
+    ...bodyOf(document.language).handlers?.(panelId, document),
+    'st.revisions': { run: () => revisions(panel, partsOf(object.kind)) },
+    'file.save': {
+      run: async () => {
+        await document.save();
+        // At once, since a build that has just asked for saving looks at it next.
+        setDirty(panelId, document.phase !== 'clean');
+      },
+    },
+  };
+  return Object.fromEntries(
+    Object.entries(handlers).map(([command, handler]) => [
+      command,
+      { ...handler, run: first(panelId, command, handler) },
+    ]),
+  );
+}
+
+/** What a table does in its own way comes first while it has the focus; an editor beside it is not meant then. */
+function first(panelId: string, command: string, handler: Handler): Handler['run'] {
+  return (argument) => {
+    const table = panelTable(panelId);
+    const own = table?.acts?.[command];
+    if (own !== undefined) return own();
+    if (table?.acts !== undefined && command in ACTIONS) return;
+    return handler.run(argument);
+  };
+}

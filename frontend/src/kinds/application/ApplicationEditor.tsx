@@ -1,0 +1,122 @@
+import { CircleCheckBig, Hammer, LogIn } from 'lucide-react';
+import { useMemo } from 'react';
+import { useObjects } from '@/api/queries';
+import { useText } from '@/i18n';
+import { kindOf, objectIcon, type ContentGroup } from '@/project/kinds';
+import type { EditorProps } from '@/project/editorProps';
+import { bytesText, countOf, useMessages } from '@/workbench/messages/store';
+import { runtimeText } from '@/workbench/online/runtimeText';
+import { useOnline } from '@/workbench/onlineSession';
+import { setActiveApplication, useProject } from '@/project/openProject';
+import { runCommand } from '@/workbench/run';
+import { forestOf, subtree } from '@/project/tree';
+import { Button } from '@/ui/Button';
+import { Loading } from '@/ui/Empty';
+import { Section } from '@/editors/form/FormPage';
+import styles from '@/editors/form/Form.module.css';
+
+const Icon = objectIcon('application');
+
+/** What an application consists of, its last build, and the controller it is logged in to. */
+export default function ApplicationEditor({ projectId, objectId }: EditorProps) {
+  const t = useText();
+  const { data: objects } = useObjects(projectId);
+  const active = useProject((state) => state.applicationId) === objectId;
+  const session = useOnline((state) => state.sessions[objectId]);
+  const build = useMessages((state) => (state.build?.applicationId === objectId ? state.build : null));
+  const counts = useMemo(() => {
+    const counted: Record<ContentGroup, number> = {
+      programs: 0,
+      blocks: 0,
+      functions: 0,
+      types: 0,
+      lists: 0,
+      tasks: 0,
+    };
+    for (const { kind, subkind } of objects ? subtree(forestOf(objects), objectId).slice(1) : []) {
+      const group = kindOf(kind)?.countedAs?.(subkind);
+      if (group !== undefined) counted[group]++;
+    }
+    return counted;
+  }, [objects, objectId]);
+  const application = objects?.find((object) => object.id === objectId);
+  if (!application) return <Loading />;
+  const messages = countOf(build?.report.diagnostics ?? []);
+  return (
+    <div className={styles.page}>
+      <div className={styles.inner}>
+        <h1 className={styles.title}>
+          <Icon size={20} />
+          {application.name}
+        </h1>
+        <div className={styles.tools}>
+          {!active && (
+            <Button icon={CircleCheckBig} onClick={() => setActiveApplication(objectId)}>
+              {t('command.setActive')}
+            </Button>
+          )}
+          <Button
+            icon={Hammer}
+            disabledReason={active ? null : t('application.notActive')}
+            onClick={() => void runCommand('build.build')}
+          >
+            {t('command.build')}
+          </Button>
+          <Button
+            icon={LogIn}
+            disabledReason={active ? (session ? t('reason.loggedIn') : null) : t('application.notActive')}
+            onClick={() => void runCommand('online.login')}
+          >
+            {t('command.login')}
+          </Button>
+        </div>
+        <Section title={t('application.contents')}>
+          <dl className={styles.facts}>
+            {Object.entries(counts).map(([what, count]) => (
+              <div key={what} style={{ display: 'contents' }}>
+                <dt>{t(`application.${what as keyof typeof counts}`)}</dt>
+                <dd className="digits">{count}</dd>
+              </div>
+            ))}
+          </dl>
+        </Section>
+        <Section title={t('application.build')}>
+          {build ? (
+            <dl className={styles.facts}>
+              <dt>{t('application.result')}</dt>
+              <dd>{`${t('messages.error', { count: messages.error })}, ${t('messages.warning', { count: messages.warning })}`}</dd>
+              <dt>{t('application.code')}</dt>
+              <dd>{build.report.code_size === null ? '–' : bytesText(build.report.code_size)}</dd>
+              <dt>{t('application.data')}</dt>
+              <dd>{build.report.data_size === null ? '–' : bytesText(build.report.data_size)}</dd>
+              <dt>{t('application.codeId')}</dt>
+              <dd className="code">{build.report.code_id?.slice(0, 16) ?? '–'}</dd>
+            </dl>
+          ) : (
+            <p className={styles.note}>{t('application.notBuilt')}</p>
+          )}
+        </Section>
+        <Section title={t('application.controller')}>
+          {session?.runtime ? (
+            <dl className={styles.facts}>
+              <dt>{t('runtime.name')}</dt>
+              <dd>{session.runtime.name}</dd>
+              <dt>{t('tasks.status')}</dt>
+              <dd>{runtimeText(session.runtime, t)}</dd>
+              <dt>{t('application.relation')}</dt>
+              <dd>{t(`relation.${session.relation}`)}</dd>
+              {session.runtime.scheduling && (
+                <>
+                  <dt>{t('application.scheduling')}</dt>
+                  <dd>{session.runtime.scheduling}</dd>
+                </>
+              )}
+            </dl>
+          ) : (
+            <p className={styles.note}>{t('status.offline')}</p>
+          )}
+        </Section>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,74 @@
+import { useQuery } from '@tanstack/react-query';
+import { api } from '@/api/client';
+import { keys } from '@/api/queries';
+import type { DeviceData, RuntimeState } from '@/api/types';
+import { useText } from '@/i18n';
+import { objectIcon } from '@/project/kinds';
+import type { EditorProps } from '@/project/editorProps';
+import { Checkbox, Field } from '@/ui/Field';
+import fields from '@/ui/Field.module.css';
+import { FormPage, Section } from '@/editors/form/FormPage';
+import styles from '@/editors/form/Form.module.css';
+import { useDraft } from '@/editors/form/useDraft';
+import { RuntimeList } from './RuntimeList';
+
+const POLL_MS = 2000;
+const DeviceIcon = objectIcon('device');
+
+/** Communication settings of a device: which runtime it stands for, its state, simulation. */
+export default function DeviceEditor({ panelId, projectId, objectId, visible }: EditorProps) {
+  const t = useText();
+  const draft = useDraft<DeviceData>(panelId, projectId, objectId, () => true);
+  const runtimes = useQuery({
+    queryKey: keys.runtimes,
+    queryFn: () => api.get<RuntimeState[]>('/runtimes'),
+    refetchInterval: visible ? POLL_MS : false,
+  });
+  const disabled = draft.readOnly !== null;
+  return (
+    <FormPage draft={draft}>
+      {(device) => (
+        <>
+          <h1 className={styles.title}>
+            <DeviceIcon size={20} />
+            {draft.object?.name}
+            <span className={styles.note}>{device.device_type}</span>
+          </h1>
+          <Section title={t('device.communication')}>
+            <div>
+              <Checkbox
+                checked={device.simulated}
+                disabled={disabled}
+                onChecked={(simulated) => draft.change({ ...device, simulated })}
+              >
+                {t('device.simulated')}
+              </Checkbox>
+              <p className={styles.note}>{t('device.simulatedText')}</p>
+            </div>
+            <RuntimeList
+              runtimes={runtimes.data}
+              error={runtimes.error}
+              chosen={device.simulated ? 'local' : device.runtime_id}
+              readOnly={draft.readOnly ?? (device.simulated ? t('device.inSimulation') : null)}
+              onChoose={(runtime_id) => draft.change({ ...device, runtime_id })}
+            />
+          </Section>
+          <Section title={t('device.information')}>
+            <Field label={t('project.description')}>
+              {(attributes) => (
+                <textarea
+                  {...attributes}
+                  className={fields.input}
+                  rows={4}
+                  disabled={disabled}
+                  value={device.description}
+                  onChange={(event) => draft.change({ ...device, description: event.target.value })}
+                />
+              )}
+            </Field>
+          </Section>
+        </>
+      )}
+    </FormPage>
+  );
+}

@@ -1,0 +1,41 @@
+import { useQuery } from '@tanstack/react-query';
+import { api } from '@/api/client';
+import { useObject } from '@/api/queries';
+import { usePreferences } from '@/session/preferences';
+import { useText } from '@/i18n';
+import { objectIcon } from '@/project/kinds';
+import type { EditorProps } from '@/project/editorProps';
+import { useOnline } from '@/workbench/onlineSession';
+import { Empty, Failed, Loading } from '@/ui/Empty';
+import styles from './Scene.module.css';
+import { runtimeOf, type SceneData } from './model';
+
+/** A 3D scene of the machine, drawn by the server and moved by the values of the runtime. */
+export default function SceneEditor({ projectId, objectId, visible }: EditorProps) {
+  const t = useText();
+  const dark = usePreferences((state) => state.shown === 'dark');
+  const runtimeId = useOnline((state) => runtimeOf(Object.values(state.sessions)));
+  const object = useObject<SceneData>(projectId, objectId);
+  const revision = object.data?.revision;
+  const view = useQuery({
+    queryKey: ['scene', projectId, objectId, revision, runtimeId, dark],
+    queryFn: () =>
+      api.post<{ path: string }>(`/projects/${projectId}/objects/${objectId}/view`, { runtime_id: runtimeId, dark }),
+    enabled: visible && revision !== undefined,
+    staleTime: Infinity,
+    retry: false,
+  });
+  const error = object.error ?? view.error;
+  if (error) return <Failed error={error} retry={() => void view.refetch()} />;
+  if (object.data?.data.elements.length === 0)
+    return <Empty icon={objectIcon('scene')} title={t('scene.empty')} text={t('scene.emptyText')} />;
+  if (!view.data) return <Loading />;
+  return (
+    <iframe
+      className={styles.view}
+      src={view.data.path}
+      title={object.data?.name ?? t('scene.title')}
+      data-testid="scene-view"
+    />
+  );
+}

@@ -1,0 +1,142 @@
+import { useObjects } from '@/api/queries';
+import type { TaskData, TaskType } from '@/api/types';
+import { useText } from '@/i18n';
+import { objectIcon } from '@/project/kinds';
+import type { EditorProps } from '@/project/editorProps';
+import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
+import { FormPage, Section } from '@/editors/form/FormPage';
+import styles from '@/editors/form/Form.module.css';
+import { useDraft } from '@/editors/form/useDraft';
+import { callablePrograms, canStore, taskFaults } from './model';
+import { ProgramList } from './ProgramList';
+import { TimeField } from './TimeField';
+
+const TYPES: readonly TaskType[] = ['cyclic', 'freewheeling', 'event', 'status', 'external'];
+const TaskIcon = objectIcon('task');
+
+/** Priority, type, watchdog and the programs of one task. */
+export default function TaskEditor({ panelId, projectId, objectId }: EditorProps) {
+  const t = useText();
+  const draft = useDraft<TaskData>(panelId, projectId, objectId, canStore);
+  const { data: objects } = useObjects(projectId);
+  const disabled = draft.readOnly !== null;
+  return (
+    <FormPage draft={draft}>
+      {(task) => {
+        const faults = taskFaults(task);
+        const fault = (key: keyof typeof faults) => (faults[key] ? t(faults[key]) : null);
+        const change = (changes: Partial<TaskData>) => draft.change({ ...task, ...changes });
+        const watchdog = (changes: Partial<TaskData['watchdog']>) =>
+          change({ watchdog: { ...task.watchdog, ...changes } });
+        return (
+          <>
+            <h1 className={styles.title}>
+              <TaskIcon size={20} />
+              {draft.object?.name}
+            </h1>
+            <Section title={t('task.configuration')}>
+              <div className={styles.fields}>
+                <Field row label={t('task.priority')} hint={t('task.priorityHint')} error={fault('priority')}>
+                  {(attributes) => (
+                    <TextInput
+                      {...attributes}
+                      className={styles.narrow}
+                      type="number"
+                      min={0}
+                      max={31}
+                      disabled={disabled}
+                      value={Number.isNaN(task.priority) ? '' : task.priority}
+                      onValue={(value) => change({ priority: value === '' ? Number.NaN : Number(value) })}
+                    />
+                  )}
+                </Field>
+                <Field row label={t('task.type')} hint={t(`taskType.${task.type}Text`)}>
+                  {(attributes) => (
+                    <Select<TaskType>
+                      {...attributes}
+                      disabled={disabled}
+                      value={task.type}
+                      choices={TYPES.map((type) => ({ value: type, text: t(`taskType.${type}`) }))}
+                      onValue={(type) => change({ type })}
+                    />
+                  )}
+                </Field>
+                {task.type === 'cyclic' && (
+                  <TimeField
+                    label={t('task.interval')}
+                    value={task.interval}
+                    error={fault('interval')}
+                    disabled={disabled}
+                    onValue={(interval) => change({ interval })}
+                  />
+                )}
+                {(task.type === 'event' || task.type === 'status' || task.type === 'external') && (
+                  <Field row label={t('task.event')} error={fault('event')}>
+                    {(attributes) => (
+                      <TextInput
+                        {...attributes}
+                        className="code"
+                        disabled={disabled}
+                        value={task.event}
+                        placeholder={t('task.eventExample')}
+                        onValue={(event) => change({ event })}
+                      />
+                    )}
+                  </Field>
+                )}
+              </div>
+            </Section>
+            <Section title={t('task.watchdog')}>
+              <div className={styles.fields}>
+                <Checkbox
+                  checked={task.watchdog.enabled}
+                  disabled={disabled}
+                  onChecked={(enabled) => watchdog({ enabled })}
+                >
+                  {t('task.watchdogEnable')}
+                </Checkbox>
+                {task.watchdog.enabled && (
+                  <>
+                    <TimeField
+                      label={t('task.watchdogTime')}
+                      value={task.watchdog.time}
+                      error={fault('watchdogTime')}
+                      disabled={disabled}
+                      onValue={(time) => watchdog({ time })}
+                    />
+                    <Field
+                      row
+                      label={t('task.sensitivity')}
+                      hint={t('task.sensitivityHint')}
+                      error={fault('sensitivity')}
+                    >
+                      {(attributes) => (
+                        <TextInput
+                          {...attributes}
+                          className={styles.narrow}
+                          type="number"
+                          min={0}
+                          disabled={disabled}
+                          value={Number.isNaN(task.watchdog.sensitivity) ? '' : task.watchdog.sensitivity}
+                          onValue={(value) => watchdog({ sensitivity: value === '' ? Number.NaN : Number(value) })}
+                        />
+                      )}
+                    </Field>
+                  </>
+                )}
+              </div>
+            </Section>
+            <Section title={t('task.programs')}>
+              <ProgramList
+                pous={task.pous}
+                programs={callablePrograms(objects ?? [], objectId)}
+                readOnly={draft.readOnly}
+                onChange={(pous) => change({ pous })}
+              />
+            </Section>
+          </>
+        );
+      }}
+    </FormPage>
+  );
+}

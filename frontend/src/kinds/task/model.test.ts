@@ -1,0 +1,103 @@
+import { describe, expect, it } from 'vitest';
+import type { ObjectSummary, TaskData } from '@/api/types';
+import {
+  callablePrograms,
+  canStore,
+  intervalFrom,
+  intervalNs,
+  movedPou,
+  taskFaults,
+  timeLiteral,
+  unitOf,
+} from './model';
+
+const task = (changes: Partial<TaskData> = {}): TaskData => ({
+  priority: 1,
+  type: 'cyclic',
+  interval: 't#20ms',
+  event: '',
+  watchdog: { enabled: false, time: 't#100ms', sensitivity: 1 },
+  pous: [],
+  ...changes,
+});
+
+describe('times', () => {
+  it('are TIME literals with units from large to small', () => {
+    expect(timeLiteral('T#1s500ms')).toBe(1_500_000_000);
+    expect(timeLiteral('time#2m')).toBe(120e9);
+    expect(timeLiteral('t#0.5ms')).toBe(500_000);
+    expect(['t#', 't#5', 't#5ms1s', '5ms', 'abc', 't#1s1s'].map(timeLiteral)).toEqual([
+      null,
+      null,
+      null,
+      null,
+      null,
+      null,
+    ]);
+  });
+
+  it('are entered as numbers with a unit (tasks EX-04)', () => {
+    expect(intervalFrom('200', 'ms')).toBe('t#200ms');
+    expect(intervalFrom('300', 'us')).toBe('300');
+    expect(intervalFrom('t#500us', 'ms')).toBe('t#500us');
+    expect(intervalFrom('abc', 'ms')).toBeNull();
+    expect(intervalFrom('0.5', 'us')).toBeNull();
+  });
+
+  it('are shown with the unit they were entered in', () => {
+    expect(unitOf('300')).toBe('us');
+    expect(unitOf('t#200ms')).toBe('ms');
+    expect(intervalNs('300')).toBe(300_000);
+  });
+});
+
+describe('settings', () => {
+  it('have their limits', () => {
+    expect(taskFaults(task())).toEqual({});
+    expect(taskFaults(task({ priority: 32 }))).toEqual({ priority: 'task.priorityFault' });
+    expect(taskFaults(task({ priority: 1.5 })).priority).toBeDefined();
+    expect(taskFaults(task({ interval: '0' })).interval).toBe('task.intervalFault');
+    expect(taskFaults(task({ type: 'freewheeling', interval: 'x' }))).toEqual({});
+    expect(taskFaults(task({ watchdog: { enabled: true, time: 't#0ms', sensitivity: -1 } }))).toEqual({
+      watchdogTime: 'task.timeFault',
+      sensitivity: 'task.sensitivityFault',
+    });
+  });
+
+  it('may be stored before the event variable is known', () => {
+    const event = task({ type: 'event' });
+    expect(taskFaults(event).event).toBe('task.eventFault');
+    expect(canStore(event)).toBe(true);
+    expect(canStore(task({ priority: -1 }))).toBe(false);
+  });
+});
+
+describe('programs', () => {
+  it('move and stop at the ends', () => {
+    const pous = ['A', 'B', 'C'].map((name) => ({ name, comment: '' }));
+    expect(movedPou(pous, 2, -1).map((pou) => pou.name)).toEqual(['A', 'C', 'B']);
+    expect(movedPou(pous, 0, -1).map((pou) => pou.name)).toEqual(['A', 'B', 'C']);
+  });
+
+  it('are offered from the own application first, and not twice', () => {
+    const object = (id: string, kind: string, parent_id: string | null, name = id): ObjectSummary => ({
+      id,
+      kind,
+      parent_id,
+      name,
+      subkind: kind === 'pou' ? 'program' : null,
+      index: 0,
+      revision: 1,
+    });
+    const objects = [
+      object('App', 'application', null),
+      object('Other', 'application', null),
+      object('Task', 'task', 'App'),
+      object('own', 'pou', 'App', 'Main'),
+      object('foreign', 'pou', 'Other', 'Foreign'),
+      object('hidden', 'pou', null, 'MAIN'),
+      object('shared', 'pou', null, 'Shared'),
+    ];
+    expect(callablePrograms(objects, 'Task').map((program) => program.id)).toEqual(['own', 'shared']);
+  });
+});

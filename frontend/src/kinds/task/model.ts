@@ -1,0 +1,100 @@
+/** A task's settings: what may be entered, how times are read and shown (tasks.md, sections 2 and 3). Pure functions. */
+import { valuesOf } from '@/project/kinds';
+import type { ObjectSummary, TaskData, TaskPou } from '@/api/types';
+import type { TextKey } from '@/i18n';
+import { applicationOf } from '@/project/tree';
+
+export type IntervalUnit = 'ms' | 'us';
+
+const UNITS: Record<string, number> = { d: 86_400e9, h: 3_600e9, m: 60e9, s: 1e9, ms: 1e6, us: 1e3, ns: 1 };
+
+/** Nanoseconds of a TIME literal such as `t#1s500ms`; null when it is none. Units go from large to small, each once. */
+export function timeLiteral(text: string): number | null {
+  const match = /^(?:l?time|lt|t)#(.+)$/i.exec(text.trim());
+  if (!match) return null;
+  let rest = match[1]!.toLowerCase().replace(/_/g, '');
+  let total = 0;
+  let last = Infinity;
+  while (rest !== '') {
+    const part = /^(\d+(?:\.\d+)?)(ms|us|ns|d|h|m|s)/.exec(rest);
+    if (!part) return null;
+    const unit = UNITS[part[2]!]!;
+    if (unit >= last) return null;
+    last = unit;
+    total += Number(part[1]) * unit;
+    rest = rest.slice(part[0].length);
+  }
+  return Math.round(total);
+}
+
+/** The unit that a stored interval is shown with: a bare number counts microseconds. */
+export function unitOf(interval: string): IntervalUnit {
+  return /^\d+$/.test(interval.trim()) ? 'us' : 'ms';
+}
+
+/**
+ * What is stored for an entry (TASK-17): a number of ms becomes a TIME literal, one of µs stays a number,
+ * a TIME literal stays as it is. Null when the entry is no time.
+ */
+export function intervalFrom(entry: string, unit: IntervalUnit): string | null {
+  const text = entry.trim();
+  if (/^\d+$/.test(text)) return unit === 'ms' ? `t#${Number(text)}ms` : String(Number(text));
+  if (unit === 'ms' && /^\d+\.\d+$/.test(text)) return `t#${text}ms`;
+  return timeLiteral(text) === null ? null : text;
+}
+
+/** Nanoseconds of a stored interval; null when it is none. */
+export function intervalNs(interval: string): number | null {
+  return /^\d+$/.test(interval.trim()) ? Number(interval) * 1000 : timeLiteral(interval);
+}
+
+export type TaskFaults = Partial<Record<'priority' | 'interval' | 'event' | 'watchdogTime' | 'sensitivity', TextKey>>;
+
+/** What is wrong with the settings, field by field; empty when they can be stored. */
+export function taskFaults(task: TaskData): TaskFaults {
+  const faults: TaskFaults = {};
+  const whole = (value: number, low: number, high: number) => Number.isInteger(value) && value >= low && value <= high;
+  if (!whole(task.priority, 0, 31)) faults.priority = 'task.priorityFault';
+  if (task.type === 'cyclic') {
+    const interval = intervalNs(task.interval);
+    if (interval === null) faults.interval = 'task.timeFault';
+    else if (interval <= 0) faults.interval = 'task.intervalFault';
+  }
+  if ((task.type === 'event' || task.type === 'status' || task.type === 'external') && task.event.trim() === '') {
+    faults.event = 'task.eventFault';
+  }
+  if (task.watchdog.enabled) {
+    const time = intervalNs(task.watchdog.time);
+    if (time === null || time <= 0) faults.watchdogTime = 'task.timeFault';
+    if (!whole(task.watchdog.sensitivity, 0, 1_000_000)) faults.sensitivity = 'task.sensitivityFault';
+  }
+  return faults;
+}
+
+/** Faults that the server would refuse; a missing event variable is reported by the compiler and may be saved meanwhile. */
+export function canStore(task: TaskData): boolean {
+  const { event: _later, ...faults } = taskFaults(task);
+  return Object.keys(faults).length === 0;
+}
+
+/** The list with one program moved up (-1) or down (+1); the same list when it is at the end already. */
+export function movedPou(pous: readonly TaskPou[], at: number, by: -1 | 1): TaskPou[] {
+  const to = at + by;
+  const next = [...pous];
+  if (at < 0 || at >= pous.length || to < 0 || to >= pous.length) return next;
+  [next[at], next[to]] = [next[to]!, next[at]!];
+  return next;
+}
+
+/** Programs that a task of this application can call: its own first, then those of the POUs view (TASK-22). */
+export function callablePrograms(objects: readonly ObjectSummary[], taskId: string): ObjectSummary[] {
+  const application = applicationOf(objects, taskId)?.id;
+  const programs = objects.filter((object) => valuesOf(object) === 'program');
+  const own = programs.filter((program) => applicationOf(objects, program.id)?.id === application);
+  const names = new Set(own.map((program) => program.name.toUpperCase()));
+  const shared = programs.filter(
+    (program) => !applicationOf(objects, program.id) && !names.has(program.name.toUpperCase()),
+  );
+  const byName = (a: ObjectSummary, b: ObjectSummary) => a.name.localeCompare(b.name);
+  return [...own.sort(byName), ...shared.sort(byName)];
+}

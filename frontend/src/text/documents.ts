@@ -1,0 +1,297 @@
+/**
+ * Open text objects. Every view of an object (text, table, a second tab) shares one `TextDocument`: two Monaco models,
+ * one state, one way to the server. It lives while a view holds it, and longer while it has unsaved text.
+ */
+import { QueryObserver } from '@tanstack/react-query';
+import { createStore, type StoreApi } from 'zustand';
+import type { editor } from 'monaco-editor/editor/editor.api';
+import { api } from '@/api/client';
+import { keys, queryClient, saveObject, StaleObject } from '@/api/queries';
+import type { ProjectObject, TextData } from '@/api/types';
+import { useSession } from '@/session/session';
+import { smallestChange } from '@/iec/declaration/text';
+import { indentation, useEditorSettings } from './settings';
+import { LANGUAGE_ID, monacoLanguage } from './language';
+import type { Monaco } from './monacoLoader';
+import {
+  edited,
+  isChanged,
+  newerVersion,
+  opened,
+  phaseOf,
+  resolved,
+  saved,
+  savingFailed,
+  savingStarted,
+  wantsSaving,
+  withDraft,
+  type DocumentPhase,
+  type DocumentState,
+  type Resolution,
+  type StoredVersion,
+  type TextParts,
+} from './documentState';
+import { Drafts } from './drafts';
+import { partUri, type Part } from '@/project/partUri';
+
+const AUTOSAVE_MS = 1500;
+const RETRY_MS = 5000;
+const DRAFT_MS = 250;
+
+/** The two texts of an object; actions have no declaration of their own, types and lists no implementation. */
+function partsOf(data: Partial<TextData>): TextParts {
+  return { declaration: data.declaration ?? '', implementation: data.implementation ?? '' };
+}
+
+let draftStore: Drafts | null = null;
+function drafts(): Drafts {
+  if (draftStore === null) {
+    draftStore = new Drafts(localStorage);
+    draftStore.prune(Date.now());
+  }
+  return draftStore;
+}
+
+/** Brings data on top of a revision to the server and answers with the object as it is stored then. */
+export type Put = (baseRevision: number, data: TextData) => Promise<ProjectObject<TextData>>;
+
+export class TextDocument {
+  readonly models: Readonly<Record<Part, editor.ITextModel>>;
+  readonly store: StoreApi<DocumentState>;
+  private holders = 0;
+  private applying = false;
+  private saveTimer: ReturnType<typeof setTimeout> | undefined;
+  private draftTimer: ReturnType<typeof setTimeout> | undefined;
+  private running: Promise<void> | null = null;
+  private readonly stopFollowing: () => void;
+
+  constructor(
+    monaco: Monaco,
+    readonly projectId: string,
+    private object: ProjectObject<TextData>,
+    private readonly forget: () => void,
+  ) {
+    const base: StoredVersion = { revision: object.revision, parts: partsOf(object.data) };
+    const draft = drafts().read(this.user, projectId, object.id);
+    const state = draft === null ? opened(base) : withDraft(opened(base), draft);
+    this.store = createStore(() => state);
+    const model = (part: Part) => {
+      const uri = monaco.Uri.parse(partUri(projectId, object.id, part));
+      const language = part === 'implementation' ? monacoLanguage(this.language) : LANGUAGE_ID;
+      const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', language, uri);
+      made.setValue(state.text[part]);
+      made.setEOL(monaco.editor.EndOfLineSequence.LF);
+      made.updateOptions({
+        ...indentation(useEditorSettings.getState()),
+        bracketColorizationOptions: { enabled: false, independentColorPoolPerBracketType: false },
+      });
+      made.onDidChangeContent(() => this.typed());
+      return made;
+    };
+    this.models = { declaration: model('declaration'), implementation: model('implementation') };
+    const unfollow = this.follow();
+    const unsubscribe = useEditorSettings.subscribe((settings) => {
+      Object.values(this.models).forEach((one) => one.updateOptions(indentation(settings)));
+    });
+    this.stopFollowing = () => {
+      unfollow();
+      unsubscribe();
+    };
+    addEventListener('pagehide', this.leaving);
+    if (isChanged(state)) this.scheduleSave(AUTOSAVE_MS);
+  }
+
+  get objectId(): string {
+    return this.object.id;
+  }
+
+  get name(): string {
+    return this.object.name;
+  }
+
+  /** Language of the body, as the server calls it. */
+  get language(): string {
+    return this.object.data.language ?? 'ST';
+  }
+
+  get phase(): DocumentPhase {
+    return phaseOf(this.store.getState());
+  }
+
+  hold(): void {
+    this.holders += 1;
+  }
+
+  /** A view has closed. Unsaved text is sent at once; the draft stays until the server has it. */
+  release(): void {
+    this.holders -= 1;
+    if (this.holders > 0) return;
+    void this.save().finally(() => {
+      if (this.holders === 0) this.dispose();
+    });
+  }
+
+  /** Stores now what is not stored; resolves when the server has answered, whatever it said. */
+  save(autosave = false): Promise<void> {
+    return this.saveBy((baseRevision, data) =>
+      saveObject<TextData>(this.projectId, this.objectId, baseRevision, data, { autosave }),
+    );
+  }
+
+  /** As `save`; `put` brings the data to the server. */
+  async saveBy(put: Put): Promise<void> {
+    if (this.running !== null) await this.running;
+    clearTimeout(this.saveTimer);
+    if (!wantsSaving(this.store.getState())) return;
+    this.running = this.send(put).finally(() => {
+      this.running = null;
+    });
+    await this.running;
+  }
+
+  /** Gives a part its former text after a save that was refused; a version of somebody else is then followed. */
+  takeBack(part: Part, text: string): void {
+    this.replaceText(part, text);
+    const state = this.store.getState();
+    if (state.theirs !== null && !isChanged(state)) this.change((now) => resolved(now, 'theirs'));
+  }
+
+  resolve(resolution: Resolution, merged?: TextParts): void {
+    this.change((state) => resolved(state, resolution, merged));
+    this.scheduleSave(0);
+  }
+
+  /** Replaces the text of a part in one undoable step; only what differs is touched, so cursors stay. */
+  replaceText(part: Part, text: string): void {
+    const model = this.models[part];
+    const change = smallestChange(model.getValue(), text);
+    if (change === null) return;
+    const from = model.getPositionAt(change.start);
+    const to = model.getPositionAt(change.end);
+    const range = {
+      startLineNumber: from.lineNumber,
+      startColumn: from.column,
+      endLineNumber: to.lineNumber,
+      endColumn: to.column,
+    };
+    model.pushStackElement();
+    model.pushEditOperations([], [{ range, text: change.text }], () => null);
+    model.pushStackElement();
+  }
+
+  private get user(): string {
+    return useSession.getState().user?.id ?? '';
+  }
+
+  private async send(put: Put): Promise<void> {
+    const state = this.store.getState();
+    this.store.setState(savingStarted(state), true);
+    try {
+      const texts = Object.entries(state.text).filter(([part]) => part in this.object.data);
+      const data = { ...this.object.data, ...Object.fromEntries(texts) };
+      const answer = await put(state.base.revision, data);
+      this.object = answer;
+      this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer.data) }));
+    } catch (error) {
+      this.refused(error);
+    }
+    this.storeDraft();
+    if (wantsSaving(this.store.getState())) {
+      this.scheduleSave(this.phase === 'failed' ? RETRY_MS : AUTOSAVE_MS);
+    }
+  }
+
+  private refused(error: unknown): void {
+    if (error instanceof StaleObject && error.current.id === this.objectId) {
+      const current = error.current as ProjectObject<TextData>;
+      const theirs = { revision: current.revision, parts: partsOf(current.data) };
+      this.change((now) => newerVersion({ ...now, sent: null }, theirs));
+    } else {
+      this.change((now) => savingFailed(now, error));
+    }
+  }
+
+  /** Newer versions reach the query cache by the events socket. */
+  private follow(): () => void {
+    const observer = new QueryObserver<ProjectObject<TextData>>(queryClient, {
+      queryKey: keys.object(this.projectId, this.objectId),
+      queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${this.projectId}/objects/${this.objectId}`),
+      staleTime: Infinity,
+    });
+    return observer.subscribe(({ data }) => {
+      if (data === undefined || data.revision <= this.object.revision) return;
+      this.object = data;
+      this.change((state) => newerVersion(state, { revision: data.revision, parts: partsOf(data.data) }));
+    });
+  }
+
+  /** Applies a transition and brings the models to the text it ends with. */
+  private change(transition: (state: DocumentState) => DocumentState): void {
+    const next = transition(this.store.getState());
+    this.store.setState(next, true);
+    this.applying = true;
+    this.replaceText('declaration', next.text.declaration);
+    this.replaceText('implementation', next.text.implementation);
+    this.applying = false;
+  }
+
+  private typed(): void {
+    if (this.applying) return;
+    const text = {
+      declaration: this.models.declaration.getValue(),
+      implementation: this.models.implementation.getValue(),
+    };
+    this.store.setState(edited(this.store.getState(), text), true);
+    this.scheduleSave(AUTOSAVE_MS);
+    clearTimeout(this.draftTimer);
+    this.draftTimer = setTimeout(() => this.storeDraft(), DRAFT_MS);
+  }
+
+  private scheduleSave(ms: number): void {
+    clearTimeout(this.saveTimer);
+    this.saveTimer = setTimeout(() => void this.save(true), ms);
+  }
+
+  private storeDraft(): void {
+    clearTimeout(this.draftTimer);
+    const { base, text } = this.store.getState();
+    if (isChanged(this.store.getState())) {
+      drafts().write(this.user, this.projectId, this.objectId, { base, text, savedAt: Date.now() });
+    } else {
+      drafts().remove(this.user, this.projectId, this.objectId);
+    }
+  }
+
+  private readonly leaving = () => this.storeDraft();
+
+  private dispose(): void {
+    this.storeDraft();
+    clearTimeout(this.saveTimer);
+    removeEventListener('pagehide', this.leaving);
+    this.stopFollowing();
+    this.models.declaration.dispose();
+    this.models.implementation.dispose();
+    this.forget();
+  }
+}
+
+const open = new Map<string, Promise<TextDocument>>();
+
+/** The shared document of an object; every `openDocument` needs one `release`. */
+export async function openDocument(monaco: Monaco, projectId: string, objectId: string): Promise<TextDocument> {
+  const id = `${projectId}/${objectId}`;
+  let known = open.get(id);
+  if (known === undefined) {
+    known = queryClient
+      .fetchQuery({
+        queryKey: keys.object(projectId, objectId),
+        queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${projectId}/objects/${objectId}`),
+      })
+      .then((object) => new TextDocument(monaco, projectId, object, () => open.delete(id)));
+    open.set(id, known);
+    known.catch(() => open.delete(id));
+  }
+  const document = await known;
+  document.hold();
+  return document;
+}

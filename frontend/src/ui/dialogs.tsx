@@ -1,0 +1,84 @@
+/**
+ * Dialogs from anywhere, commands included:
+ *
+ *     const name = await openDialog<string>((close) => <RenameDialog object={object} close={close} />);
+ *     if (await confirm({ title: t('...'), text: t('...'), action: t('action.delete'), danger: true })) ...
+ *
+ * `close()` without a value means cancelled. `DialogHost` (once, in the app) shows them.
+ */
+import { createElement, Fragment, type ReactElement, type ReactNode } from 'react';
+import { create } from 'zustand';
+import { t } from '@/i18n';
+import { Button } from './Button';
+import { Dialog } from './Dialog';
+
+type Close<Answer> = (answer?: Answer) => void;
+
+interface OpenDialog {
+  serial: number;
+  element: ReactElement;
+}
+
+const useDialogs = create<{ open: readonly OpenDialog[] }>(() => ({ open: [] }));
+let serial = 0;
+
+export function openDialog<Answer = true>(render: (close: Close<Answer>) => ReactElement): Promise<Answer | undefined> {
+  const before = document.activeElement instanceof HTMLElement ? document.activeElement : null;
+  return new Promise((resolve) => {
+    const mine = ++serial;
+    const close: Close<Answer> = (answer) => {
+      useDialogs.setState((state) => ({ open: state.open.filter((dialog) => dialog.serial !== mine) }));
+      // Back to where the user was, unless the answer itself moved the focus.
+      requestAnimationFrame(() => {
+        if (before?.isConnected && document.activeElement === document.body) before.focus();
+      });
+      resolve(answer);
+    };
+    useDialogs.setState((state) => ({ open: [...state.open, { serial: mine, element: render(close) }] }));
+  });
+}
+
+export interface Question {
+  title: string;
+  text?: ReactNode;
+  /** Name of the affirmative button. */
+  action: string;
+  danger?: boolean;
+  body?: ReactNode;
+}
+
+export async function confirm(question: Question): Promise<boolean> {
+  const answer = await openDialog<boolean>((close) => <ConfirmDialog question={question} close={close} />);
+  return answer === true;
+}
+
+function ConfirmDialog({ question, close }: { question: Question; close: Close<boolean> }) {
+  return (
+    <Dialog
+      title={question.title}
+      description={question.text}
+      onClose={() => close()}
+      onSubmit={() => close(true)}
+      footer={
+        <>
+          <Button onClick={() => close()}>{t('action.cancel')}</Button>
+          <Button type="submit" variant={question.danger ? 'danger' : 'primary'} data-autofocus>
+            {question.action}
+          </Button>
+        </>
+      }
+    >
+      {question.body}
+    </Dialog>
+  );
+}
+
+export function DialogHost() {
+  const open = useDialogs((state) => state.open);
+  return open.map((dialog) => createElement(Fragment, { key: dialog.serial }, dialog.element));
+}
+
+/** A modal dialog is up: global keys rest. */
+export function dialogOpen(): boolean {
+  return useDialogs.getState().open.length > 0;
+}

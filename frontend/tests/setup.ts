@@ -1,0 +1,3 @@
+import { registerKinds } from '@/kinds/register';
+
+registerKinds();
