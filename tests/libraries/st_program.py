@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from linked_application import LoadedApplication, loaded
+
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
-from tappet.codegen.jit import LoadedApplication, loaded
 from tappet.lang.source import Source
 from tappet.libraries import names
 

@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
+from tests.cli.invoke import invoke
 
-from tappet.cli import app
 from tappet.libraries import load
 from tappet.libraries.catalog import Item, items
 
@@ -61,9 +60,9 @@ def test_pins_match_the_catalog(name: tuple[str, str]) -> None:
 
 @pytest.mark.parametrize("library", LIBRARIES)
 def test_the_command_shows_what_the_catalog_has(library: str) -> None:
-    shown = CliRunner().invoke(app, ["library", "show", library, "--format", "json"])
-    assert shown.exit_code == 0
-    for item in json.loads(shown.stdout):
+    shown = invoke("library", "show", library, "--format", "json")
+    assert shown.code == 0
+    for item in json.loads(shown.output):
         _check(item, CATALOG[library, item["name"]])
 
 

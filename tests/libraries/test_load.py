@@ -1,9 +1,12 @@
 """Installed libraries and their sources."""
 
+import json
+from pathlib import Path
+
 import pytest
 
 from tappet.lang.source import Scope
-from tappet.libraries import UnknownLibraryError, load, names
+from tappet.libraries import ROOT, UnknownLibraryError, load, names
 
 
 def test_standard_is_installed_with_one_source_for_each_pou() -> None:
@@ -23,3 +26,15 @@ def test_unknown_names_and_versions_say_what_is_there() -> None:
         load("Standart")
     with pytest.raises(UnknownLibraryError, match=r"not 1\.0"):
         load("Standard", "1.0")
+
+
+MANIFEST = {
+    *("name", "version", "namespace", "company", "description", "internal"),
+    *("replaces", "completes", "requires"),
+}
+MANIFESTS = sorted(ROOT.glob("**/library.json"))
+
+
+@pytest.mark.parametrize("path", MANIFESTS, ids=lambda path: path.parent.name)
+def test_every_field_of_a_library_json_is_one_that_the_loader_reads(path: Path) -> None:
+    assert set(json.loads(path.read_text(encoding="utf-8"))) <= MANIFEST

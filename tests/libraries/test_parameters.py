@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from linked_application import loaded
 
 from tappet.codegen.build import BuildOptions, BuildResult, BuildSession, LibraryReference, build_application
-from tappet.codegen.jit import loaded
 from tappet.lang.ast import GlobalList
 from tappet.lang.parser import parse
 from tappet.lang.source import GivenValue, Source

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from linked_application import loaded
 
 from tappet.codegen.build import BuildOptions, LibraryReference, build_application
-from tappet.codegen.jit import loaded
 from tappet.lang.source import Source
 from tappet.libraries import UnknownLibraryError, archive, every_version, load, names, repository, resolve
 from tappet.libraries.archive import LibraryFileError
@@ -102,6 +102,48 @@ def test_a_placeholder_of_another_system_finds_ours_under_its_own_namespace() ->
     reference = LibraryReference("Tc2_Standard, * (Beckhoff Automation GmbH)")
     result = build_application([Source("m", text)], options=BuildOptions(libraries=(reference,)))
     assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+
+
+def test_a_library_of_another_system_that_is_two_of_ours_has_one_namespace() -> None:
+    text = (
+        "PROGRAM Main\nVAR t : Tc2_Standard.TON; i, j : INT; w, x : WSTRING(20); END_VAR\n"
+        'i := Tc2_Standard.WLEN("four"); j := WFIND("abcd", "cd"); w := WCONCAT(WLEFT("machine", 3), '
+        'WRIGHT("plant", 2)); w := WINSERT(WMID(w, 4, 1), "-", 2); x := WREPLACE(WDELETE("abcdef", 2, 1), '
+        '"XY", 1, 2);\nEND_PROGRAM'
+    )
+    beckhoff = LibraryReference("Tc2_Standard, * (Beckhoff Automation GmbH)")
+    renamed = LibraryReference("Standard", namespace="Tc2_Standard")
+    own = LibraryReference("Standard64")
+    expected = ["4", "3", '"ma-cn"', '"cXYef"']
+    assert _run(text, [beckhoff], ["i", "j", "w", "x"]) == expected
+    assert _run(text, [renamed], ["i", "j", "w", "x"]) == expected
+    assert _run(text.replace("Tc2_Standard.WLEN", "WLEN"), [beckhoff, own], ["i", "j", "w", "x"]) == expected
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "CAA Types, * (CAA Technical Workgroup)",
+        "CAA Types, 3.5.17.0 (System)",
+        "CAA Types Extern, 3.5.13.0 (CAA Technical Workgroup)",
+    ],
+)
+def test_a_name_of_several_words_gives_the_namespace_of_the_library(name: str) -> None:
+    text = "PROGRAM Main\nVAR n : CAA.SIZE; u : UDINT; END_VAR\nn := 70000;\n"
+    text += "u := CAA.SIZE_TO_UDINT(n);\nEND_PROGRAM"
+    assert _run(text, [LibraryReference(name)], ["u"]) == ["70000"]
+
+
+def test_base_interfaces_under_both_names() -> None:
+    text = "FUNCTION_BLOCK B IMPLEMENTS {}IBase\nMETHOD AddRef : DINT\nEND_METHOD\nMETHOD Release : DINT\n"
+    text += "END_METHOD\nMETHOD QueryInterface : POINTER TO BYTE\nVAR_INPUT iid : UDINT; "
+    text += "pResult : POINTER TO UDINT; END_VAR\nEND_METHOD\nEND_FUNCTION_BLOCK\n"
+    text += "PROGRAM Main\nVAR b : B; i : {}IBase; t : TypeClass; END_VAR\n"
+    text += "i := b; t := TypeClass.TYPE_INT;\nEND_PROGRAM"
+    own = text.format("IBaseLibrary.", "IBaseLibrary.")
+    assert _run(own, [LibraryReference("IBaseLibrary, 3.5.2.0 (System)")], ["t"]) == ["TYPE_INT"]
+    plain = text.format("", "")
+    assert _run(plain, [LibraryReference("Base Interfaces, * (System)")], ["t"]) == ["TYPE_INT"]
 
 
 def test_two_versions_in_one_application_under_two_namespaces() -> None:
