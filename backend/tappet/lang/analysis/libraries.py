@@ -166,8 +166,6 @@ def _analysed(
 ) -> LibrarySnapshot | None:
     if any(has_directives(source.text) or not _means_the_same(source) for source in sources):
         return None
-    if any(source.given for source in sources):  # given values are resolved in the view of the application
-        return None
     results = {source: parse(source) for source in sources}
     units = tuple(with_libraries([result.unit for result in results.values()], ()))
     pous = [d for unit in units for d in unit.declarations if isinstance(d, ast.Pou)]
@@ -179,6 +177,8 @@ def _analysed(
     found = collect(session, units)
     declarations = Declarations(session, found)
     declare(session, found, declarations, found)
+    if any(message.code == "E0904" for message in session.diagnostics):
+        return None  # a given value that does not fit is an error of the application
     state = State(units, session, found, declarations)
     for pou in all_pous(found):
         state.records[id(pou)] = analyse_body(session, pou, declarations.bodies[id(pou)])
