@@ -1,8 +1,8 @@
 """Text to syntax tree: a recursive-descent parser that takes any text and never raises.
 
-The parts build on each other: `parser_core` (tokens, errors), `parser_expressions`, `parser_recovery`,
-`parser_statements`, `parser_types`, `parser_variables`, `parser_type_blocks`, and `parser_declarations` for
-whole objects.
+The parts build on each other: `parser_core` (tokens, errors), `parser_arguments`, `parser_operands`,
+`parser_expressions`, `parser_recovery`, `parser_statements`, `parser_types`, `parser_variables`,
+`parser_type_blocks`, and `parser_declarations` for whole objects.
 A body is read by the reader of its language (`languages`), and charts and drawings are lowered to statements
 behind the parser (`lowering`).
 """
