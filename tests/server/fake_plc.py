@@ -19,7 +19,7 @@ from tappet.runtime.flight import FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.operations import registry
-from tappet.runtime.operations.declaration import Operation, Reply, SessionOperation
+from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.symbols import GetSymbols
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.plc import RuntimeInfo
@@ -276,13 +276,12 @@ class FakeClient:
         if self.plc.down:
             raise ConnectionResetError("gone")
 
-    async def call(self, operation: Operation[Reply]) -> Reply:
+    async def call(self, operation: WireOperation[Reply]) -> Reply:
         self._alive()
         request = protocol.parse_request(protocol.pack_request(1, operation))
         try:
             order = protocol.parse_arguments(request, registry.known())
-            plain = not isinstance(order, SessionOperation)
-            reply = order.run(self.plc) if plain else await order.serve(self)  # type: ignore[arg-type]
+            reply = await order.serve(self)  # type: ignore[arg-type]
         except (PlcError, ValueError) as error:
             raise RuntimeRefused(refusal_code(error), str(error)) from error
         message = protocol.parse_message(protocol.pack_result(1, reply))

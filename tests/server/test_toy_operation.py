@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import asyncio
 import sys
+import types
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from tappet.codegen.build import build_application
 from tappet.lang.source import Source
 from tappet.runtime.client import RuntimeClient, RuntimeRefused
 from tappet.runtime.operations import registry
+from tappet.runtime.operations.declaration import Operation, SessionOperation
 from tappet.runtime.plc import SoftPlc
 from tappet.runtime.service import RuntimeService
 from tappet.server import openapi
@@ -146,6 +148,16 @@ def test_two_operations_of_one_name_are_refused(toy: Any) -> None:
     module.Nudge = type("Nudge", (toy,), {"__module__": "another"})
     with pytest.raises(registry.RegistrationError, match="'toy_nudge' is declared twice: in toy_operation"):
         registry.collect([sys.modules["toy_operation"], module])
+
+
+@pytest.mark.parametrize(("base", "handler"), [(Operation, "run"), (SessionOperation, "serve")])
+def test_an_operation_without_handler_is_refused(base: Any, handler: str) -> None:
+    module = type(sys)("another")
+    own = {"__module__": "another", "op": "toy_idle"}
+    module.Idle = types.new_class("Idle", (base[int],), exec_body=lambda body: body.update(own))
+    message = f"'toy_idle' has no handler: another.Idle does not define '{handler}'"
+    with pytest.raises(registry.RegistrationError, match=message):
+        registry.collect([module])
 
 
 def test_nothing_else_lists_operations() -> None:

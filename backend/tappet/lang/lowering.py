@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from tappet.lang import ast
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.languages import reader_of
-from tappet.lang.languages.reader import Lowering
+from tappet.lang.languages.reader import GraphReader, Lowering
 from tappet.lang.source import Source
 
 
@@ -20,6 +20,8 @@ def lower_bodies(source: Source, pous: Iterable[ast.Pou]) -> list[Diagnostic]:
     context = Lowering(source)
     for pou in pous:
         if pou.graph is not None:
-            reader_of(pou.graph.language).lower(pou, context)
+            reader = reader_of(pou.graph.language)
+            assert isinstance(reader, GraphReader)
+            reader.lower(pou, context)
             pou.graph = None
     return context.diagnostics

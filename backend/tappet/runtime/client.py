@@ -23,7 +23,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import protocol
-from tappet.runtime.operations.declaration import Operation, Reply
+from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.download import CHUNK, BeginDownload, CommitDownload, DownloadChunk
 from tappet.runtime.operations.life_cycle import GetInfo, Hello
 from tappet.runtime.operations.recording import EndRecord, Record
@@ -178,7 +178,7 @@ class RuntimeClient:
 
     # -- wire --------------------------------------------------------------------------------------------
 
-    async def call(self, operation: Operation[Reply]) -> Reply:
+    async def call(self, operation: WireOperation[Reply]) -> Reply:
         """The reply to an operation. RuntimeRefused says why there is none."""
         if not self.connected:
             raise ConnectionLost("the connection to the runtime is closed")

@@ -21,7 +21,7 @@ import msgspec
 from msgspec import Meta, Raw, Struct
 
 from tappet.runtime import recorder_wire
-from tappet.runtime.operations.declaration import Operation, OperationError, Reply, reply_type
+from tappet.runtime.operations.declaration import OperationError, Reply, WireOperation, reply_type
 from tappet.runtime.recorder import Frame, split_frames
 
 M = TypeVar("M")
@@ -84,7 +84,7 @@ def pack(message: Mapping[str, Any]) -> bytes:
     return msgspec.msgpack.encode({"v": VERSION, **message})
 
 
-def pack_request(number: int, operation: Operation[Any]) -> bytes:
+def pack_request(number: int, operation: WireOperation[Any]) -> bytes:
     """A request."""
     return pack({"id": number, "op": operation.op, "args": operation})
 
@@ -121,7 +121,7 @@ def _decoded(decoder: msgspec.msgpack.Decoder[M], data: bytes | str) -> M:
         raise ProtocolError("bad_frame", f"no message of this protocol: {_plain(error)}") from error
 
 
-def parse_arguments(request: Request, known: Mapping[str, type[Operation[Any]]]) -> Operation[Any]:
+def parse_arguments(request: Request, known: Mapping[str, type[WireOperation[Any]]]) -> WireOperation[Any]:
     """The operation a request asks for. ProtocolError names the operation and the field that is wrong."""
     kind = known.get(request.op)
     if kind is None:
@@ -132,7 +132,7 @@ def parse_arguments(request: Request, known: Mapping[str, type[Operation[Any]]])
         raise ProtocolError("bad_request", f"{request.op}: {_plain(error)}") from error
 
 
-def parse_result(kind: type[Operation[Reply]], result: Raw) -> Reply:
+def parse_result(kind: type[WireOperation[Reply]], result: Raw) -> Reply:
     """The reply to an operation. ProtocolError when it is none: the runtime is of another release."""
     try:
         reply: Reply = _reply_decoder(kind).decode(result)
@@ -142,12 +142,12 @@ def parse_result(kind: type[Operation[Reply]], result: Raw) -> Reply:
 
 
 @cache
-def _decoder(kind: type[Operation[Any]]) -> msgspec.msgpack.Decoder[Operation[Any]]:
+def _decoder(kind: type[WireOperation[Any]]) -> msgspec.msgpack.Decoder[WireOperation[Any]]:
     return msgspec.msgpack.Decoder(kind)
 
 
 @cache
-def _reply_decoder(kind: type[Operation[Any]]) -> msgspec.msgpack.Decoder[Any]:
+def _reply_decoder(kind: type[WireOperation[Any]]) -> msgspec.msgpack.Decoder[Any]:
     return msgspec.msgpack.Decoder(reply_type(kind))
 
 

@@ -18,7 +18,7 @@ from websockets.exceptions import ConnectionClosed
 from tappet.runtime import protocol
 from tappet.runtime.access import NoApplicationError, PlcError
 from tappet.runtime.operations import registry
-from tappet.runtime.operations.declaration import Operation, OperationError, Session, SessionOperation
+from tappet.runtime.operations.declaration import OperationError
 from tappet.runtime.operations.life_cycle import Hello
 from tappet.runtime.plc import Event, SoftPlc
 from tappet.runtime.protocol import ProtocolError
@@ -79,7 +79,7 @@ class Connection:
     async def _answer(self, request: protocol.Request) -> bytes:
         try:
             operation = protocol.parse_arguments(request, registry.known())
-            return protocol.pack_result(request.id, await perform(operation, self))
+            return protocol.pack_result(request.id, await operation.serve(self))
         except (OperationError, PlcError, TaskError, ValueError) as error:
             return protocol.pack_error(request.id, refusal_code(error), str(error))
         except Exception as error:
@@ -117,13 +117,6 @@ class Connection:
         alive = {id(r) for rs in application.recorders.values() for r in rs} if application else set()
         for number in self.subscriptions.ended(alive):
             self.post(protocol.pack({"event": "recorder_ended", "recorder": number}))
-
-
-async def perform(operation: Operation[Any], session: Session) -> Any:
-    """What an operation answers; a plain one blocks a worker thread, not the connections."""
-    if isinstance(operation, SessionOperation):
-        return await operation.serve(session)
-    return await asyncio.to_thread(operation.run, session.plc)
 
 
 def refusal_code(error: Exception) -> str:

@@ -29,7 +29,10 @@ class DrawnReader(BodyReader):
 
     @abstractmethod
     def read_elements(self, body: DrawnBody, pou: ast.Pou) -> None:
-        """Reads a body, into statements of `pou.body` or a graph in `pou.graph`; reports, never raises."""
+        """Reads a body, into statements of `pou.body` or, as a `GraphReader`, a graph in `pou.graph`.
+
+        Reports, never raises.
+        """
 
     def read_drawn(self, source: Source, part: BodyText, pou: ast.Pou) -> list[Diagnostic]:
         """Reads what is stored of a body; what is wrong with it."""

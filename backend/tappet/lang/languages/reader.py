@@ -2,8 +2,9 @@
 
 Contract: a reader is asked in this order. `TextReader.begins`: is the body that stands here in its language
 (asked only where the project does not say). `read`, or `drawn.DrawnReader.read_elements`: the body becomes
-statements of the tree, or a node of its own (`ast.Graph`) that says what is written or drawn. `lower`: the
-graph becomes statements and variables, once, behind the parser and before any analysis (`lang.lowering`).
+statements of the tree, or a node of its own (`ast.Graph`) that says what is written or drawn. `lower` of a
+`GraphReader`: the graph becomes statements and variables, once, behind the parser and before any analysis
+(`lang.lowering`).
 Spans of what is made point into the text that is compiled; a drawn body has its listing there
 (`iec.listing`), so that messages, line tables, call stacks and cross references need to know nothing of
 languages. A reader reports and never raises.
@@ -54,13 +55,17 @@ class BodyReader(ABC):
     """How names begin that bodies look for although they do not stand in their text; empty: there are none.
     """
 
-    def lower(self, pou: ast.Pou, context: Lowering) -> None:
-        """Turns `pou.graph` into variables and statements of `pou`, whose lists are filled in place."""
-        raise NotImplementedError(f"{self.name} reads no graphs")
-
     def library(self) -> Source | None:
         """The text with the types that lowered bodies use; it joins programs that have such a body."""
         return None
+
+
+class GraphReader(BodyReader):
+    """Reads bodies into graphs (`pou.graph`) and lowers them behind the parser."""
+
+    @abstractmethod
+    def lower(self, pou: ast.Pou, context: Lowering) -> None:
+        """Turns `pou.graph` into variables and statements of `pou`, whose lists are filled in place."""
 
 
 class TextReader(BodyReader):

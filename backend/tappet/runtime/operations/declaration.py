@@ -16,6 +16,8 @@ Handlers run in a worker thread, never in a task; one that takes its time delays
 
 from __future__ import annotations
 
+import asyncio
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Generic, Literal, Protocol, TypeVar, get_args
@@ -99,27 +101,47 @@ class Session(Protocol):
         """State that an operation keeps with the connection: made at first use, gone with it."""
 
 
-class Operation(Struct, Generic[Reply], frozen=True, forbid_unknown_fields=True):
+class WireOperation(Struct, Generic[Reply], frozen=True, forbid_unknown_fields=True):
     """One request; its docstring is what the API document says."""
 
     op: ClassVar[str] = ""
     """Name on the wire."""
     rest: ClassVar[Rest | None] = None
 
+    @abstractmethod
+    async def serve(self, session: Session) -> Reply:
+        """Do it, on the event loop. Raises PlcError, ValueError, OperationError."""
+
+
+class Operation(WireOperation[Reply], Generic[Reply], frozen=True):
+    """A request that needs the soft PLC alone."""
+
+    @abstractmethod
     def run(self, plc: SoftPlc) -> Reply:
         """Do it, in a worker thread. Raises PlcError, ValueError, OperationError."""
-        raise NotImplementedError(f"{type(self).__name__} has no handler")
-
-
-class SessionOperation(Operation[Reply], Generic[Reply], frozen=True):
-    """A request that needs what its connection keeps; blocking work goes to a thread by itself."""
 
     async def serve(self, session: Session) -> Reply:
-        """Do it, on the event loop."""
-        raise NotImplementedError(f"{type(self).__name__} has no handler")
+        """Blocks a worker thread, not the connections."""
+        return await asyncio.to_thread(self.run, session.plc)
 
 
-def reply_type(operation: type[Operation[Any]]) -> Any:
+class SessionOperation(WireOperation[Reply], Generic[Reply], frozen=True):
+    """A request that needs what its connection keeps; blocking work goes to a thread by itself."""
+
+    @abstractmethod
+    async def serve(self, session: Session) -> Reply:
+        """Do it, on the event loop. Raises PlcError, ValueError, OperationError."""
+
+
+def missing_handler(operation: type[WireOperation[Any]]) -> str | None:
+    """The method that an operation leaves abstract. The metaclass of structures does not look for them."""
+    for name in ("run", "serve"):
+        if getattr(getattr(operation, name, None), "__isabstractmethod__", False):
+            return name
+    return None
+
+
+def reply_type(operation: type[WireOperation[Any]]) -> Any:
     """The type an operation answers with, as its bases declare it."""
     for kind in operation.__mro__:
         for base in kind.__dict__.get("__orig_bases__", ()):

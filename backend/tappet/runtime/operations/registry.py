@@ -12,25 +12,25 @@ from types import ModuleType
 from typing import Any
 
 from tappet.runtime import operations
-from tappet.runtime.operations.declaration import Operation, reply_type
+from tappet.runtime.operations.declaration import WireOperation, missing_handler, reply_type
 
 GROUP = "tappet.operations"
 """Entry points of this group name modules with operations."""
 
 
 class RegistrationError(RuntimeError):
-    """Two operations of one name, or a module of an entry point that cannot be loaded."""
+    """Two operations of one name, one without handler, or an entry point that cannot be loaded."""
 
 
 @cache
-def known() -> Mapping[str, type[Operation[Any]]]:
+def known() -> Mapping[str, type[WireOperation[Any]]]:
     """All operations by name."""
     return collect(_modules())
 
 
-def collect(modules: Iterable[ModuleType]) -> dict[str, type[Operation[Any]]]:
-    """The operations that modules declare. RegistrationError when two have one name."""
-    found: dict[str, type[Operation[Any]]] = {}
+def collect(modules: Iterable[ModuleType]) -> dict[str, type[WireOperation[Any]]]:
+    """The operations that modules declare. RegistrationError when two have one name or one has no handler."""
+    found: dict[str, type[WireOperation[Any]]] = {}
     for module in modules:
         for kind in _declared(module):
             other = found.setdefault(kind.op, kind)
@@ -39,13 +39,18 @@ def collect(modules: Iterable[ModuleType]) -> dict[str, type[Operation[Any]]]:
                     f"the operation '{kind.op}' is declared twice: in {other.__module__}"
                     f" and {kind.__module__}"
                 )
+            if (handler := missing_handler(kind)) is not None:
+                raise RegistrationError(
+                    f"the operation '{kind.op}' has no handler: {kind.__module__}.{kind.__name__}"
+                    f" does not define '{handler}'"
+                )
             reply_type(kind)
     return found
 
 
-def _declared(module: ModuleType) -> Iterator[type[Operation[Any]]]:
+def _declared(module: ModuleType) -> Iterator[type[WireOperation[Any]]]:
     for value in vars(module).values():
-        kind = value if inspect.isclass(value) and issubclass(value, Operation) else None
+        kind = value if inspect.isclass(value) and issubclass(value, WireOperation) else None
         if kind is not None and kind.op and kind.__module__ == module.__name__:
             yield kind
 

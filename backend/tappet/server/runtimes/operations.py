@@ -15,7 +15,7 @@ from fastapi import APIRouter, Depends, Request
 from starlette.responses import Response
 
 from tappet.runtime.operations import registry
-from tappet.runtime.operations.declaration import Operation, Rest, reply_type
+from tappet.runtime.operations.declaration import Rest, WireOperation, reply_type
 from tappet.runtime.protocol import place_and_reason
 from tappet.server import audit
 from tappet.server.audit import Act
@@ -32,7 +32,7 @@ REF = "#/components/schemas/{name}"
 _BRACES = re.compile(r"\{(\w+)\}")
 
 
-def router(kinds: Iterable[type[Operation[Any]]]) -> APIRouter:
+def router(kinds: Iterable[type[WireOperation[Any]]]) -> APIRouter:
     """The routes of those operations that have one."""
     routes = APIRouter(prefix="/runtimes/{runtime_id}")
     for kind in kinds:
@@ -54,7 +54,7 @@ def router(kinds: Iterable[type[Operation[Any]]]) -> APIRouter:
     return routes
 
 
-def answer_type(kind: type[Operation[Any]], rest: Rest) -> Any:
+def answer_type(kind: type[WireOperation[Any]], rest: Rest) -> Any:
     """The type of what a route answers; None for nothing."""
     if rest.answer == "state":
         return RuntimeState
@@ -85,7 +85,7 @@ def _leave_out(schema: dict[str, Any], names: Iterable[str]) -> None:
             schema["required"].remove(name)
 
 
-def _endpoint(kind: type[Operation[Any]], rest: Rest) -> Callable[..., Awaitable[Any]]:
+def _endpoint(kind: type[WireOperation[Any]], rest: Rest) -> Callable[..., Awaitable[Any]]:
     guard = Depends(RequireRole(Role(rest.role)))
     shape = rest.answer if callable(rest.answer) else None
 
@@ -114,7 +114,7 @@ def _endpoint(kind: type[Operation[Any]], rest: Rest) -> Callable[..., Awaitable
     return endpoint
 
 
-async def _read(request: Request, kind: type[Operation[Any]], rest: Rest) -> Operation[Any]:
+async def _read(request: Request, kind: type[WireOperation[Any]], rest: Rest) -> WireOperation[Any]:
     """The operation a request asks for; raises a 422 problem that names the field."""
     where = "body" if rest.method in ("POST", "PUT") else "query"
     given: dict[str, Any] = dict(request.query_params)
@@ -150,11 +150,11 @@ def _invalid(location: str, reason: str) -> Problem:
 # -- the API document ----------------------------------------------------------------------------------
 
 
-def _in_body(kind: type[Operation[Any]], rest: Rest) -> bool:
+def _in_body(kind: type[WireOperation[Any]], rest: Rest) -> bool:
     return rest.method in ("POST", "PUT") and len(kind.__struct_fields__) > len(_BRACES.findall(rest.path))
 
 
-def _document(kind: type[Operation[Any]], rest: Rest, answer: Any) -> dict[str, Any]:
+def _document(kind: type[WireOperation[Any]], rest: Rest, answer: Any) -> dict[str, Any]:
     document: dict[str, Any] = {}
     in_path = _BRACES.findall(rest.path)
     fields = msgspec.structs.fields(kind)

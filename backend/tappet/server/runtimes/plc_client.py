@@ -7,7 +7,7 @@ from typing import Literal, Protocol
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent
-from tappet.runtime.operations.declaration import Operation, Reply
+from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.recorder import Frame
 
@@ -27,7 +27,7 @@ class PlcClient(Protocol):
     """A connection to a runtime. Calls raise ConnectionError when it is lost,
     RuntimeRefused when the runtime cannot do what is asked."""
 
-    async def call(self, operation: Operation[Reply]) -> Reply:
+    async def call(self, operation: WireOperation[Reply]) -> Reply:
         """The reply to an operation."""
 
     async def symbols(self) -> SymbolMap:

@@ -12,6 +12,7 @@ from typing import ClassVar
 from tappet.iec.listing import Element
 from tappet.lang import ast
 from tappet.lang.languages.drawn import DrawnBody, DrawnReader
+from tappet.lang.languages.reader import GraphReader
 from tappet.lang.languages.reader import Lowering
 
 OPERATORS = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "GT": ">", "LT": "<", "EQ": "="}
@@ -35,7 +36,7 @@ class Link(ast.Node):
     statements: list[ast.Stmt] = field(default_factory=list)
 
 
-class ChainReader(DrawnReader):
+class ChainReader(DrawnReader, GraphReader):
     """Reads chains."""
 
     name: ClassVar[str] = "CHAIN"

@@ -13,7 +13,7 @@ from tappet.iec.words import OBJECT_HEADS
 from tappet.lang import ast
 from tappet.lang.diagnostics import report
 from tappet.lang.languages.il.reader import read_value
-from tappet.lang.languages.reader import TextReader
+from tappet.lang.languages.reader import GraphReader, TextReader
 from tappet.lang.languages.sfc.chart import QUALIFIERS, ROLES, TIMED, Association, Chart, Step, Transition
 from tappet.lang.languages.sfc.translate import translate
 from tappet.lang.lexer import END, ID, INT
@@ -31,7 +31,7 @@ _LIBRARY: Final = "IecSfc"
 _TIMES: Final = ("MIN_TIME", "MAX_TIME")
 
 
-class SequentialFunctionChart(TextReader):
+class SequentialFunctionChart(TextReader, GraphReader):
     """Steps and transitions are collected in a chart, which is lowered as a whole."""
 
     name: ClassVar[str] = "SFC"
