@@ -5,13 +5,13 @@ from dataclasses import asdict
 import pytest
 
 from tappet.iec.places import BodyText, Place, Span
+from tappet.iec.source import Source
 from tappet.iec.task import Watchdog
 from tappet.project import edit
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.library_reference import LibraryReference, ParameterValue
 from tappet.project.model import Project, ProjectObject
 from tappet.project.new_project import new_project
-from tappet.project.source_text import SourceText
 from tappet.project.sources import (
     application_sources,
     libraries,
@@ -54,7 +54,7 @@ def machine() -> Project:
     return project
 
 
-def texts(project: Project) -> dict[str, SourceText]:
+def texts(project: Project) -> dict[str, Source]:
     return {source.uri: source for source in application_sources(project, at(project, APP).id)}
 
 
@@ -86,7 +86,7 @@ def test_texts_of_an_application() -> None:
     assert (found["Shared"].scope, found["Shared"].name) == ("pous", "Shared")
 
 
-def at_line(text: SourceText, line: int) -> Place:
+def at_line(text: Source, line: int) -> Place:
     return text.map.place(Span(line, 0, line, 0))
 
 
@@ -103,15 +103,15 @@ def test_every_line_finds_its_editor() -> None:
     assert source_of(project, setter.id) == speed
     assert source_of(project, at(project, APP).id) is None
     reset = found["FB_Motor.Reset"]
-    first = Place(reset.object_id, "implementation", Span(0, 0, 0, 0))
+    first = Place(reset.segments[0].object_id, "implementation", Span(0, 0, 0, 0))
     assert at_line(reset, 0) == at_line(reset, 1) == first
-    assert at_line(reset, 2) == Place(reset.object_id, "implementation", Span(0, 12, 0, 12))
+    assert at_line(reset, 2) == Place(reset.segments[0].object_id, "implementation", Span(0, 12, 0, 12))
 
 
 def test_one_text_of_each_object_is_that_of_its_application() -> None:
     project = machine()
     for source in texts(project).values():
-        assert source_of(project, source.object_id) == source
+        assert source_of(project, source.segments[0].object_id) == source
 
 
 def test_an_interface_is_a_frame_around_its_methods() -> None:
@@ -133,7 +133,7 @@ def test_a_child_application_sees_its_parent() -> None:
     project, own = edit.add_object(project, child.id, "pou", "PLC_PRG")
     found = application_sources(project, child.id)
     assert [source.uri for source in found] == ["PLC_PRG", "Limits"]
-    assert found[0].object_id == own.id
+    assert found[0].segments[0].object_id == own.id
     assert [source.uri for source in application_sources(project, parent.id)] == ["PLC_PRG", "Limits"]
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from tappet.codegen.generate import Generator
 from tappet.iec.places import Segment, SourceMap
-from tappet.project.source_text import SourceText
+from tappet.iec.source import Source
 from tappet.server.builds.builder import Application, Builder
 from tappet.server.builds.packages import KEEP, PackageStore
 from tappet.server.builds.source_places import SourcePlaces
@@ -23,19 +23,8 @@ FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))
 
 
 def application(text: str, id: str = "a") -> Application:
-    source = SourceText(
-        "PLC_PRG",
-        text,
-        "application",
-        None,
-        None,
-        None,
-        None,
-        0,
-        (),
-        SourceMap((Segment(0, "o", "declaration"),)),
-        "o",
-    )
+    segments = (Segment(0, "o", "declaration"),)
+    source = Source("PLC_PRG", text, map=SourceMap(segments))
     return Application("p", id, "Application", (source,), (), (), {"o": "PLC_PRG", id: "Application"})
 
 

@@ -7,18 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tappet.iec.places import Segment, SourceMap
-from tappet.project.source_text import SourceText
+from tappet.iec.source import Scope, Source
 from tappet.server.builds.source_places import SourcePlaces, shown_line
 
 
-def _source(uri: str, scope: str, object_id: str) -> SourceText:
+def _source(uri: str, scope: Scope, object_id: str) -> Source:
     segments = (Segment(0, object_id, "declaration"), Segment(4, object_id, "implementation"))
-    return SourceText(uri, "", scope, None, None, None, None, 4, (), SourceMap(segments), object_id)
+    return Source(uri, "", scope, body_line=4, map=SourceMap(segments))
 
 
-PLACES = SourcePlaces.of(
-    "p", (_source("A", "application", "mine"), _source("A", "pous", "hidden")), {"mine": "Application/A"}
-)
+SOURCES = (_source("A", Scope.APPLICATION, "mine"), _source("A", Scope.POUS, "hidden"))
+PLACES = SourcePlaces.of("p", SOURCES, {"mine": "Application/A"})
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from tappet import libraries
 from tappet.cli.errors import UsageError
-from tappet.codegen.build import BuildOptions, LibraryReference, as_source
+from tappet.codegen.build import BuildOptions, LibraryReference
 from tappet.iec.task import Task
 from tappet.lang import ast
 from tappet.lang.parser import parse
@@ -82,7 +82,7 @@ def project_applications(project: Project) -> list[ApplicationInput]:
     return [
         ApplicationInput(
             application.name,
-            tuple(as_source(text) for text in project_sources.application_sources(project, application.id)),
+            tuple(project_sources.application_sources(project, application.id)),
             tuple(project_sources.tasks(project, application.id)),
             BuildOptions(
                 application.name,

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Protocol
 
 from tappet.codegen.generate import Generated, GenerateOptions, Generator
 from tappet.codegen.identity import program_digest, text_digest
@@ -32,7 +31,7 @@ from tappet.lang.conditional import ParseOptions
 from tappet.lang.deep_trees import deep_recursion
 from tappet.lang.diagnostics import Diagnostic, report, with_elements
 from tappet.lang.parser import ParseResult
-from tappet.lang.source import NOWHERE, BodyText, Scope, Source, SourceMap, Span
+from tappet.lang.source import NOWHERE, Source, Span
 from tappet.libraries import resolve
 from tappet.project.library_reference import LibraryReference
 
@@ -90,31 +89,6 @@ class BuildResult:
     def ok(self) -> bool:
         """Whether a package was made."""
         return self.package is not None
-
-
-class SourceLike(Protocol):
-    """What `project.sources` hands over: the fields of `lang.source.Source`."""
-
-    @property
-    def uri(self) -> str: ...
-    @property
-    def text(self) -> str: ...
-    @property
-    def scope(self) -> str: ...
-    @property
-    def owner(self) -> str | None: ...
-    @property
-    def name(self) -> str | None: ...
-    @property
-    def library(self) -> str | None: ...
-    @property
-    def namespace(self) -> str | None: ...
-    @property
-    def body_line(self) -> int: ...
-    @property
-    def bodies(self) -> tuple[BodyText, ...]: ...
-    @property
-    def map(self) -> SourceMap: ...
 
 
 class BuildSession:
@@ -179,26 +153,8 @@ class BuildSession:
         return results, libraries
 
 
-def as_source(text: Source | SourceLike) -> Source:
-    """A text of the project model as the compiler's own type."""
-    if isinstance(text, Source):
-        return text
-    return Source(
-        text.uri,
-        text.text,
-        Scope(text.scope),
-        text.owner,
-        text.name,
-        text.library,
-        text.namespace,
-        text.body_line,
-        text.bodies,
-        map=text.map,
-    )
-
-
 def build_application(
-    sources: Iterable[Source | SourceLike],
+    sources: Iterable[Source],
     tasks: Iterable[Task] = (),
     options: BuildOptions | None = None,
     previous: CodePackage | None = None,
@@ -210,7 +166,7 @@ def build_application(
     change over without stopping.
     """
     options = options or BuildOptions()
-    texts, task_list = [as_source(text) for text in sources], list(tasks)
+    texts, task_list = list(sources), list(tasks)
     with deep_recursion():
         result = _Build(options, previous, session or BuildSession()).run(texts, task_list)
         if options.once and any(d.severity == "error" for d in result.diagnostics):

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from tappet.codegen.build import BuildOptions, BuildSession, SourceLike, build_application
+from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.iec.task import Task
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 
 
 def check_application(
-    sources: Iterable[Source | SourceLike],
+    sources: Iterable[Source],
     tasks: Iterable[Task] = (),
     options: BuildOptions | None = None,
     session: BuildSession | None = None,

@@ -11,12 +11,12 @@ from dataclasses import asdict
 from typing import Any
 
 from tappet.iec.sections import end_keyword
+from tappet.iec.source import Source
 from tappet.project.errors import ProjectError
 from tappet.project.library_reference import LibraryReference
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.placement import in_scope_of
-from tappet.project.source_text import SourceText
 from tappet.project.sources import compiled, libraries, references_of, source_of
 
 
@@ -42,7 +42,7 @@ def library_texts(project: Project) -> dict[str, str]:
     return texts
 
 
-def library_sources(project: Project) -> list[SourceText]:
+def library_sources(project: Project) -> list[Source]:
     """What `library_texts` is made of, as a build takes it: each line knows its object."""
     found = []
     for item in _objects(project):

@@ -1,11 +1,10 @@
-"""One text for the compiler, which knows the object and part that each of its lines comes from.
+"""Writes a text for the compiler, which knows the object and part that each of its lines comes from.
 
 Kinds of objects write their text with a `SourceWriter`; `sources` says which texts an application has.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from msgspec.structs import replace
@@ -18,25 +17,6 @@ from tappet.project.data import BodyData
 from tappet.project.model import ProjectObject
 
 Part = Literal["declaration", "implementation"]
-
-
-@dataclass(frozen=True, slots=True)
-class SourceText:
-    """One text for the compiler; all fields before `object_id` are those of `lang.source.Source`."""
-
-    uri: str
-    text: str
-    scope: Literal["application", "pous"]
-    owner: str | None
-    name: str | None
-    library: str | None
-    namespace: str | None
-    body_line: int
-    bodies: tuple[BodyText, ...]
-    """Where bodies do not tell their language by their first words, or are drawn."""
-    map: SourceMap
-    """What the lines show."""
-    object_id: str
 
 
 class SourceWriter:

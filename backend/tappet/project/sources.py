@@ -1,14 +1,14 @@
 """What the compiler gets of a project: the texts of an application, its tasks and its libraries.
 
-What an object gives, its kind says (`object_kind.Compiled`). The texts have the fields of
-`lang.source.Source`; this room does not import that one.
+What an object gives, its kind says (`object_kind.Compiled`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any, Literal
+from typing import Any
 
+from tappet.iec.source import Scope, Source
 from tappet.iec.task import Task
 from tappet.project.data import UnknownData
 from tappet.project.durations import duration_ns
@@ -23,12 +23,12 @@ from tappet.project.naming import name_key
 from tappet.project.object_kind import Compiled
 from tappet.project.objects import changed_object
 from tappet.project.placement import in_scope_of, owner_of
-from tappet.project.source_text import SourceText, SourceWriter
+from tappet.project.source_text import SourceWriter
 
 _NOTHING: Compiled[Any] = Compiled()
 
 
-def application_sources(project: Project, application_id: str) -> list[SourceText]:
+def application_sources(project: Project, application_id: str) -> list[Source]:
     """The texts of an application: its own, those of the applications above it, and those of the POUs view.
     What is excluded from the build is not among them.
 
@@ -36,15 +36,15 @@ def application_sources(project: Project, application_id: str) -> list[SourceTex
     the POUs view is left to the compiler, which warns.
     Raises UnknownObjectError when the id is no application.
     """
-    texts: list[SourceText] = []
+    texts: list[Source] = []
     hidden: set[str] = set()
     for application in _with_parents(project, application_id):
         own = [item for item in in_scope_of(project, application) if not item.excluded]
         visible = [item for item in own if name_key(item.name) not in hidden]
-        texts += _texts(project, visible, "application")
+        texts += _texts(project, visible, Scope.APPLICATION)
         hidden.update(name_key(item.name) for item in own if item.kind != FOLDER)
     shared = (item for item in in_scope_of(project, None) if not item.excluded)
-    texts += _texts(project, shared, "pous")
+    texts += _texts(project, shared, Scope.POUS)
     return texts
 
 
@@ -116,7 +116,7 @@ def static_analysis(project: Project, application_id: str) -> StaticAnalysisData
     return chosen if chosen.with_build else NO_RULES
 
 
-def source_of(project: Project, object_id: str) -> SourceText | None:
+def source_of(project: Project, object_id: str) -> Source | None:
     """The text an object is compiled in, None for objects without code; an accessor is in its property's."""
     item = project.get(object_id)
     if compiled(item).in_parent and item.parent_id is not None:
@@ -124,7 +124,7 @@ def source_of(project: Project, object_id: str) -> SourceText | None:
     in_application = any(above.kind == APPLICATION for above in project.ancestors(item.id))
     owner = owner_of(project, item.parent_id)
     owner_name = owner.name if owner is not None and compiled(owner).members != "none" else None
-    return _text(project, item, "application" if in_application else "pous", owner_name)
+    return _text(project, item, Scope.APPLICATION if in_application else Scope.POUS, owner_name)
 
 
 def _application(project: Project, application_id: str) -> ProjectObject:
@@ -159,9 +159,7 @@ def _own(project: Project, application: ProjectObject) -> Iterator[ProjectObject
             waiting += reversed(project.children(item.id))
 
 
-def _texts(
-    project: Project, items: Iterable[ProjectObject], scope: Literal["application", "pous"]
-) -> Iterator[SourceText]:
+def _texts(project: Project, items: Iterable[ProjectObject], scope: Scope) -> Iterator[Source]:
     for item in items:
         text = _text(project, item, scope, None)
         if text is None:
@@ -174,24 +172,19 @@ def _texts(
                     yield child_text
 
 
-def _text(
-    project: Project, item: ProjectObject, scope: Literal["application", "pous"], owner: str | None
-) -> SourceText | None:
+def _text(project: Project, item: ProjectObject, scope: Scope, owner: str | None) -> Source | None:
     write = compiled(item).source
     if write is None:
         return None
     writer = SourceWriter()
     write(project, item, writer)
-    return SourceText(
+    return Source(
         uri=f"{owner}.{item.name}" if owner else item.name,
         text=writer.text(),
         scope=scope,
         owner=owner,
         name=writer.name,
-        library=None,
-        namespace=None,
         body_line=writer.body_line,
         bodies=writer.bodies(),
         map=writer.map(),
-        object_id=item.id,
     )

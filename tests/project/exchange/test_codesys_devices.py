@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from tappet.codegen.build import as_source
 from tappet.lang.analysis import AnalysisOptions, analyse
 from tappet.lang.parser import parse
 from tappet.project.exchange import Imported, import_files
@@ -34,7 +33,7 @@ def errors(project: Project) -> list[str]:
     (application,) = project.applications()
     units, found = [], []
     for text in application_sources(project, application.id):
-        parsed = parse(as_source(text))
+        parsed = parse(text)
         found += parsed.diagnostics
         units.append(parsed.unit)
     found += analyse(units, AnalysisOptions()).diagnostics

@@ -17,13 +17,13 @@ import msgpack
 from msgspec import to_builtins
 
 from tappet.iec.places import Span
+from tappet.iec.source import Scope, Source
 from tappet.iec.task import Task
 from tappet.project import sources as texts
 from tappet.project.kinds.application import NO_RULES, StaticAnalysisData
 from tappet.project.library_reference import LibraryReference
 from tappet.project.library_texts import library_requirements, library_sources
 from tappet.project.model import Project
-from tappet.project.source_text import SourceText
 from tappet.server.builds.shapes import BuildReport, Diagnostic, Part, Severity
 from tappet.server.builds.worker import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
 from tappet.server.problems import Problem
@@ -47,7 +47,7 @@ class Application:
     project_id: str
     application_id: str
     name: str
-    sources: tuple[SourceText, ...]
+    sources: tuple[Source, ...]
     tasks: tuple[Task, ...]
     libraries: tuple[LibraryReference, ...]
     paths: dict[str, str]
@@ -60,7 +60,7 @@ class Application:
         """Raises UnknownObjectError when the id is no application."""
         found = tuple(texts.application_sources(project, application_id))
         tasks = tuple(texts.tasks(project, application_id))
-        ids = {segment.object_id for source in found for segment in source.map.segments}
+        ids = {segment.object_id for source in found for segment in source.segments}
         ids |= {task.object_id for task in tasks if task.object_id} | {application_id}
         ids |= {manager.id for manager in texts.objects_with_libraries(project, application_id)}
         return cls(
@@ -78,7 +78,7 @@ class Application:
     def library(cls, project_id: str, project: Project) -> Application:
         """What a project is as a library: all its code but programs, in no application."""
         found = tuple(library_sources(project))
-        ids = {segment.object_id for source in found for segment in source.map.segments}
+        ids = {segment.object_id for source in found for segment in source.segments}
         ids |= {item.id for item in project.walk() if texts.compiled(item).libraries is not None}
         return cls(
             project_id,
@@ -195,7 +195,7 @@ class Builder:
         order = BuildOrder(
             key=f"{key}/check" if check_only else key,
             application=application.name,
-            sources=tuple(_source_fields(source) for source in application.sources),
+            sources=tuple(to_builtins(source) for source in application.sources),
             tasks=tuple(asdict(task) for task in application.tasks),
             libraries=application.libraries,
             previous=previous[1] if previous else None,
@@ -311,21 +311,15 @@ def _crashed(error: BuildCrashedError) -> Problem:
     return Problem(500, "compiler-crashed", f"The compiler failed: {error}.")
 
 
-def _source_fields(source: SourceText) -> dict[str, Any]:
-    names = ("uri", "text", "scope", "owner", "name", "library", "namespace", "body_line")
-    fields = {name: getattr(source, name) for name in names}
-    return fields | {"bodies": to_builtins(source.bodies), "map": to_builtins(source.map)}
-
-
 def _fingerprint(order: BuildOrder, previous_code: str | None) -> str:
     content = asdict(order) | {"previous": previous_code}
     return hashlib.blake2b(msgpack.packb(content), digest_size=16).hexdigest()
 
 
 def _report(application: Application, outcome: dict[str, Any]) -> BuildReport:
-    by_uri: dict[str, SourceText] = {}
+    by_uri: dict[str, Source] = {}
     for source in application.sources:
-        if source.uri.upper() not in by_uri or source.scope == "application":
+        if source.uri.upper() not in by_uri or source.scope is Scope.APPLICATION:
             by_uri[source.uri.upper()] = source
     return BuildReport(
         ok=outcome["package"] is not None,
@@ -338,14 +332,14 @@ def _report(application: Application, outcome: dict[str, Any]) -> BuildReport:
     )
 
 
-def _diagnostic(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
+def _diagnostic(application: Application, by_uri: dict[str, Source], item: dict[str, Any]) -> Diagnostic:
     """The message with its place in the project; lines and columns then count from 1."""
     found = _placed(application, by_uri, item)
     found.keep_facts(item.get("facts", {}))
     return found
 
 
-def _placed(application: Application, by_uri: dict[str, SourceText], item: dict[str, Any]) -> Diagnostic:
+def _placed(application: Application, by_uri: dict[str, Source], item: dict[str, Any]) -> Diagnostic:
     source = by_uri.get(item["uri"].upper())
     fields: dict[str, Any] = {
         "code": item["code"],
@@ -353,7 +347,7 @@ def _placed(application: Application, by_uri: dict[str, SourceText], item: dict[
         "message": item["message"],
         "advice": item["advice"] or None,
     }
-    if source is None:
+    if source is None or source.map is None:
         return Diagnostic(**fields, **_place_without_text(application, item))
     found = source.map.place(Span(item["line"], item["column"], item["end_line"], item["end_column"]))
     return Diagnostic(

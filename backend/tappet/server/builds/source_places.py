@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import msgspec
 
 from tappet.iec.places import Place, SourceMap, Span
-from tappet.project.source_text import SourceText
+from tappet.iec.source import Scope, Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +32,10 @@ class SourcePlaces(msgspec.Struct, frozen=True):
     """Path in the tree by object id."""
 
     @classmethod
-    def of(cls, project_id: str, sources: tuple[SourceText, ...], paths: Mapping[str, str]) -> SourcePlaces:
+    def of(cls, project_id: str, sources: tuple[Source, ...], paths: Mapping[str, str]) -> SourcePlaces:
         """An object of the application hides one of the POUs view with the same name."""
-        ordered = sorted(sources, key=lambda source: source.scope == "application")
-        return cls(project_id, {source.uri.upper(): source.map for source in ordered}, dict(paths))
+        ordered = sorted(sources, key=lambda source: source.scope is Scope.APPLICATION)
+        return cls(project_id, {s.uri.upper(): s.map for s in ordered if s.map is not None}, dict(paths))
 
     def place(self, uri: str, span: Span) -> Place | None:
         """Where a range of a text comes from; None for library texts."""

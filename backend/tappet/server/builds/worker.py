@@ -24,10 +24,10 @@ from msgspec import convert, structs
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.codegen.package import CodePackage
-from tappet.iec.task import Task, Watchdog
+from tappet.iec.task import Task
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
-from tappet.lang.source import BodyText, Scope, Source, SourceMap
+from tappet.lang.source import Source
 from tappet.project.library_reference import LibraryReference
 
 LENGTH = struct.Struct("<Q")
@@ -54,7 +54,7 @@ class BuildOrder:
     """Names the application; builds of one key share their caches."""
     application: str
     sources: tuple[dict[str, Any], ...]
-    """Fields of `lang.source.Source`."""
+    """Fields of `iec.source.Source`."""
     tasks: tuple[dict[str, Any], ...]
     """Fields of `iec.task.Task`."""
     libraries: tuple[LibraryReference, ...]
@@ -126,8 +126,8 @@ class Compiler:
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
             check_only=order["check_only"],
         )
-        sources = [_source(fields) for fields in order["sources"]]
-        tasks = [_task(task) for task in order["tasks"]]
+        sources = convert(order["sources"], list[Source])
+        tasks = convert(order["tasks"], list[Task])
         result = build_application(sources, tasks, options, previous, session)
         self._partial = result.partial
         package = result.package
@@ -162,16 +162,6 @@ class Compiler:
         return self._previous[1]
 
 
-def _source(fields: dict[str, Any]) -> Source:
-    """A text as the order holds it."""
-    converted = {
-        "scope": Scope(fields["scope"]),
-        "bodies": convert(fields.get("bodies", ()), tuple[BodyText, ...]),
-        "map": convert(fields.get("map"), SourceMap | None),
-    }
-    return Source(**{**fields, **converted})
-
-
 def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
     span = diagnostic.span
     return {
@@ -186,11 +176,6 @@ def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
         "end_line": span.end_line,
         "end_column": span.end_column,
     }
-
-
-def _task(fields: dict[str, Any]) -> Task:
-    watchdog = Watchdog(**fields["watchdog"]) if fields["watchdog"] else None
-    return Task(**{**fields, "watchdog": watchdog, "programs": tuple(fields["programs"])})
 
 
 def read_frame(stream: BinaryIO) -> dict[str, Any] | None:

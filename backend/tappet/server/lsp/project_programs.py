@@ -8,12 +8,11 @@ from dataclasses import replace
 from msgspec import structs
 
 from tappet import libraries
-from tappet.codegen.build import as_source
+from tappet.iec.source import Source
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.services.documents import Program, SourceMap, Text, library_text
 from tappet.project import sources as project_sources
 from tappet.project.model import Project, ProjectObject
-from tappet.project.source_text import SourceText
 
 PARTS = ("declaration", "implementation")
 
@@ -99,7 +98,7 @@ class ProjectPrograms:
     def _without_application(self, project: Project) -> Program:
         return Program(project.name, self._texts(project, _objects_with_text(project)))
 
-    def _texts(self, project: Project, found: Iterator[SourceText] | list[SourceText]) -> list[Text]:
+    def _texts(self, project: Project, found: Iterator[Source] | list[Source]) -> list[Text]:
         texts: list[Text] = []
         seen: set[str] = set()
         for text in found:
@@ -110,16 +109,16 @@ class ProjectPrograms:
             texts.append(self._text(project, text, uri))
         return texts
 
-    def _text(self, project: Project, text: SourceText, uri: str) -> Text:
-        source = replace(as_source(text), uri=uri, map=None)
+    def _text(self, project: Project, text: Source, uri: str) -> Text:
+        source = replace(text, uri=uri, map=None)
         segments = (
             structs.replace(segment, object_id=object_uri(self.project_id, segment.object_id))
-            for segment in text.map.segments
+            for segment in text.segments
         )
         return Text(source, SourceMap(tuple(segments)))
 
 
-def _objects_with_text(project: Project) -> Iterator[SourceText]:
+def _objects_with_text(project: Project) -> Iterator[Source]:
     """Every object of a project that has no application."""
     for item in project.walk():
         if not project_sources.compiled(item).in_parent:

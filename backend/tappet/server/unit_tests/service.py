@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Sequence
 from contextlib import suppress
 
-from tappet.codegen.build import BuildOptions, as_source
+from tappet.codegen.build import BuildOptions
 from tappet.runtime.unit_tests import process
 from tappet.runtime.unit_tests.attempts import Attempts
 from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome, TestOutcome
@@ -95,9 +95,8 @@ class _Runner:
 
 def _order(application: Application, test_filter: str, only: Sequence[str]) -> bytes:
     tasks = list(application.tasks)
-    sources = [as_source(text) for text in application.sources]
     options = BuildOptions(application.name, libraries=application.libraries)
-    return process.order(sources, tasks, options, test_filter=test_filter, only=only)
+    return process.order(application.sources, tasks, options, test_filter=test_filter, only=only)
 
 
 def _reply(report: Report, application: Application) -> TestReport:

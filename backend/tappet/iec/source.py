@@ -1,0 +1,66 @@
+"""Texts as the compiler reads them, from the project, the folder or the library that hands them over."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from tappet.iec.places import BodyText, Segment, SourceMap
+
+
+class Scope(StrEnum):
+    """Where an object lives; an inner scope hides an outer one (spec CON-06..CON-09)."""
+
+    APPLICATION = "application"
+    POUS = "pous"
+    LIBRARY = "library"
+
+
+@dataclass(frozen=True, slots=True)
+class GivenValue:
+    """The value that a library reference gives to a parameter of the list that a text declares."""
+
+    name: str
+    """The parameter."""
+    value: str
+    """An expression as written."""
+    place: str
+    """Where it stands, for messages: the path of the library manager."""
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """One text the compiler reads: a whole POU, DUT, GVL, or a method, property or action of a POU.
+
+    `uri` names the text in diagnostics: a file path, or an object path such as `FB_Motor.Start`.
+    """
+
+    uri: str
+    text: str
+    scope: Scope = Scope.APPLICATION
+    owner: str | None = None
+    """Name of the POU a METHOD / PROPERTY / ACTION text belongs to, None for whole objects."""
+    name: str | None = None
+    """Name of the object where the text carries none: a GVL, or an action given as bare body."""
+    library: str | None = None
+    """Name of the library the text comes from (scope LIBRARY)."""
+    namespace: str | None = None
+    """Namespace under which the library is referenced; its objects are visible with and without it."""
+    body_line: int = 0
+    """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one
+    text."""
+    bodies: tuple[BodyText, ...] = ()
+    """Where bodies do not tell their language by their first words, or are drawn, in order of the lines."""
+    uses: tuple[tuple[str, str], ...] = ()
+    """Libraries that the text's library needs: the name it gives to one, and the namespace that is here."""
+    private: bool = False
+    """Only libraries that use this one see it: the application has another version of it."""
+    given: tuple[GivenValue, ...] = ()
+    """Values that the reference to the library gives to parameters of this list, in place of its own."""
+    map: SourceMap | None = field(default=None, compare=False)
+    """Which parts of which objects the lines show; None for a text that is a document of its own."""
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """The parts of objects that the lines show; none for a text that is a document of its own."""
+        return () if self.map is None else self.map.segments
