@@ -320,21 +320,28 @@ async def test_an_idle_process_ends_and_another_one_takes_over(tmp_path: Path) -
         assert here.process().pid != pid
 
 
-async def test_a_request_sees_what_was_stored_before_it(tmp_path: Path) -> None:
-    """A table asks for the operands of an object that was added just before it was opened."""
+@pytest.mark.parametrize("leaves", [False, True], ids=["stays", "comes back"])
+async def test_a_request_sees_what_was_stored_before_it(tmp_path: Path, leaves: bool) -> None:
+    """A table requests the operands of an object that was added just before it was opened, also where no
+    browser had the project open meanwhile."""
     async with site(tmp_path) as here:
         browser = await here.browser()
         application = here.store.load(here.project).applications()[0].id
         for number in range(5):
             name = f"Lamp{number}"
+            if leaves:
+                browser.close()
             head = f"PROGRAM {name}\nVAR\n    bOn AT %QX{number}.3 : BOOL;\nEND_VAR"
             texts = {"declaration": head, "implementation": ""}
             add = asyncio.to_thread(
                 here.store.add, here.project, "tester", application, "pou", name, data=texts
             )
             body = part_uri(here.project, (await add).id, "implementation")
+            if leaves:
+                browser = await here.browser()
             order = {"textDocument": {"uri": body}, "operands": ["bOn"]}
             found = await browser.answer("tappet/operandFacts", order)
+            assert "error" not in found
             assert found["result"][0]["address"] == f"%QX{number}.3"
 
 

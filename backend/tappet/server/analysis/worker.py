@@ -102,8 +102,7 @@ class Worker:
         assert self._programs is not None
         assert self._analysis is not None
         self._programs.changed()
-        if self._sessions:
-            self._analysis.stored_texts_changed()
+        self._analysis.stored_texts_changed()
 
     def _attach(self, order: Attach) -> None:
         assert self._analysis is not None

@@ -121,10 +121,12 @@ class ProjectAnalysis:
     def refresh(self) -> None:
         """What is stored has changed. Call in the thread."""
         self.workspace.refresh()
-        self.schedule_from_thread(True)
+        if self._sessions:
+            self.schedule_from_thread(True)
 
     def stored_texts_changed(self) -> None:
-        """Somebody else has changed what is stored. Call in the event loop."""
+        """Somebody else has changed what is stored: the next request sees it, also that of a session to
+        come. Call in the event loop."""
         self.thread.submit(self.refresh)
 
     async def close(self) -> None:
