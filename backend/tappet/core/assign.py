@@ -267,7 +267,7 @@ def assign_value(b: Body, e: ast.AssignExpr) -> ir.Expr:
             type_ = declared_type(target)
             local = ir.Place(b.temp(scalar, once=False))
             b.emit(ir.Store(local, b.value_as(e.value, type_)))
-            assign(b, ":=", target, _held(b, local, target))
+            assign(b, ":=", target, held(b, local, target))
             return ir.Sequence(scalar, statements, ir.Load(scalar, local))
         if e.op == ":=" and not _is_bit(target):
             local = ir.Place(b.temp(scalar))
@@ -288,7 +288,7 @@ def assign_place(b: Body, e: ast.AssignExpr) -> ir.Place:
             assert type_ is not None
             local = ir.Place(b.space(type_.size, type_.align))
             copy_value(b, local, type_, e.value)
-            assign(b, e.op, e.target, _held(b, local, e.target))
+            assign(b, e.op, e.target, held(b, local, e.target))
             address = places.address_of(local)
         else:
             assign(b, e.op, e.target, e.value)
@@ -311,7 +311,7 @@ def _calls_setter(target: ast.Expr) -> bool:
     )
 
 
-def _held(b: Body, local: ir.Place, target: ast.Expr) -> ast.Expr:
+def held(b: Body, local: ir.Place, target: ast.Expr) -> ast.Expr:
     """What lies at `local`, of the type of a target."""
     slot = -1 - len(b.held)  # those of the text count from 1
     b.held[slot] = local

@@ -17,9 +17,6 @@ _LIBM = {
 }  # fmt: skip
 
 
-_ANY_INTERFACE = t.Interface("")
-
-
 def arguments(e: ast.Call) -> list[ast.Expr]:
     """The operands."""
     return [a.value for a in e.args if a.value is not None]
@@ -208,32 +205,6 @@ def _bound(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     return ir.Convert(ir.I32, limit)
 
 
-# -- interfaces --------------------------------------------------------------------------------------
-
-
-def _query_interface(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
-    source, destination = arguments(e)
-    instance = b.temp(ir.PTR)
-    read = ir.Load(ir.PTR, ir.Place(instance))
-    body: list[ir.Stmt] = [ir.Store(ir.Place(instance), b.value_as(source, _ANY_INTERFACE))]
-    slot = places.freeze(b, b.place(destination), body)
-    b.touch(slot)
-    if symbol.name == "__QUERYPOINTER":
-        body.append(ir.Store(slot, read))
-        return ir.Sequence(ir.BOOL, body, ir.Compare(ir.BOOL, "ne", read, NULL))
-    assert isinstance(destination.type, t.Interface)
-    table = b.program.implementers(destination.type)
-    number = ir.Load(ir.U32, ir.Place(ir.Indirect(read)))
-    entry = ir.Place(ir.Data(table), 0, (ir.Subscript(number, 0, 1 << 31, 1, checked=False),))
-    known = ir.Compare(ir.BOOL, "ne", ir.Load(ir.U8, entry), ir.Const(ir.U8, 0))
-    found = b.temp(ir.BOOL)
-    result = ir.Load(ir.BOOL, ir.Place(found))
-    valid = ir.ShortCircuit(ir.BOOL, "and", ir.Compare(ir.BOOL, "ne", read, NULL), known)
-    body.append(ir.Store(ir.Place(found), valid))
-    body.append(ir.Store(slot, ir.Select(ir.PTR, result, read, NULL)))
-    return ir.Sequence(ir.BOOL, body, result)
-
-
 # -- system sources ---------------------------------------------------------------------------------
 
 
@@ -328,8 +299,6 @@ BUILTIN_VALUES.update(
         "UPPER_BOUND": _bound,
         "__ISVALIDREF": _isvalidref,
         "__NEW": heap.new,
-        "__QUERYINTERFACE": _query_interface,
-        "__QUERYPOINTER": _query_interface,
         "__CALL": _call_address,
         "__SETJMP": _setjmp,
         "__FRAME_ADDRESS": _frame_address,

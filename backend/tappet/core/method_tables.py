@@ -7,7 +7,6 @@ from collections import defaultdict
 from tappet.core import ir
 from tappet.core.program import Program
 from tappet.core.virtual_calls import fits
-from tappet.lang.analysis.conversion import implements
 from tappet.lang.symbols import PouSymbol
 
 
@@ -58,9 +57,9 @@ def _fill_virtual(program: Program) -> None:
 
 def _fill_queries(program: Program) -> None:
     highest = max(program.type_ids.values(), default=0)
-    for symbol, interface in program.queried.items():
+    for symbol, wanted in program.queried.items():
         table = bytearray(highest + 1)
         for name, block in program.blocks.items():
-            if implements(block, interface):
+            if fits(block, wanted):
                 table[program.type_ids[name]] = 1
         program.module.constants[symbol].data = bytes(table)

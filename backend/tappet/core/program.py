@@ -69,8 +69,8 @@ class Program:
     """Bytes of the areas I, Q, M that declared variables and configured addresses reach to."""
     library: dict[str, PouSymbol] = field(default_factory=dict)
     """Functions of the conversion library by upper-case name."""
-    queried: dict[str, t.Interface] = field(default_factory=dict)
-    """Constants of `implementers`, filled at the end."""
+    queried: dict[str, t.FunctionBlock | t.Interface] = field(default_factory=dict)
+    """Constants of `fitting`, filled at the end."""
     initialiser: object = None
     """`templates.Initialiser`, made on first use."""
     initial_functions: dict[int, str] = field(default_factory=dict)
@@ -207,12 +207,16 @@ class Program:
         self.blocks.setdefault(name, block)
         return self.type_ids[name]
 
-    def implementers(self, interface: t.Interface) -> str:
-        """Constant with a byte per type number: 1 for function blocks that implement `interface`."""
-        symbol = f"tappet.implements.{interface.name.upper()}"
-        if symbol not in self.module.constants:
+    def fitting(self, wanted: t.FunctionBlock | t.Interface) -> str:
+        """Constant with a byte per type number: 1 for function blocks that are, derive from or implement
+        `wanted`."""
+        name = self.block_name(wanted) if isinstance(wanted, t.FunctionBlock) else wanted.name.upper()
+        symbol = f"tappet.fitting.{name}"
+        while self.queried.get(symbol, wanted) is not wanted:
+            symbol += "'"
+        if symbol not in self.queried:
             self.module.constants[symbol] = ir.Constant(symbol, b"")
-            self.queried[symbol] = interface
+            self.queried[symbol] = wanted
         return symbol
 
     def expose(self, function: ir.Function, place: ir.Place, type_: t.Type | None) -> None:

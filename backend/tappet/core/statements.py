@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from tappet.core import assign, calls, guarded, ir, places
+from tappet.core import assign, calls, guarded, ir, places, type_queries
 from tappet.core.body import PLACES, VALUES, Body
 from tappet.core.guard import Guard
 from tappet.core.scalars import convert, require_scalar, scalar_of
@@ -41,7 +41,10 @@ def _loop_body(b: Body, statements: Sequence[ast.Stmt]) -> list[ir.Stmt]:
 
 
 def _assign(b: Body, s: ast.Assign) -> None:
-    assign.assign(b, s.op, s.target, s.value)
+    if s.op == "?=":
+        type_queries.attempt(b, s.target, s.value)
+    else:
+        assign.assign(b, s.op, s.target, s.value)
 
 
 def _call(b: Body, s: ast.CallStmt) -> None:

@@ -60,7 +60,12 @@ class StatementParser(StatementRecovery):
         failed_before = self.failed_at
         messages_before = len(self.diagnostics)
         target = self.binary(0)
-        operator = self.assignment_operator() if kinds[self.i] == ":=" or kinds[self.i] is ID else None
+        operator = None
+        if kinds[self.i] == ":=" or kinds[self.i] is ID:
+            operator = self.assignment_operator()
+        elif kinds[self.i] == "?=":
+            operator = "?="
+            self.i += 1
         target = self.bounded(target, start)
         if operator is not None:
             value = self.expression()
@@ -69,8 +74,6 @@ class StatementParser(StatementRecovery):
                 return ast.Assign(span=self.span_from(start), op=operator, target=target, value=value)
             result: ast.Stmt = ast.Assign(span=self.span_from(start), op=operator, target=target, value=value)
         else:
-            if kinds[self.i] == "?=":
-                target = self._attempt(start, target)
             if isinstance(target, ast.Call):
                 result = ast.CallStmt(span=target.span, call=target)
             elif self.i == start:
@@ -80,14 +83,6 @@ class StatementParser(StatementRecovery):
         self.end_of_statement(messages_before)
         result.span = self.span_from(start)
         return result
-
-    def _attempt(self, start: int, target: ast.Expr) -> ast.Call:
-        """`itf ?= value`, the assignment attempt of IEC 61131-3: what __QUERYINTERFACE(value, itf) does."""
-        callee = ast.Name(span=self.span_at(self.i), name="__QUERYINTERFACE")
-        self.i += 1
-        value = self.expression()
-        args = [ast.Argument(span=e.span, name=None, value=e) for e in (value, target)]
-        return ast.Call(span=self.span_from(start), callee=callee, args=args)
 
     def labelled(self, start: int) -> ast.Stmt:
         """`label: statement`; the label of nothing is put on an empty statement."""

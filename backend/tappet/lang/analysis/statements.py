@@ -10,6 +10,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import conversion, folding
 from tappet.lang.analysis.adaptation import require, retype
+from tappet.lang.analysis.attempts import assignment_attempt
 from tappet.lang.analysis.calls import bind_reference
 from tappet.lang.analysis.conditions import condition
 from tappet.lang.analysis.context import Body
@@ -88,8 +89,11 @@ def _aggregate_name(e: ast.Expr) -> str:
 
 
 def _special_assign(b: Body, s: ast.Assign | ast.AssignExpr) -> None:
-    """`REF=`, `S=`, `R=`."""
+    """`REF=`, `S=`, `R=`, `?=`."""
     target, content = s.target, s.value
+    if s.op == "?=":
+        assignment_attempt(b, target, content)
+        return
     type_ = value(b, target)
     if s.op == "REF=":
         own = value(b, content)

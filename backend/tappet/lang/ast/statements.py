@@ -20,7 +20,7 @@ class Stmt(Node):
 
 @dataclass(slots=True, kw_only=True)
 class Assign(Stmt):
-    """`target op value`; op is `:=`, `S=`, `R=` or `REF=`. Chained assignments nest as AssignExpr in
+    """`target op value`; op is `:=`, `S=`, `R=`, `REF=` or `?=`. Chained assignments nest as AssignExpr in
     `value`."""
 
     op: str
