@@ -15,12 +15,22 @@ CLASSES = (
     "BOOL", "BIT", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT",
     "UDINT", "ULINT", "REAL", "LREAL", "STRING", "WSTRING", "TIME", "DATE", "DATEANDTIME", "TIMEOFDAY",
     "POINTER", "REFERENCE", "SUBRANGE", "ENUM", "ARRAY", "PARAMS", "USERDEF", "NONE", "ANY", "ANYBIT",
-    "ANYDATE", "ANYINT", "ANYNUM", "ANYREAL", "LAZY", "LTIME", "BITCONST", "INTERFACE", "LDATE",
-    "LDATEANDTIME", "LTIMEOFDAY",
+    "ANYDATE", "ANYINT", "ANYNUM", "ANYREAL", "LAZY", "LTIME", "BITCONST", "UXINT", "XWORD", "XINT",
+    "XSRTING", "VARLENARRAY", "ANYSTRING", "VECTOR", "LDATE", "LDATEANDTIME", "LTIMEOFDAY",
 )  # fmt: skip
-"""Values of `__SYSTEM.TYPE_CLASS` from 0 on, without TYPE_."""
+"""Values of `__SYSTEM.TYPE_CLASS` from 0 on, without TYPE_.
 
-TYPE_CLASS = t.Enum("TYPE_CLASS", t.DINT, {f"TYPE_{name}": n for n, name in enumerate(CLASSES)})
+As in the documentation of CODESYS: up to BITCONST its page on `__SYSTEM.TYPE_CLASS`, the others `TypeClass` of
+the library Base Interfaces, whose spelling of XSRTING this is.
+"""
+_OLD_INTERFACE = 0xF000
+"""TYPE_INTERFACE, which Base Interfaces has for old projects only: no type is of this class."""
+
+TYPE_CLASS = t.Enum(
+    "TYPE_CLASS",
+    t.DWORD,
+    {f"TYPE_{name}": number for number, name in enumerate(CLASSES)} | {"TYPE_INTERFACE": _OLD_INTERFACE},
+)
 TYPE_CLASS.qualified_only = True
 TYPE_CLASS_SYMBOL = TypeSymbol("TYPE_CLASS", type=TYPE_CLASS)
 
@@ -84,6 +94,6 @@ def class_of(type_: t.Type) -> int:
     elif isinstance(type_, t.String):
         name = "WSTRING" if type_.wide else "STRING"
     else:
-        kinds = ((t.Enum, "ENUM"), (t.Array, "ARRAY"), (t.Pointer, "POINTER"), (t.Interface, "INTERFACE"))
+        kinds = ((t.Enum, "ENUM"), (t.Array, "ARRAY"), (t.Pointer, "POINTER"))
         name = next((known for kind, known in kinds if isinstance(type_, kind)), "USERDEF")
     return CLASSES.index(name)

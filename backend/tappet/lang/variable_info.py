@@ -7,8 +7,8 @@ from tappet.lang.any_type import TYPE_CLASS, class_of
 from tappet.lang.symbols import Storage, TypeSymbol, VarSymbol
 from tappet.lang.system_structures import structure
 
-_AREAS = ("MEMORY", "INPUT", "OUTPUT", "RETAIN", "GLOBAL", "LOCAL")
-MEMORY_AREA = t.Enum("MEMORY_AREA", t.INT, {f"MEM_{name}": number for number, name in enumerate(_AREAS)})
+_AREAS = ("UNKNOWN", "MEMORY", "INPUT", "OUTPUT", "RETAIN", "GLOBAL", "LOCAL")
+MEMORY_AREA = t.Enum("MEMORY_AREA", t.INT, {f"MEM_{name}": number for number, name in enumerate(_AREAS, -1)})
 MEMORY_AREA.qualified_only = True
 MEMORY_AREA_SYMBOL = TypeSymbol("MEMORY_AREA", type=MEMORY_AREA)
 
