@@ -131,7 +131,13 @@ def call_statement(b: Body, e: ast.Call) -> None:
         else:
             b.emit(ir.Evaluate(b.value(e)))
         return
-    b.out.extend(prepare(b, e).statements())
+    if e.gate is None:
+        b.out.extend(prepare(b, e).statements())
+        return
+    test = b.value(e.gate)
+    with b.block_of() as then:
+        b.out.extend(prepare(b, e).statements())
+    b.emit(ir.If(test, then, []))
 
 
 # -- preparation ------------------------------------------------------------------------------------

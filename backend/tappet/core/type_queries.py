@@ -1,4 +1,4 @@
-"""Of which type an object is at run time: `__QUERYINTERFACE`, `__QUERYPOINTER` and the assignment attempt `?=`.
+"""Of which type an object is at run time: `__QUERYINTERFACE`, `__QUERYPOINTER`, assignment attempt `?=`.
 
 An instance begins with the number of its type where others derive from it or it implements an interface; a
 table per type that is asked for has a byte per number: 1 for those that fit.

@@ -20,8 +20,8 @@ CLASSES = (
 )  # fmt: skip
 """Values of `__SYSTEM.TYPE_CLASS` from 0 on, without TYPE_.
 
-As in the documentation of CODESYS: up to BITCONST its page on `__SYSTEM.TYPE_CLASS`, the others `TypeClass` of
-the library Base Interfaces, whose spelling of XSRTING this is.
+As in the documentation of CODESYS: up to BITCONST its page on `__SYSTEM.TYPE_CLASS`, the others `TypeClass`
+of the library Base Interfaces, whose spelling of XSRTING this is.
 """
 _OLD_INTERFACE = 0xF000
 """TYPE_INTERFACE, which Base Interfaces has for old projects only: no type is of this class."""

@@ -1,8 +1,8 @@
 """The assignment attempt `target ?= source` of IEC 61131-3 (edition 3, 6.6.6.7).
 
-The target gets the object that the source refers to, or NULL when that object does not implement the interface,
-or is not of the function block, that the target is declared with. Which type an object has is known at run time
-of function blocks only, and only variables that may hold NULL can be targets.
+The target gets the object that the source refers to, or NULL when that object does not implement the
+interface, or is not of the function block, that the target is declared with. Function blocks alone know their
+type at run time, and only variables that may hold NULL can be targets.
 """
 
 from __future__ import annotations
@@ -25,13 +25,16 @@ def assignment_attempt(b: Body, target: ast.Expr, source: ast.Expr) -> None:
         if found is None:
             b.report("E0334", side.span, type=type_, hint=_hint(type_))
             return
-    if isinstance(goal, t.FunctionBlock) and isinstance(own, t.FunctionBlock):
-        if not derives(goal, own) and not derives(own, goal):
-            b.report("E0335", source.span, source=own, target=goal)
-            return
+    if isinstance(goal, t.FunctionBlock) and isinstance(own, t.FunctionBlock) and not _related(goal, own):
+        b.report("E0335", source.span, source=own, target=goal)
+        return
     if isinstance(given, t.FunctionBlock) and is_place(source):
         mark_written(b, source)  # through the reference
     writable(b, target)
+
+
+def _related(one: t.FunctionBlock, other: t.FunctionBlock) -> bool:
+    return derives(one, other) or derives(other, one)
 
 
 def referred(type_: t.Type) -> t.FunctionBlock | t.Interface | None:

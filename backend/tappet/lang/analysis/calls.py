@@ -34,7 +34,7 @@ def call(b: Body, e: ast.Call) -> None:
 
 
 def _resolve(b: Body, e: ast.Call) -> None:
-    e.type = e.constant = e.target = e.expansion = None
+    e.type = e.constant = e.target = e.expansion = e.gate = None
     e.is_constant = e.untyped = False
     callee = e.callee
     if callee.__class__ is ast.Name and not callee.leading_dot:
@@ -67,7 +67,7 @@ def _resolve(b: Body, e: ast.Call) -> None:
         else:
             if symbol.pou is not None and symbol.pou.attributes:
                 b.warn_obsolete(callee.span, symbol.pou.attributes)
-            if named_operands.enabled(e, symbol):
+            if symbol.kind == "FUNCTION" and named_operands.enabled(e, symbol):
                 _when_enabled(b, e, symbol)
             else:
                 _bind(b, e, symbol)
@@ -101,7 +101,7 @@ def _named_operator(b: Body, e: ast.Call, name: str) -> None:
 def _when_enabled(b: Body, e: ast.Call, target: PouSymbol | None) -> None:
     """A call with EN or ENO, which `target` does not declare; None: of an operator."""
     b.report("W1150", e.span, name=text_of(e.callee))
-    inner = named_operands.without_enable(e)
+    inner = ast.Call(span=e.span, callee=e.callee, args=named_operands.without_enable(e))
     if target is None:
         _resolve(b, inner)
     else:
@@ -155,7 +155,12 @@ def _bind(b: Body, e: ast.Call, target: PouSymbol) -> None:
     if has_unknown_base(target.owner if target.kind == "ACTION" else target):
         evaluate_arguments(b, e.args)  # the inputs of the base are not known
         return
-    bind_arguments(b, e.args, parameters, target.name, e.span, target.kind)
+    args: Sequence[ast.Argument] = e.args
+    if target.return_type is None and named_operands.enabled(e, target):
+        b.report("W1150", e.span, name=text_of(e.callee))
+        e.gate = named_operands.gate(b, e)
+        args = named_operands.without_enable(e)
+    bind_arguments(b, args, parameters, target.name, e.span, target.kind)
 
 
 def bind_arguments(

@@ -1,7 +1,8 @@
-"""Formal names of operators, `ADD(IN1 := a, IN2 := b)`, and EN and ENO of operators and functions.
+"""Formal names of operators, `ADD(IN1 := a, IN2 := b)`, and EN and ENO where they are not declared.
 
-IEC 61131-3 names the operands of its standard functions, and gives every function EN and ENO; Beremiz and
-OpenPLC write both. The call means another one with the operands in order, under the condition EN.
+IEC 61131-3 names the operands of its standard functions, and gives every function and block EN and ENO;
+Beremiz and OpenPLC write both. The call means another one with the operands in order, under the condition EN;
+where an instance is not called, its inputs and what its outputs are fetched into stay as they are.
 """
 
 from __future__ import annotations
@@ -25,16 +26,19 @@ _NAMES = {
 }
 _ANY_NUMBER = re.compile(r"IN(\d{1,3})$")
 _ENABLING = ("EN", "ENO")
+_WITH_ENABLE = ("FUNCTION", "FUNCTION_BLOCK", "PROGRAM")
 
 
 def enabled(e: ast.Call, target: PouSymbol | None) -> bool:
-    """Whether EN or ENO is given to an operator (`target` None) or a function that declares neither."""
+    """Whether EN or ENO is given to an operator (`target` None), or to a function, a program or an instance
+    that declares neither."""
     if not any(arg.name is not None and arg.name.upper() in _ENABLING for arg in e.args):
         return False
     if target is None:
         return True
     own = {p.name.upper() for p in target.parameters}
-    return target.kind == "FUNCTION" and target.return_type is not None and not own & set(_ENABLING)
+    gives_nothing = target.kind == "FUNCTION" and target.return_type is None
+    return target.kind in _WITH_ENABLE and not gives_nothing and not own & set(_ENABLING)
 
 
 def ordered(b: Body, e: ast.Call, name: str) -> list[ast.Argument] | None:
@@ -65,20 +69,34 @@ def _position(name: str, key: str) -> int | None:
     return 0 if key == "IN" else None
 
 
-def without_enable(e: ast.Call) -> ast.Call:
-    """The call without EN and ENO."""
-    args = [arg for arg in e.args if arg.name is None or arg.name.upper() not in _ENABLING]
-    return ast.Call(span=e.span, callee=e.callee, args=args)
+def without_enable(e: ast.Call) -> list[ast.Argument]:
+    """The arguments without EN and ENO."""
+    return [arg for arg in e.args if arg.name is None or arg.name.upper() not in _ENABLING]
+
+
+def gate(b: Body, e: ast.Call) -> ast.Expr:
+    """The condition under which a call is made: EN, whose value ENO gets."""
+    given: dict[str, ast.Expr | None] = {}
+    for arg in e.args:
+        key = arg.name.upper() if arg.name is not None else ""
+        if key in _ENABLING:
+            arg.parameter = None
+            if key in given:
+                b.report("E0509", arg.span, name=arg.name)
+            if arg.output != (key == "ENO"):
+                b.report("E0510" if key == "ENO" else "E0511", arg.span, name=arg.name)
+            given[key] = arg.value
+    found = given.get("EN") or ast.Literal(span=e.span, text="TRUE", kind="bool", value=True)
+    success = given.get("ENO")
+    if success is not None:
+        found = ast.AssignExpr(span=e.span, op=":=", target=success, value=found)
+    condition(b, found)
+    return found
 
 
 def when_enabled(b: Body, e: ast.Call, inner: ast.Call) -> None:
     """Makes `e` mean the resolved `inner` where EN is TRUE, else 0; ENO gets the value of EN."""
-    given = {arg.name.upper(): arg.value for arg in e.args if arg.name is not None}
-    gate = given.get("EN") or ast.Literal(span=e.span, text="TRUE", kind="bool", value=True)
-    success = given.get("ENO")
-    if success is not None:
-        gate = ast.AssignExpr(span=e.span, op=":=", target=success, value=gate)
-    condition(b, gate)
+    decides = gate(b, e)
     type_ = carried_type(inner)
     if type_ is None or inner.type is None:
         return
@@ -87,7 +105,7 @@ def when_enabled(b: Body, e: ast.Call, inner: ast.Call) -> None:
     if isinstance(type_, t.String):
         empty = "" if type_.wide else b""
     nothing = _constant(e, type_, empty)
-    args = [ast.Argument(span=e.span, name=None, value=x) for x in (gate, nothing, inner)]
+    args = [ast.Argument(span=e.span, name=None, value=x) for x in (decides, nothing, inner)]
     choice = ast.Call(span=e.span, callee=e.callee, args=args)
     choice.target = BuiltinSymbol("SEL", parameter_types=(t.BOOL, type_, type_), return_type=type_)
     choice.type = e.type = inner.type

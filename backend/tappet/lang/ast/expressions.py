@@ -124,6 +124,9 @@ class Call(Expr):
     expansion: Expr | None = field(default=None, metadata=RESOLVED_TREE)
     """The same in operator form, for operators in functional form: `ADD(a, b)` is `a + b`, `MOVE(x)` is
     `x`."""
+    gate: Expr | None = field(default=None, metadata=RESOLVED)
+    """EN of an instance or program that does not declare it, made of nodes in `args`: the call is made where
+    it is TRUE."""
 
 
 @dataclass(slots=True, kw_only=True)
