@@ -25,6 +25,7 @@ const ROOMS = [
   'editors/assistant',
   'editors/online',
   'editors/documents',
+  'editors/text',
   'editors/st',
   'editors/declaration',
   'editors/il',

@@ -20,5 +20,6 @@ export default defineConfig({
     maxWorkers: 2,
     // Property tests on a busy machine: a limit against hanging, not a measure of speed.
     testTimeout: 120_000,
+    hookTimeout: 120_000,
   },
 });

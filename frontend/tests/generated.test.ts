@@ -10,4 +10,4 @@ it('schema.ts is up to date with openapi.json', async () => {
   const document = JSON.parse(readFileSync(join(folder, 'openapi.json'), 'utf8')) as Parameters<typeof openapiTS>[0];
   const made = COMMENT_HEADER + astToString(await openapiTS(document));
   expect(readFileSync(join(folder, 'schema.ts'), 'utf8').trim() === made.trim(), 'run `npm run generate`').toBe(true);
-}, 30_000);
+});

@@ -31,7 +31,7 @@ describe('rooms', () => {
     expect(await refusals('src/workbench/run.ts', "import '../editors/register';")).toHaveLength(1);
     expect(await refusals('src/workbench/run.ts', "void import('@/lsp/session');")).toHaveLength(1);
     expect(await refusals('src/editors/st/acts.tsx', "import '../il/IlPane';")).toHaveLength(1);
-    expect(await refusals('src/iec/lexer.ts', "import '@/editors/st/commands';")).toHaveLength(1);
+    expect(await refusals('src/iec/lexer.ts', "import '@/editors/text/commands';")).toHaveLength(1);
   });
 
   it('hold every file', async () => {

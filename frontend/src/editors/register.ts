@@ -2,16 +2,21 @@
 import { Waypoints } from 'lucide-react';
 import { lazy } from 'react';
 import { partUri } from '@/project/partUri';
-import type { LanguageDescriptor } from '@/text/languages';
-import { registerCommands } from '@/workbench/commands';
+import { registerLanguage, type LanguageDescriptor } from '@/text/languages';
 import { setQuickFixSource } from '@/workbench/messages/quickFixes';
 import { setSymbolSource } from '@/workbench/palette/symbolSource';
 import { registerPanel } from '@/workbench/panels';
-import { registerOptionGroup } from '@/workbench/tools/optionGroups';
-import { registerTextCommands } from './st/commands';
+import { registerTextCommands } from './text/commands';
 
 /** The folders of the languages, found by their place. */
 const LANGUAGES = import.meta.glob<LanguageDescriptor>('./*/index.ts', { eager: true, import: 'default' });
+
+/** Makes languages known and answers them. */
+export function registerLanguages(found: Readonly<Record<string, LanguageDescriptor>> = LANGUAGES) {
+  const languages = Object.values(found);
+  languages.forEach(registerLanguage);
+  return languages;
+}
 
 export function registerEditors(): void {
   registerPanel({
@@ -22,12 +27,9 @@ export function registerEditors(): void {
     position: 'bottom',
     order: 55,
   });
-  for (const { commands, options } of Object.values(LANGUAGES)) {
-    if (commands) registerCommands(commands);
-    if (options) registerOptionGroup(options);
-  }
+  registerLanguages();
   setQuickFixSource(async (message, show) => {
-    const { quickFixesOfMessage } = await import('./st/quickFixes');
+    const { quickFixesOfMessage } = await import('./text/quickFixes');
     return quickFixesOfMessage(message, show);
   });
   setSymbolSource({

@@ -98,6 +98,11 @@ export function isTrivia(token: Token): boolean {
   return token.kind === 'comment' || token.kind === 'pragma';
 }
 
+/** The tokens of `text` without comments and pragmas. */
+export function codeTokens(text: string): Token[] {
+  return tokenize(text).filter((token) => !isTrivia(token));
+}
+
 /** The characters of a token. */
 export function textOf(text: string, token: Token): string {
   return text.slice(token.start, token.end);

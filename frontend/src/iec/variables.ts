@@ -1,12 +1,11 @@
 /**
- * Which variables stand where in a body in ST or IL, and what to ask the runtime for to show their values (LST-87).
+ * Which variables stand where in a body, and what to ask the runtime for to show their values (LST-87).
  *
  * Purely textual: the scope below says which names the shown instance has; every other name is taken for a
  * global one, and the server's answer decides (an expression it does not know gets no value).
  */
-import { isInstructionList, operandTokens } from './instructionList';
 import { isConversion, isKeyword } from './keywords';
-import { isTrivia, textOf, tokenize, type Token } from './lexer';
+import { codeTokens, textOf, type Token } from './lexer';
 
 export type IndexPart =
   | { readonly kind: 'number'; readonly value: number }
@@ -31,11 +30,12 @@ export interface VariableUse {
   readonly path: AccessPath;
 }
 
-/** All readable variable paths of a body, in order; calls, parameter names, labels and keywords are left out. */
-export function findVariables(text: string): VariableUse[] {
-  const tokens = tokenize(text).filter((token) => !isTrivia(token));
-  const shown = isInstructionList(text, tokens) ? operandTokens(text, tokens) : tokens;
-  return new PathFinder(text, shown).run();
+/**
+ * All readable variable paths of a text, in order; calls, parameter names, labels and keywords are left out.
+ * `tokens` are those of the text that may stand for values, without comments.
+ */
+export function findVariables(text: string, tokens: readonly Token[] = codeTokens(text)): VariableUse[] {
+  return new PathFinder(text, tokens).run();
 }
 
 class PathFinder {

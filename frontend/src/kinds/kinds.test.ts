@@ -3,8 +3,8 @@ import { join, relative } from 'node:path';
 import { describe, expect, it } from 'vitest';
 import { textOf } from '@/i18n';
 import { allKinds, kindOf } from '@/project/kinds';
+import { sources, SRC } from '../../tests/sources';
 
-const SRC = join(import.meta.dirname, '..');
 const folders = readdirSync(import.meta.dirname, { withFileTypes: true }).flatMap((entry) =>
   entry.isDirectory() ? [entry.name] : [],
 );
@@ -69,25 +69,17 @@ const allowed = new Map(
   }),
 );
 
-function sources(folder: string): string[] {
-  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
-    const path = join(folder, entry.name);
-    if (entry.isDirectory()) return path === import.meta.dirname ? [] : sources(path);
-    return /\.tsx?$/.test(path) && !/\.test\.tsx?$|schema\.ts$/.test(path) ? [path] : [];
-  });
-}
-
 /** Quoted words that are kinds; roles and arguments of functions that take a role are none. */
 function namedKinds(code: string): string[] {
   const plain = code.replace(/(hasRole|kindWithRole|named|nearest)\(([^()]|\([^()]*\))*\)/g, '');
-  return [...new Set([...plain.matchAll(/'([a-z_]+)'/g)].map((match) => match[1]!))].filter((word) =>
+  return [...new Set([...plain.matchAll(/(['"`])([a-z_]+)\1/g)].map((match) => match[2]!))].filter((word) =>
     folders.includes(word),
   );
 }
 
 describe('kinds', () => {
   it('are named in their folders only', () => {
-    const found = sources(SRC).flatMap((path) => {
+    const found = sources(SRC, [import.meta.dirname]).flatMap((path) => {
       const file = relative(SRC, path);
       const words = namedKinds(readFileSync(path, 'utf8')).filter((word) => !allowed.get(file)?.has(word));
       return words.length > 0 ? [`${file} ${words.join(' ')}`] : [];
@@ -96,6 +88,10 @@ describe('kinds', () => {
   });
 
   it('would be found where they are named', () => {
-    expect(namedKinds("const A = new Set(['pou', 'gvl']); hasRole(object, 'folder')")).toEqual(['pou', 'gvl']);
+    expect(namedKinds("const A = new Set(['pou', 'gvl']); hasRole(object, 'folder'); kind=\"dut\"")).toEqual([
+      'pou',
+      'gvl',
+      'dut',
+    ]);
   });
 });

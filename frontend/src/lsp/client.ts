@@ -1,12 +1,13 @@
 /**
- * The language client of the open project: one connection, kept up, and every text model in ST or IL on it.
+ * The language client of the open project: one connection, kept up, and every model of an IEC text on it.
  *
  * A thin layer: it mirrors the models to the server and shows what the server publishes. The providers ask through it.
  */
 import type { CancellationToken, editor, IDisposable } from 'monaco-editor/editor/editor.api';
 import { socketUrl } from '@/api/client';
 import { ReconnectingSocket } from '@/api/socket';
-import { LANGUAGE_ID, TEXT_LANGUAGES } from '@/text/language';
+import { IEC_TEXT } from '@/text/iecText';
+import { textLanguages } from '@/text/languages';
 import type { Monaco } from '@/text/monacoLoader';
 import { language } from '@/i18n';
 import { fromDiagnostic, toRange } from './convert';
@@ -168,7 +169,8 @@ export class LanguageClient {
 
   private mine(model: editor.ITextModel): boolean {
     return (
-      TEXT_LANGUAGES.includes(model.getLanguageId()) && parsePartUri(model.uri.toString())?.projectId === this.projectId
+      textLanguages().includes(model.getLanguageId()) &&
+      parsePartUri(model.uri.toString())?.projectId === this.projectId
     );
   }
 
@@ -198,7 +200,7 @@ export class LanguageClient {
     if (known.has(uri)) return;
     known.add(uri);
     rpc.notify('textDocument/didOpen', {
-      textDocument: { uri, languageId: LANGUAGE_ID, version: model.getVersionId(), text: model.getValue() },
+      textDocument: { uri, languageId: IEC_TEXT, version: model.getVersionId(), text: model.getValue() },
     });
   }
 

@@ -1,6 +1,6 @@
-/** Quick fixes for Monaco's light bulb and Ctrl+. ; they are applied by `editors/st/applyQuickFix`. */
+/** Quick fixes for Monaco's light bulb and Ctrl+. ; they are applied by `editors/text/applyQuickFix`. */
 import type { IDisposable, languages } from 'monaco-editor/editor/editor.api';
-import { TEXT_LANGUAGES } from '@/text/language';
+import { textLanguages } from '@/text/languages';
 import type { Monaco } from '@/text/monacoLoader';
 import { t, type TextKey } from '@/i18n';
 import type { LanguageClient } from './client';
@@ -42,7 +42,7 @@ export function titleOfAction({ title, data }: ServerAction): string {
 
 export function registerCodeActions(monaco: Monaco, client: LanguageClient): IDisposable {
   return monaco.languages.registerCodeActionProvider(
-    TEXT_LANGUAGES,
+    textLanguages(),
     {
       provideCodeActions: async (model, range, context, token) => {
         const params = {

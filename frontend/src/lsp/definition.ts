@@ -21,5 +21,5 @@ export async function goToDefinition(place: TextPlace): Promise<void> {
   const at = found?.range.start;
   const opened =
     found != null && at !== undefined && openLocation(found.uri, { line: at.line + 1, column: at.character + 1 });
-  if (!opened) notify({ tone: 'info', title: t('il.noDefinition') });
+  if (!opened) notify({ tone: 'info', title: t('st.noDefinition') });
 }

@@ -1,6 +1,6 @@
-/** Registers the language server's abilities with Monaco, for all texts in ST and IL. */
+/** Registers the language server's abilities with Monaco, for all IEC texts. */
 import type { editor, IDisposable, languages } from 'monaco-editor/editor/editor.api';
-import { TEXT_LANGUAGES } from '@/text/language';
+import { textLanguages } from '@/text/languages';
 import type { Monaco } from '@/text/monacoLoader';
 import type { LanguageClient } from './client';
 import { registerCodeActions } from './codeActions';
@@ -60,8 +60,9 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
     return shown.map((place) => ({ uri: monaco.Uri.parse(place.uri), range: fromRange(place.range) }));
   };
 
+  const texts = textLanguages();
   const made: IDisposable[] = [
-    registry.registerCompletionItemProvider(TEXT_LANGUAGES, {
+    registry.registerCompletionItemProvider(texts, {
       triggerCharacters: triggers,
       provideCompletionItems: async (model, position, _context, token) => {
         const answer = await client.request<CompletionList | CompletionItem[]>(
@@ -83,21 +84,21 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
         };
       },
     }),
-    registry.registerHoverProvider(TEXT_LANGUAGES, {
+    registry.registerHoverProvider(texts, {
       provideHover: async (model, position, token) => {
         const hover = await client.request<Hover>('textDocument/hover', at(model, position), token);
         return hover === null ? null : fromHover(hover);
       },
     }),
-    registry.registerDefinitionProvider(TEXT_LANGUAGES, {
+    registry.registerDefinitionProvider(texts, {
       provideDefinition: (model, position, token) =>
         locations('textDocument/definition', model, at(model, position), token),
     }),
-    registry.registerReferenceProvider(TEXT_LANGUAGES, {
+    registry.registerReferenceProvider(texts, {
       provideReferences: (model, position, context, token) =>
         locations('textDocument/references', model, { ...at(model, position), context }, token),
     }),
-    registry.registerDocumentHighlightProvider(TEXT_LANGUAGES, {
+    registry.registerDocumentHighlightProvider(texts, {
       provideDocumentHighlights: async (model, position, token) => {
         const answer = await client.request<{ range: Location['range']; kind?: number }[]>(
           'textDocument/documentHighlight',
@@ -107,14 +108,14 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
         return answer?.map((h) => ({ range: fromRange(h.range), kind: (h.kind ?? 1) - 1 })) ?? null;
       },
     }),
-    registry.registerDocumentSymbolProvider(TEXT_LANGUAGES, {
+    registry.registerDocumentSymbolProvider(texts, {
       provideDocumentSymbols: async (model, token) => {
         const params = { textDocument: { uri: model.uri.toString() } };
         const answer = await client.request<DocumentSymbol[]>('textDocument/documentSymbol', params, token);
         return answer?.map(fromSymbol) ?? [];
       },
     }),
-    registry.registerSignatureHelpProvider(TEXT_LANGUAGES, {
+    registry.registerSignatureHelpProvider(texts, {
       signatureHelpTriggerCharacters: signature?.triggerCharacters ?? ['(', ','],
       signatureHelpRetriggerCharacters: signature?.retriggerCharacters ?? [')'],
       provideSignatureHelp: async (model, position, token) => {
@@ -123,7 +124,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
         return { value: fromSignatureHelp(help), dispose: () => undefined };
       },
     }),
-    registry.registerDocumentFormattingEditProvider(TEXT_LANGUAGES, {
+    registry.registerDocumentFormattingEditProvider(texts, {
       provideDocumentFormattingEdits: async (model, options, token) => {
         const params = { textDocument: { uri: model.uri.toString() }, options };
         const edits = await client.request<TextEdit[]>('textDocument/formatting', params, token);
@@ -133,7 +134,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
   ];
   made.push(
     registerCodeActions(monaco, client),
-    registry.registerFoldingRangeProvider(TEXT_LANGUAGES, {
+    registry.registerFoldingRangeProvider(texts, {
       provideFoldingRanges: async (model, _context, token) => {
         const params = { textDocument: { uri: model.uri.toString() } };
         const found = await client.request<{ startLine: number; endLine: number; kind?: string }[]>(
@@ -151,7 +152,7 @@ export function registerProviders(monaco: Monaco, client: LanguageClient, source
   );
   const legend = client.capabilities.semanticTokensProvider?.legend;
   if (legend !== undefined)
-    made.push(registry.registerDocumentSemanticTokensProvider(TEXT_LANGUAGES, semanticTokens(client, legend)));
+    made.push(registry.registerDocumentSemanticTokensProvider(texts, semanticTokens(client, legend)));
   return made;
 }
 

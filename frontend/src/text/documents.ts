@@ -11,7 +11,8 @@ import type { ProjectObject, TextData } from '@/api/types';
 import { useSession } from '@/session/session';
 import { smallestChange } from '@/iec/declaration/text';
 import { indentation, useEditorSettings } from './settings';
-import { LANGUAGE_ID, monacoLanguage } from './language';
+import { IEC_TEXT } from './iecText';
+import { monacoLanguage } from './languages';
 import type { Monaco } from './monacoLoader';
 import {
   edited,
@@ -77,7 +78,7 @@ export class TextDocument {
     this.store = createStore(() => state);
     const model = (part: Part) => {
       const uri = monaco.Uri.parse(partUri(projectId, object.id, part));
-      const language = part === 'implementation' ? monacoLanguage(this.language) : LANGUAGE_ID;
+      const language = part === 'implementation' ? monacoLanguage(this.language) : IEC_TEXT;
       const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', language, uri);
       made.setValue(state.text[part]);
       made.setEOL(monaco.editor.EndOfLineSequence.LF);
@@ -109,9 +110,9 @@ export class TextDocument {
     return this.object.name;
   }
 
-  /** Language of the body, as the server calls it. */
-  get language(): string {
-    return this.object.data.language ?? 'ST';
+  /** Language of the body, as the server calls it; undefined for objects without one. */
+  get language(): string | undefined {
+    return this.object.data.language;
   }
 
   get phase(): DocumentPhase {

@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 import { beforeAll, describe, expect, it, vi } from 'vitest';
-import { ACTIONS } from '@/editors/st/actions';
+import { ACTIONS } from '@/editors/text/actions';
 
 vi.mock('monaco-editor/editor/editor.worker?worker', () => ({ default: class {} }));
 vi.mock('./theme', () => ({ followTheme: () => undefined }));
@@ -21,21 +21,6 @@ beforeAll(async () => {
   contributions = EditorExtensionsRegistry.getEditorContributions().map((one) => one.id);
   const { CommandsRegistry } = (await import(COMMANDS)) as Registered;
   known = (id) => CommandsRegistry.getCommand(id) !== undefined;
-}, 60_000);
-
-describe('the colours of IL', () => {
-  it('are there without the language server', async () => {
-    const { monaco } = await import('./monaco');
-    const text = 'loop: LDN xStart\nST (* c *) s\nS.Run LD\nmark:\nJMPC mark';
-    const words = monaco.editor
-      .tokenize(text, 'iec-il')
-      .map((tokens, line) =>
-        tokens
-          .filter((token) => token.type.startsWith('keyword'))
-          .map((token) => /\w+/.exec(text.split('\n')[line]!.slice(token.offset))?.[0]),
-      );
-    expect(words).toEqual([['LDN'], ['ST'], [], [], ['JMPC']]);
-  });
 });
 
 describe('the text editor', () => {

@@ -1,5 +1,5 @@
 /**
- * Monaco with the features a PLC programmer uses and two languages: Structured Text and Instruction List.
+ * Monaco with the features a PLC programmer uses, and IEC texts.
  *
  * Only this module imports `monaco-editor`; everything else goes through `loadMonaco` and types.
  */
@@ -50,20 +50,17 @@ import 'monaco-editor/features/wordPartOperations/register';
 import 'monaco-editor/editor/contrib/semanticTokens/browser/documentSemanticTokens';
 import 'monaco-editor/editor/contrib/suggest/browser/suggestController';
 import { StandaloneServices } from 'monaco-editor/editor/standalone/browser/standaloneServices';
+import { IEC_TEXT, languageConfiguration, monarchLanguage } from './iecText';
 import { partLabels } from './labels';
-import { IL_LANGUAGE_ID, ilMonarchLanguage, languageConfiguration, LANGUAGE_ID, monarchLanguage } from './language';
 import { followTheme } from './theme';
 
 self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
 
 // Only before anything else asks for a service.
 StandaloneServices.initialize({ labelService: partLabels });
-monaco.languages.register({ id: LANGUAGE_ID, extensions: ['.st'], aliases: ['Structured Text', 'ST'] });
-monaco.languages.register({ id: IL_LANGUAGE_ID, aliases: ['Instruction List', 'IL'] });
-monaco.languages.setLanguageConfiguration(LANGUAGE_ID, languageConfiguration);
-monaco.languages.setLanguageConfiguration(IL_LANGUAGE_ID, languageConfiguration);
-monaco.languages.setMonarchTokensProvider(LANGUAGE_ID, monarchLanguage);
-monaco.languages.setMonarchTokensProvider(IL_LANGUAGE_ID, ilMonarchLanguage);
+monaco.languages.register({ id: IEC_TEXT, extensions: ['.st'] });
+monaco.languages.setLanguageConfiguration(IEC_TEXT, languageConfiguration);
+monaco.languages.setMonarchTokensProvider(IEC_TEXT, monarchLanguage);
 followTheme(monaco);
 
 export { monaco };

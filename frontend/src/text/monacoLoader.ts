@@ -1,6 +1,8 @@
 /** Monaco is large: it is fetched when the first text editor opens, from our own server, with its texts translated. */
 import type * as api from 'monaco-editor/editor/editor.api';
 import { language } from '@/i18n';
+import { languageConfiguration } from './iecText';
+import { textForms } from './languages';
 
 export type Monaco = typeof api;
 
@@ -10,6 +12,13 @@ async function load(): Promise<Monaco> {
   // The editor reads its texts while its modules are evaluated, so the language pack comes first.
   if (language() === 'zh') await import('monaco-editor/nls/lang/zh-cn');
   const { monaco } = await import('./monaco');
+  await Promise.all(
+    textForms().map(async ({ id, tokens }) => {
+      monaco.languages.register({ id });
+      monaco.languages.setLanguageConfiguration(id, languageConfiguration);
+      monaco.languages.setMonarchTokensProvider(id, await tokens());
+    }),
+  );
   return monaco;
 }
 

@@ -1,6 +1,5 @@
 /** What the user chose for text editors and online values; kept on the server for the account. */
-import { create } from 'zustand';
-import { loadSetting, saveSetting } from '@/session/preferences';
+import { settingsOf } from '@/session/settings';
 
 export const NUMBER_FORMATS = ['dec', 'hex', 'bin', 'sci'] as const;
 export type NumberFormat = (typeof NUMBER_FORMATS)[number];
@@ -11,12 +10,6 @@ export type TextView = 'text' | 'table';
 export interface EditorSettings {
   /** View in which declarations open (DECL-03). */
   declarationView: TextView;
-  /** View in which bodies in IL open. */
-  ilView: TextView;
-  /** Optional columns of the table of IL (FBD-41, IL-01). */
-  ilAddress: boolean;
-  ilSymbolComment: boolean;
-  ilOperandComment: boolean;
   /** Height of the declaration pane, as part of the editor. */
   declarationShare: number;
   /** Number format of inline values and online tables. */
@@ -41,12 +34,8 @@ export function indentation({ formatIndent }: EditorSettings): { tabSize: number
   return { tabSize: formatIndent || TAB_WIDTH, insertSpaces: formatIndent > 0 };
 }
 
-const DEFAULTS: EditorSettings = {
+const settings = settingsOf<EditorSettings>('editors', {
   declarationView: 'text',
-  ilView: 'table',
-  ilAddress: true,
-  ilSymbolComment: true,
-  ilOperandComment: true,
   declarationShare: 0.4,
   numberFormat: 'dec',
   lastType: 'BOOL',
@@ -55,33 +44,8 @@ const DEFAULTS: EditorSettings = {
   formatKeywords: 'upper',
   formatOperators: true,
   formatCommas: true,
-};
-const KEY = 'editors';
-const SAVE_AFTER_MS = 1000;
+});
 
-export const useEditorSettings = create<EditorSettings>(() => DEFAULTS);
-
-let loaded: Promise<void> | null = null;
-let timer: ReturnType<typeof setTimeout> | undefined;
-
-/** Reads the settings once; until then, and when they cannot be read, the defaults hold. */
-export function loadEditorSettings(): Promise<void> {
-  loaded ??= loadSetting<Partial<EditorSettings>>(KEY).then(
-    (stored) => useEditorSettings.setState(sound(stored)),
-    () => undefined,
-  );
-  return loaded;
-}
-
-/** Keeps only what has the right type: settings may come from another version. */
-function sound(stored: Partial<EditorSettings> | null): Partial<EditorSettings> {
-  const known = Object.entries(DEFAULTS) as [keyof EditorSettings, unknown][];
-  const right = known.filter(([key, value]) => typeof stored?.[key] === typeof value);
-  return Object.fromEntries(right.map(([key]) => [key, stored?.[key]]));
-}
-
-export function setEditorSettings(change: Partial<EditorSettings>): void {
-  useEditorSettings.setState(change);
-  clearTimeout(timer);
-  timer = setTimeout(() => void saveSetting(KEY, useEditorSettings.getState()).catch(() => undefined), SAVE_AFTER_MS);
-}
+export const useEditorSettings = settings.use;
+export const loadEditorSettings = settings.load;
+export const setEditorSettings = settings.change;

@@ -10,7 +10,7 @@ import { useFaultLine } from '../online/useFaultLine';
 import { setEditorSettings, useEditorSettings, type TextView } from '@/text/settings';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
 import { addPanelEditor, removePanelEditor } from '@/text/focus';
-import { useEditingLock } from '../st/useEditingLock';
+import { useEditingLock } from '../text/useEditingLock';
 import { ViewSwitch } from '@/text/ViewSwitch';
 import { DeclarationTable } from './DeclarationTable';
 import { useShorthand } from './useShorthand';

@@ -1,7 +1,7 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { useEffect, useRef } from 'react';
 import { EDITOR_OPTIONS } from '@/text/CodePane';
-import { LANGUAGE_ID } from '@/text/language';
+import { IEC_TEXT } from '@/text/iecText';
 import type { Monaco } from '@/text/monacoLoader';
 import styles from './DocumentBars.module.css';
 
@@ -38,8 +38,8 @@ export function DiffView({ monaco, left, right, onRight }: DiffViewProps) {
       fixedOverflowWidgets: true,
     });
     const pair = {
-      original: monaco.editor.createModel('', LANGUAGE_ID),
-      modified: monaco.editor.createModel('', LANGUAGE_ID),
+      original: monaco.editor.createModel('', IEC_TEXT),
+      modified: monaco.editor.createModel('', IEC_TEXT),
     };
     models.current = pair;
     diff.setModel(pair);

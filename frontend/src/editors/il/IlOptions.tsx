@@ -1,22 +1,24 @@
+import { useEffect } from 'react';
 import { useText } from '@/i18n';
 import { Checkbox, Field } from '@/ui/Field';
-import { setEditorSettings, useEditorSettings } from '@/text/settings';
+import { ilSettings } from './settings';
 
 /** Optional columns of the table of IL (FBD-41, IL-01). */
 export function IlOptions() {
   const t = useText();
-  const { ilAddress, ilSymbolComment, ilOperandComment } = useEditorSettings();
+  const { address, symbolComment, operandComment } = ilSettings.use();
+  useEffect(() => void ilSettings.load(), []);
   return (
     <Field row label={t('il.columns')}>
       {() => (
         <>
-          <Checkbox checked={ilAddress} onChecked={(on) => setEditorSettings({ ilAddress: on })}>
+          <Checkbox checked={address} onChecked={(on) => ilSettings.change({ address: on })}>
             {t('il.showAddress')}
           </Checkbox>
-          <Checkbox checked={ilSymbolComment} onChecked={(on) => setEditorSettings({ ilSymbolComment: on })}>
+          <Checkbox checked={symbolComment} onChecked={(on) => ilSettings.change({ symbolComment: on })}>
             {t('il.showSymbolComment')}
           </Checkbox>
-          <Checkbox checked={ilOperandComment} onChecked={(on) => setEditorSettings({ ilOperandComment: on })}>
+          <Checkbox checked={operandComment} onChecked={(on) => ilSettings.change({ operandComment: on })}>
             {t('il.showOperandComment')}
           </Checkbox>
         </>

@@ -3,11 +3,12 @@ import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/project/editorProps';
 import type { OpenText } from '@/text/useTextDocument';
-import { setEditorSettings, useEditorSettings, type TextView } from '@/text/settings';
+import type { TextView } from '@/text/settings';
 import { panelEditorOf, panelPlace } from '@/text/focus';
-import { ImplementationPane } from '../st/ImplementationPane';
+import { ImplementationPane } from '../text/ImplementationPane';
 import { ViewSwitch } from '@/text/ViewSwitch';
 import { IlTable } from './IlTable';
+import { ilSettings } from './settings';
 
 type IlPaneProps = EditorProps & OpenText & { object: ObjectSummary };
 
@@ -15,7 +16,8 @@ type IlPaneProps = EditorProps & OpenText & { object: ObjectSummary };
 export function IlPane(props: IlPaneProps) {
   const { panelId } = props;
   const t = useText();
-  const preferred = useEditorSettings((settings) => settings.ilView);
+  const preferred = ilSettings.use((settings) => settings.view);
+  useEffect(() => void ilSettings.load(), []);
   // An act that only the text editor knows shows the text, in this editor and until the user chooses again.
   const [act, setAct] = useState<{ action: string; line: number; column: number } | null>(null);
   const view = act === null ? preferred : 'text';
@@ -40,7 +42,7 @@ export function IlPane(props: IlPaneProps) {
 
   const choose = (next: TextView) => {
     setAct(null);
-    setEditorSettings({ ilView: next });
+    ilSettings.change({ view: next });
   };
   const inText = (action: string) => {
     const { lineNumber: line, column } = panelPlace(panelId)?.getPosition() ?? { lineNumber: 1, column: 1 };

@@ -2,13 +2,13 @@ import { CircleAlert, Info, TriangleAlert } from 'lucide-react';
 import type { ReactNode } from 'react';
 import type { t as Text } from '@/i18n';
 import type { GridColumn } from '@/ui/grid/Grid';
-import type { EditorSettings } from '@/text/settings';
-import { OPERATORS } from '@/iec/instructionList';
+import { OPERATORS } from './instructionList';
 import { textOf, tokenize } from '@/iec/lexer';
 import type { OperandFacts } from './facts';
 import styles from './IlTable.module.css';
 import type { RowMessage } from './messages';
 import { cellText, type Cell, type IlColumn, type IlRow } from './rows';
+import type { IlSettings } from './settings';
 
 export type ColumnId = 'line' | 'operator' | 'operand' | 'value' | 'address' | 'symbolComment' | 'comment';
 
@@ -16,10 +16,8 @@ export interface IlGridColumn extends GridColumn {
   id: ColumnId;
 }
 
-type Chosen = Pick<EditorSettings, 'ilAddress' | 'ilSymbolComment' | 'ilOperandComment'>;
-
 /** The columns of the table: those that the options show (IL-01), and values while logged in (ONL-02). */
-export function ilColumns(t: typeof Text, chosen: Chosen, online: boolean): readonly IlGridColumn[] {
+export function ilColumns(t: typeof Text, chosen: Omit<IlSettings, 'view'>, online: boolean): readonly IlGridColumn[] {
   const column = (id: ColumnId, width: number, more: Omit<Partial<GridColumn>, 'id'> = {}): IlGridColumn => ({
     id,
     title: id === 'line' ? '' : t(`il.column.${id}`),
@@ -31,9 +29,9 @@ export function ilColumns(t: typeof Text, chosen: Chosen, online: boolean): read
     column('operator', 132, { code: true }),
     column('operand', 190, { code: true, grow: true }),
     ...(online ? [column('value', 150, { grow: true })] : []),
-    ...(chosen.ilAddress ? [column('address', 84, { code: true })] : []),
-    ...(chosen.ilSymbolComment ? [column('symbolComment', 170, { grow: true })] : []),
-    ...(chosen.ilOperandComment ? [column('comment', 170, { grow: true })] : []),
+    ...(chosen.address ? [column('address', 84, { code: true })] : []),
+    ...(chosen.symbolComment ? [column('symbolComment', 170, { grow: true })] : []),
+    ...(chosen.operandComment ? [column('comment', 170, { grow: true })] : []),
   ];
 }
 

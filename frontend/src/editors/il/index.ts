@@ -13,6 +13,7 @@ const descriptor: LanguageDescriptor = {
   language: 'IL',
   commands: ilCommands,
   options: { title: 'il.options', order: 2, component: IlOptions },
+  text: { id: 'iec-il', tokens: async () => (await import('./monarch')).default },
 };
 
 export default descriptor;

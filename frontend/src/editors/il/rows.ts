@@ -4,7 +4,7 @@
  */
 import { joinComments } from '@/iec/declaration/comments';
 import type { Range } from '@/iec/declaration/model';
-import { OPERATORS } from '@/iec/instructionList';
+import { OPERATORS } from './instructionList';
 import { isTrivia, textOf, tokenize, type Token } from '@/iec/lexer';
 import { runsOf, type Run } from './excluded';
 

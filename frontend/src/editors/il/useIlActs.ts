@@ -12,7 +12,7 @@ import type { CellInputHandle } from '@/ui/grid/CellInput';
 import type { GridEditing } from '@/ui/grid/Grid';
 import type { GridSelection } from '@/ui/grid/useGridSelection';
 import type { TextPlace } from '@/text/focus';
-import { unlockForEditing } from '../st/useEditingLock';
+import { unlockForEditing } from '../text/useEditingLock';
 import { editedColumn, type ColumnId } from './columns';
 import {
   copyRows,

@@ -7,8 +7,10 @@ import { useLiveValue, useWatched } from '@/online/useLive';
 import { ValueCell } from '@/online/ValueCell';
 import type { OnlineRow } from '@/online/treeRows';
 import type { MonitorSettings } from '../online/inlineMonitor';
+import { codeTokens } from '@/iec/lexer';
 import { expressionOf, findVariables, indexExpressions, type VariableUse } from '@/iec/variables';
 import styles from './IlTable.module.css';
+import { operandTokens } from './instructionList';
 import type { IlRow } from './rows';
 
 export interface RowValue {
@@ -70,7 +72,7 @@ export function useRowValues(
 export function usesByRow(text: string, rows: readonly IlRow[]): ReadonlyMap<number, readonly VariableUse[]> {
   const found = new Map<number, VariableUse[]>();
   let row = 0;
-  for (const use of findVariables(text)) {
+  for (const use of findVariables(text, operandTokens(text, codeTokens(text)))) {
     while (row < rows.length - 1 && (rows[row]?.end ?? 0) < use.end) row += 1;
     found.set(row, [...(found.get(row) ?? []), use]);
   }

@@ -11,6 +11,7 @@ import { usePrepared } from '@/online/prepared';
 import { isForced } from '@/online/useLive';
 import { useOnline } from '@/workbench/onlineSession';
 import type { CodeEditor } from '@/text/CodePane';
+import { valueTokens } from '@/text/bodies';
 import type { Monaco } from '@/text/monacoLoader';
 import { expressionOf, findVariables, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
 import styles from './inlineMonitor.module.css';
@@ -94,7 +95,7 @@ export class InlineMonitor {
   /** The text has changed: find its variables again. */
   private read(): void {
     const model = this.target.getModel();
-    this.uses = model === null ? [] : findVariables(model.getValue());
+    this.uses = model === null ? [] : findVariables(model.getValue(), valueTokens(model.getValue()));
     this.look();
   }
 

@@ -1,6 +1,7 @@
+import { useEffect } from 'react';
 import { useText } from '@/i18n';
 import { Checkbox, Field, Select } from '@/ui/Field';
-import { setEditorSettings, useEditorSettings, type EditorSettings } from '@/text/settings';
+import { loadEditorSettings, setEditorSettings, useEditorSettings, type EditorSettings } from '@/text/settings';
 
 const INDENTATIONS = ['2', '3', '4', '8', '0'] as const;
 const CASES: readonly EditorSettings['formatKeywords'][] = ['upper', 'lower', 'keep'];
@@ -8,6 +9,7 @@ const CASES: readonly EditorSettings['formatKeywords'][] = ['upper', 'lower', 'k
 /** How formatting writes ST: indentation, case of keywords, blanks. */
 export function FormatOptions() {
   const t = useText();
+  useEffect(() => void loadEditorSettings(), []);
   const { formatIndent, formatKeywords, formatOperators, formatCommas } = useEditorSettings();
   return (
     <>

@@ -1,6 +1,6 @@
-import type { LanguageBody } from '@/text/languages';
-import { ImplementationPane } from './ImplementationPane';
+import type { LanguageBody } from '@/text/bodies';
+import { ImplementationPane } from '../text/ImplementationPane';
 
-const body: LanguageBody = { language: 'ST', view: ImplementationPane };
+const body: LanguageBody = { language: 'ST', view: ImplementationPane, showsOthers: true };
 
 export default body;

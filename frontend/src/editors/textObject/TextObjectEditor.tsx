@@ -13,12 +13,15 @@ import { DocumentBars } from '../documents/DocumentBars';
 import { phaseOf } from '@/text/documentState';
 import { useTextDocument, type OpenText } from '@/text/useTextDocument';
 import { setEditorSettings, useEditorSettings } from '@/text/settings';
-import { bodyOf } from './bodies';
+import { bodyOf } from '@/text/bodies';
+import { registerBodies } from './bodies';
 import { textHandlers } from './handlers';
-import { registerQuickFixCommand } from '../st/applyQuickFix';
+import { registerQuickFixCommand } from '../text/applyQuickFix';
 import { Splitter } from './Splitter';
 import styles from './TextObjectEditor.module.css';
-import { useReveal } from '../st/useReveal';
+import { useReveal } from '../text/useReveal';
+
+registerBodies();
 
 /** Editor of every textual object: declaration above, implementation below (DECL-01). */
 export default function StEditor(props: EditorProps) {

@@ -1,12 +1,11 @@
-/** Views of bodies by language, found by their place: `editors/<language>/body.ts`. */
-import type { LanguageBody } from '@/text/languages';
+/** Views of bodies by language, found by their place: `editors/<language>/body.ts`, or `.tsx`. */
+import { registerBody, type LanguageBody } from '@/text/bodies';
 
-const BODIES = Object.values(import.meta.glob<LanguageBody>('../*/body.ts', { eager: true, import: 'default' }));
+const BODIES = import.meta.glob<LanguageBody>('../*/body.{ts,tsx}', { eager: true, import: 'default' });
 
-/** The language that a body has where nothing is said, and that shows a text of any other. */
-const TEXT_BODY = 'ST';
-
-export function bodyOf(language: string): LanguageBody {
-  const of = (name: string) => BODIES.find((body) => body.language === name);
-  return of(language) ?? of(TEXT_BODY)!;
+/** Makes bodies known and answers them. */
+export function registerBodies(found: Readonly<Record<string, LanguageBody>> = BODIES) {
+  const bodies = Object.values(found);
+  bodies.forEach(registerBody);
+  return bodies;
 }

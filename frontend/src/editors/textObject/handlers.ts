@@ -2,7 +2,6 @@
 import { partsOf } from '@/project/kinds';
 import type { Handler, Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
-import { bodyOf } from './bodies';
 import {
   addExpressionsToWatch,
   addToWatch,
@@ -12,9 +11,10 @@ import {
   revisions,
   showCrossReferences,
   type TextPanel,
-} from '../st/acts';
+} from '../text/acts';
 import type { CodeEditor } from '@/text/CodePane';
-import { ACTIONS } from '../st/actions';
+import { bodyOf } from '@/text/bodies';
+import { ACTIONS } from '../text/actions';
 import { panelChosen, panelEditor, panelPlace, panelTable, type TextPlace } from '@/text/focus';
 
 /** Acts of a panel with Monaco editors: they go to the one that had the focus last. */

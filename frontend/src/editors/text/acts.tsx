@@ -34,6 +34,7 @@ import { isKeyword } from '@/iec/keywords';
 import { partLabels } from '@/text/labels';
 import { RenameDialog } from './RenameDialog';
 import { expressionOf, findVariables } from '@/iec/variables';
+import { valueTokens } from '@/text/bodies';
 
 export interface TextPanel extends OpenText {
   projectId: string;
@@ -195,7 +196,7 @@ export function addToWatch({ projectId, object, instance, document }: TextPanel,
     ? parseDeclaration(declaration)
         .rows.filter((row) => row.name.end >= from && row.element.start <= to && path !== null)
         .map((row) => `${path ?? ''}.${row.name.text}`)
-    : findVariables(model.getValue())
+    : findVariables(model.getValue(), valueTokens(model.getValue()))
         .filter((use) => use.end >= from && use.start <= to)
         .map((use) => expressionOf(use.path, scope, () => null));
   addExpressionsToWatch(found.flatMap((expression) => expression ?? []));

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { isInstructionList } from './instructionList';
-import { isTrivia, tokenize } from './lexer';
+import { codeTokens } from '@/iec/lexer';
 import { findVariables } from '@/iec/variables';
+import { isInstructionList, operandTokens } from './instructionList';
 
 const IL = `(* rows *)
 start: LD   iCount   // load
@@ -21,12 +21,9 @@ start: LD   iCount   // load
        LEN
        RET`;
 
-const found = (text: string) => findVariables(text).map((use) => text.slice(use.start, use.end));
-const isRows = (text: string) =>
-  isInstructionList(
-    text,
-    tokenize(text).filter((token) => !isTrivia(token)),
-  );
+const found = (text: string) =>
+  findVariables(text, operandTokens(text, codeTokens(text))).map((use) => text.slice(use.start, use.end));
+const isRows = (text: string) => isInstructionList(text, codeTokens(text));
 
 describe('rows of IL', () => {
   it('shows the values of operands, not of operators, labels and functions', () => {

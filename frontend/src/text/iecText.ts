@@ -1,4 +1,4 @@
-/** Structured Text and Instruction List for Monaco: grammar for colours, brackets, comments, indentation. */
+/** IEC texts for Monaco: grammar for colours, brackets, comments, indentation. */
 import type { languages } from 'monaco-editor/editor/editor.api';
 import {
   CONSTANT_KEYWORDS,
@@ -8,18 +8,9 @@ import {
   OPERATOR_KEYWORDS,
   STATEMENT_KEYWORDS,
 } from '@/iec/grammar';
-import { OPERATORS } from '@/iec/instructionList';
 
-export const LANGUAGE_ID = 'iec-st';
-/** Bodies in IL: the same words, but other ones are keywords at the beginning of a line. */
-export const IL_LANGUAGE_ID = 'iec-il';
-/** Monaco's language of a body; what has no text form of its own is shown as ST. */
-export function monacoLanguage(language: string): string {
-  return language === 'IL' ? IL_LANGUAGE_ID : LANGUAGE_ID;
-}
-
-/** What the language server knows. */
-export const TEXT_LANGUAGES: readonly string[] = [LANGUAGE_ID, IL_LANGUAGE_ID];
+/** Monaco's name of what declarations are written in, and bodies without a form of their own; the language server's, too. */
+export const IEC_TEXT = 'iec-st';
 
 const OPENING =
   /^\s*(?:IF\b.*\bTHEN|ELSIF\b.*\bTHEN|ELSE|CASE\b.*\bOF|FOR\b.*\bDO|WHILE\b.*\bDO|REPEAT|VAR(?:_\w+)?\b(?!.*\bEND_VAR)[A-Z_ ]*|STRUCT|UNION)\s*(?:\/\/.*)?$/i;
@@ -132,26 +123,6 @@ export const monarchLanguage: languages.IMonarchLanguage = {
       [/\$(?:[$"LNPRT]|[0-9A-F]{4})/, 'string.escape'],
       [/\$/, 'string.invalid'],
       [/"/, 'string', '@pop'],
-    ],
-  },
-};
-
-const OPERATOR = new RegExp(`(?:${[...OPERATORS].join('|')})(?![\\w\\u0080-\\uffff.#])`);
-
-/** IL: the first word of a row is an operator, also behind a label. */
-export const ilMonarchLanguage: languages.IMonarchLanguage = {
-  ...monarchLanguage,
-  tokenizer: {
-    ...monarchLanguage.tokenizer,
-    root: [
-      [/^\s*[A-Z_\u0080-\uffff][\w\u0080-\uffff]*\s*:(?!=)/, { token: 'annotation', next: '@labelled' }],
-      [new RegExp(`^\\s*${OPERATOR.source}`), 'keyword'],
-      ...(monarchLanguage.tokenizer['root'] ?? []),
-    ],
-    labelled: [
-      [/\s+/, ''],
-      [OPERATOR, 'keyword', '@pop'],
-      [/(?=.)/, '', '@pop'],
     ],
   },
 };

@@ -1,5 +1,5 @@
 /** Rows of IL, by their tokens: which words are operators, labels or functions and so name no value (IL-01, IL-13). */
-import { textOf, type Token } from './lexer';
+import { textOf, type Token } from '@/iec/lexer';
 
 export const OPERATORS: ReadonlySet<string> = new Set(
   (
