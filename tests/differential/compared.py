@@ -1,4 +1,4 @@
-"""Runs one program on the compiler and on the reference and tells where they differ."""
+"""Runs one program on the compiler and on the reference and reports where they differ."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from bytes_in_memory import View
 from typed_tree import Array, Block, Enum, Scalar, Struct, Subrange, Text, Type, Variable, base_of
 
 BLOCK = ""
-"""Where an instance tells what it is an instance of."""
+"""Where an instance records its type."""
 
 
 BOUNDS = "bounds of "

@@ -1,6 +1,6 @@
 """STRING_TO_<type> of random texts, good and bad: a text means what it means as a literal in a program.
 
-Source: LOPR-76. The texts are built here with the value they have; of changed ones the front end tells
+Source: LOPR-76. The texts are built here with the value they have; of changed ones the front end reports
 whether they are literals. What no literal is gives 0; integers of any size are cut to the target.
 """
 

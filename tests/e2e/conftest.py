@@ -48,7 +48,7 @@ BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-c
 VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
 
 TRIES_AGAIN = 2
-"""A browser on a busy machine may miss a moment; what fails three times is broken. The summary tells."""
+"""A browser on a busy machine may miss a moment; what fails three times is broken. The summary names it."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -180,7 +180,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
 
 @contextmanager
 def new_profile(browser: Browser, language: str = "en", theme: str = "light") -> Iterator[BrowserContext]:
-    """Storage and cache of their own, and the language and colours that a browser tells the workbench."""
+    """Storage and cache of their own, and the language and colours that a browser gives the workbench."""
     profile = browser.new_context(
         viewport=VIEWPORT,
         locale={"en": "en-US", "zh": "zh-CN"}[language],

@@ -331,7 +331,7 @@ def test_proposals_and_definitions(page: Page, table: Locator) -> None:
 
 
 def test_messages_mark_their_row_and_lead_to_it(page: Page, table: Locator) -> None:
-    """A row with an error has a mark that tells it; the message window leads to the row."""
+    """A row with an error has a mark that shows it; the message window leads to the row."""
     cell(table, 2, "Operand").click()
     page.keyboard.type("bNowhere")
     expect(table.get_by_role("textbox")).to_have_value("bNowhere")

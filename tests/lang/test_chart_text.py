@@ -18,7 +18,7 @@ TRANSITION FROM T TO S := n > 3; END_TRANSITION
 ACTION Act: n := n + 1; END_ACTION"""
 
 
-def told(body: str, variables: str = "") -> list[tuple[str, str]]:
+def messages(body: str, variables: str = "") -> list[tuple[str, str]]:
     text = f"PROGRAM P\nVAR lamp : BOOL; n : INT; {variables} END_VAR\n{body}\nEND_PROGRAM"
     result = parse(Source("P", text))
     found = result.diagnostics or analyse([result.unit]).diagnostics
@@ -26,7 +26,7 @@ def told(body: str, variables: str = "") -> list[tuple[str, str]]:
 
 
 def test_good_chart_has_no_message() -> None:
-    assert told(GOOD) == []
+    assert messages(GOOD) == []
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_good_chart_has_no_message() -> None:
 def test_faults_are_reported(old: str, new: str, code: str, words: str) -> None:
     assert old in GOOD
     block = "\nEND_PROGRAM\nFUNCTION_BLOCK FB VAR_INPUT IN : BOOL; END_VAR END_FUNCTION_BLOCK\nPROGRAM Q"
-    found = told(
+    found = messages(
         GOOD.replace(old, new, 1) + (block if "inst" in new else ""), "inst : FB;" if "inst" in new else ""
     )
     assert code in [c for c, _ in found], found
@@ -63,8 +63,8 @@ def test_faults_are_reported(old: str, new: str, code: str, words: str) -> None:
 
 def test_implicit_names_are_taken() -> None:
     """LSFC-57: an own variable with the name of a step or of an action's flag is an error."""
-    assert "E0205" in [c for c, _ in told(GOOD, "T : INT;")]
-    assert "E0205" in [c for c, _ in told(GOOD, "_Act : INT;")]
+    assert "E0205" in [c for c, _ in messages(GOOD, "T : INT;")]
+    assert "E0205" in [c for c, _ in messages(GOOD, "_Act : INT;")]
 
 
 def test_conditions_may_be_any_bool() -> None:
@@ -74,7 +74,7 @@ def test_conditions_may_be_any_bool() -> None:
         function = (
             "\nEND_PROGRAM\nFUNCTION F : BOOL VAR_INPUT x : INT; END_VAR F := x > 3; END_FUNCTION\nPROGRAM Q"
         )
-        assert told(body + function) == [], condition
+        assert messages(body + function) == [], condition
 
 
 def test_a_function_has_no_chart() -> None:
@@ -82,8 +82,8 @@ def test_a_function_has_no_chart() -> None:
     steps = "INITIAL_STEP S: END_STEP TRANSITION FROM S TO S := TRUE; END_TRANSITION"
     for head in ("ACTION A:", "METHOD M"):
         body = f"n := 1;\n{head}\n{steps}\nEND_{head.split()[0]}"
-        assert [c for c, _ in told(body) if c[0] == "E"] == []
-    found = told(f"END_PROGRAM FUNCTION F : INT\n{steps}\nEND_FUNCTION\nPROGRAM Q")
+        assert [c for c, _ in messages(body) if c[0] == "E"] == []
+    found = messages(f"END_PROGRAM FUNCTION F : INT\n{steps}\nEND_FUNCTION\nPROGRAM Q")
     assert [c for c, _ in found if c[0] == "E"] == ["E0113"]
 
 
@@ -93,13 +93,13 @@ def test_an_action_is_not_at_a_step_of_its_own_chart() -> None:
     one = f"A();\nACTION A: {chart.format(1, 'A')} END_ACTION"
     two = f"A();\nACTION A: {chart.format(1, 'B')} END_ACTION\nACTION B: {chart.format(2, 'A')} END_ACTION"
     for body, code in ((one, "E0829"), (two, "E0515")):
-        assert [c for c, _ in told(body) if c[0] == "E"] == [code]
+        assert [c for c, _ in messages(body) if c[0] == "E"] == [code]
 
 
 def test_words_of_charts_stay_free() -> None:
     """STEP and INITIAL_STEP are no keywords: ST may use them as names and labels."""
     body = "Step := 3;\nIF Step > 2 THEN JMP initial_step; END_IF\ninitial_step: Step := 4;"
-    assert told(body, "Step : INT;") == []
+    assert messages(body, "Step : INT;") == []
 
 
 def test_steps_and_transitions_are_places() -> None:
@@ -120,4 +120,4 @@ SD T#1s ACTION END_ACTION lamp n 3 AND MAX_TIME ENTRY END_PROGRAM IF END_IF"""
 @given(st.lists(st.sampled_from(_WORDS.split()), max_size=40))
 @settings(max_examples=150, deadline=None)
 def test_any_text_is_read(pieces: list[str]) -> None:
-    told(f"INITIAL_STEP S: Act(N); END_STEP\n{' '.join(pieces)}")
+    messages(f"INITIAL_STEP S: Act(N); END_STEP\n{' '.join(pieces)}")

@@ -11,7 +11,7 @@ from tappet.lang.rules.coding.cognitive_complexity import cognitive_complexity
 from tappet.lang.source import Source
 
 
-def told(text: str, *codes: str) -> list[tuple[str, int]]:
+def messages(text: str, *codes: str) -> list[tuple[str, int]]:
     """The codes among these that are reported, with their lines from 1; @ lines left out."""
     return [(d.code, d.span.line + 1) for d in diagnose(f"@static\n{text}") if d.code in codes]
 
@@ -31,7 +31,7 @@ HEAD = 4
 
 
 def in_block(body: str, *codes: str) -> list[tuple[str, int]]:
-    return [(code, line - HEAD) for code, line in told(BLOCK.format(body=body), *codes)]
+    return [(code, line - HEAD) for code, line in messages(BLOCK.format(body=body), *codes)]
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_indices_of_loops(body: str, found: list[str]) -> None:
         ("FOR i := 1 TO x DO F := F + i; END_FOR", [1]),
         ("WHILE TRUE DO\nIF x > i THEN F := 1; RETURN; END_IF\ni := i + 1;\nEND_WHILE", []),
         ("REPEAT F := x; UNTIL F > 3 END_REPEAT", []),
-        ("i := 1;", []),  # W1209 tells
+        ("i := 1;", []),  # W1209 reports it
         ("Give(F);", []),
         ("__TRY F := 10 / x; __FINALLY i := 1; __ENDTRY", []),
         ("__TRY F := 10 / x; __CATCH i := 1; __ENDTRY", [1]),
@@ -121,7 +121,7 @@ def test_results_on_every_way(body: str, lines: list[int]) -> None:
         f"{body}\nEND_FUNCTION\nFUNCTION Give : BOOL\nVAR_IN_OUT n : INT; END_VAR\nn := 1;\nGive := TRUE;\n"
         "END_FUNCTION\n"
     )
-    assert [line for _, line in told(text, "S1421")] == lines
+    assert [line for _, line in messages(text, "S1421")] == lines
 
 
 def test_a_method_may_leave_its_result_to_the_system() -> None:
@@ -141,7 +141,7 @@ END_GET
 END_PROPERTY
 END_FUNCTION_BLOCK
 """
-    assert told(text, "S1421") == [("S1421", 7), ("S1421", 10)]
+    assert messages(text, "S1421") == [("S1421", 7), ("S1421", 10)]
 
 
 @pytest.mark.parametrize(
@@ -161,7 +161,7 @@ def test_references_before_they_are_bound(body: str, lines: list[int]) -> None:
         "PROGRAM Main\nVAR n : INT; END_VAR\nVAR r : REFERENCE TO INT; s : REFERENCE TO INT REF= n; END_VAR\n"
         f"{body}\nEND_PROGRAM\n"
     )
-    assert [line - 3 for _, line in told(text, "S1238")] == lines
+    assert [line - 3 for _, line in messages(text, "S1238")] == lines
 
 
 def test_a_reference_that_fb_init_binds_or_the_caller_passes() -> None:
@@ -178,7 +178,7 @@ VAR_INPUT r : REFERENCE TO INT; END_VAR
 F := r;
 END_FUNCTION
 """
-    assert told(text, "S1238") == []
+    assert messages(text, "S1238") == []
 
 
 @pytest.mark.parametrize(
@@ -214,7 +214,7 @@ VAR base : FB_Base; derived : FB_Derived; n : INT; d : DINT; a : ARRAY[0..9] OF 
 {statement}
 END_PROGRAM
 """
-    assert [found for found, _ in told(text, "S1235", "S1237")] == [code] * bool(code)
+    assert [found for found, _ in messages(text, "S1235", "S1237")] == [code] * bool(code)
 
 
 @pytest.mark.parametrize(
@@ -249,7 +249,7 @@ def test_numbers_and_their_types(statement: str, code: str) -> None:
 VAR n : INT; u : USINT; w : UINT; d : DINT; b : BOOL; r : REAL; END_VAR
 {statement}
 """
-    found = told(text, "S1239", "S1240", "S1241", "S1243", "S1249")
+    found = messages(text, "S1239", "S1240", "S1241", "S1243", "S1249")
     assert [each for each, _ in found] == [code] * bool(code)
 
 
@@ -279,7 +279,7 @@ s := CONCAT('a', 'b');
 s := Standard.CONCAT(s, 'c');
 END_PROGRAM
 """
-    assert told(text, "S1423") == [("S1423", 3)]
+    assert messages(text, "S1423") == [("S1423", 3)]
 
 
 @pytest.mark.parametrize(

@@ -45,14 +45,14 @@ def everywhere() -> set[str]:
 
 
 def left_in_english(d: Diagnostic, source: str) -> set[str]:
-    told = said(d.code, Texts(d.message, d.advice), d.facts, "zh")
+    shown = said(d.code, Texts(d.message, d.advice), d.facts, "zh")
     names = [
         value for name, value in d.facts.items() if name not in KINDS and (" " not in value or name in ST)
     ]
     known = everywhere() | words(source) | words(" ".join(names)) | words(" ".join(texts(d.code, "zh")))
     related = [phrase(item.message, "zh") for item in d.related]
     quoted = re.compile("“[^” ]*”")  # what stands in a text or in a library
-    return words(quoted.sub(" ", " ".join([*told, *related]))) - known
+    return words(quoted.sub(" ", " ".join([*shown, *related]))) - known
 
 
 @pytest.mark.parametrize("code", sorted(samples()))

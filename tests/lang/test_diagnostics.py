@@ -59,7 +59,7 @@ def _fields(template: str) -> set[str]:
 
 
 def test_messages_are_described_in_chinese() -> None:
-    """Every coding rule is; a message that has just come in is told in English until it has its words."""
+    """Every coding rule is; a message that has just come in is shown in English until it has its words."""
     assert {code for code in TABLE if code[0] == "S"} <= translated_codes("zh") <= set(TABLE)
     assert len(translated_codes("zh")) > 0.95 * len(TABLE)
 
@@ -71,8 +71,8 @@ def test_a_message_is_said_in_another_language() -> None:
     assert said(made.code, english, made.facts, "en") is english
     assert said(made.code, english, made.facts, "zh").message == "不能将类型“INT”转换为类型“BYTE”"
     hinted = report("E0201", "PLC_PRG", span, name="Spd", hint="Did you mean 'Speed'?")
-    told = said(hinted.code, Texts(hinted.message, hinted.advice), hinted.facts, "zh")
-    assert told == ("标识符“Spd”未定义", "是否指“Speed”？")
+    shown = said(hinted.code, Texts(hinted.message, hinted.advice), hinted.facts, "zh")
+    assert shown == ("标识符“Spd”未定义", "是否指“Speed”？")
     assert [language_of(tag) for tag in ("zh-CN", "zh", "en-US", "de", None)] == [
         "zh",
         "zh",

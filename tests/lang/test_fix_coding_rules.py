@@ -58,14 +58,14 @@ def applied(sources: Mapping[str, Source], action: CodeAction) -> dict[str, Sour
     return after
 
 
-def told(snapshot: Snapshot, code: str) -> list[Diagnostic]:
+def messages(snapshot: Snapshot, code: str) -> list[Diagnostic]:
     return [d for d in snapshot.diagnostics if d.code == code]
 
 
 def mend(sources: Mapping[str, Source], code: str) -> dict[str, Source]:
     """The texts after the first mend of a code."""
     snapshot = snapshot_of(sources)
-    found = told(snapshot, code)
+    found = messages(snapshot, code)
     assert found
     for diagnostic in found:
         for action in code_actions(snapshot, diagnostic.uri, EVERYTHING):
@@ -79,7 +79,7 @@ def test_a_mend_takes_its_message_away_and_brings_no_error(code: str, sample: Sa
     before = sources_of(_COMMENT.sub("", sample.text))  # a comment keeps statements from being put together
     after = mend(before, code)
     now = snapshot_of(after)
-    assert len(told(now, code)) < len(told(snapshot_of(before), code)), after
+    assert len(messages(now, code)) < len(messages(snapshot_of(before), code)), after
     assert [str(d) for d in now.diagnostics if d.severity == "error"] == []
 
 
@@ -156,7 +156,7 @@ def test_declarations_are_mended(code: str, before: str, after: str) -> None:
 def test_what_would_change_the_program_is_not_offered(code: str, statements: str) -> None:
     text = f"{TYPES}PROGRAM Sample\n{HEAD}{statements}\nEND_PROGRAM\n"
     snapshot = snapshot_of({"Sample": Source("Sample", text)})
-    assert told(snapshot, code)
+    assert messages(snapshot, code)
     found = code_actions(snapshot, "Sample", EVERYTHING)
     assert code not in {action.report.code for action in found}
 

@@ -15,7 +15,7 @@ VAR n, m, i : INT; b : BOOL; p : POINTER TO INT; END_VAR
 HEAD_LINES = HEAD.count("\n") - 1
 
 
-def told(body: str) -> list[tuple[str, int]]:
+def messages(body: str) -> list[tuple[str, int]]:
     found = diagnose(f"{HEAD}{body}\nEND_FUNCTION")
     return [(d.code, d.span.line + 1 - HEAD_LINES) for d in found if d.code in CODES]
 
@@ -54,7 +54,7 @@ def told(body: str) -> list[tuple[str, int]]:
     ],
 )
 def test_reads(body: str, expected: list[tuple[str, int]]) -> None:
-    assert [entry for entry in told(body) if entry[0] != "W1135"] == expected
+    assert [entry for entry in messages(body) if entry[0] != "W1135"] == expected
 
 
 @pytest.mark.parametrize(
@@ -77,11 +77,11 @@ def test_reads(body: str, expected: list[tuple[str, int]]) -> None:
     ],
 )
 def test_assignments_that_nothing_reads(body: str, lines: list[int]) -> None:
-    assert [line for code, line in told(body) if code == "W1135"] == lines
+    assert [line for code, line in messages(body) if code == "W1135"] == lines
 
 
 def test_a_body_with_jumps_is_left_out() -> None:
-    assert told("again: IF x > n THEN n := x; JMP again; END_IF\nm := x;") == []
+    assert messages("again: IF x > n THEN n := x; JMP again; END_IF\nm := x;") == []
 
 
 def test_temporary_variables_of_blocks() -> None:

@@ -25,7 +25,7 @@ def in_language(name: str | None) -> tuple[BodyText, ...]:
     return () if name is None else (BodyText(0, name),)
 
 
-def told(body: str, language: str | None = "IL") -> list[tuple[str, int, str]]:
+def messages(body: str, language: str | None = "IL") -> list[tuple[str, int, str]]:
     """Code, row (from 1) and message of everything that is reported about a body."""
     result = parse(Source("P", f"{_DECLARATION}{body}\nEND_PROGRAM\n{_TIMER}", bodies=in_language(language)))
     found = result.diagnostics or analyse([result.unit]).diagnostics
@@ -68,7 +68,7 @@ def told(body: str, language: str | None = "IL") -> list[tuple[str, int, str]]:
 )
 def test_rows_are_reported(body: str, code: str, row: int) -> None:
     """IL-60..IL-63: the message names the row, and what follows is read on."""
-    found = told(body)
+    found = messages(body)
     assert (code, row) in [(c, r) for c, r, _ in found]
     assert all(r == row or c == code for c, r, _ in found), found
 
@@ -91,16 +91,16 @@ def test_rows_are_reported(body: str, code: str, row: int) -> None:
     ],
 )
 def test_checks_of_the_tree_hold_for_rows(body: str, code: str, words: str) -> None:
-    found = told(body)
+    found = messages(body)
     assert code in [c for c, _, _ in found], found
     assert any(words in message for c, _, message in found if c == code)
 
 
 def test_message_tells_network_and_row() -> None:
     """IL-60."""
-    assert told("LD a\nST\nLD b\nST a") == [("E0120", 2, "Network 1, row 2: ST needs an operand")]
-    assert told("LD a\nST b\nLD c\nADD 1\nLD b\nST a")[0][2].startswith("Network 1, row 3: the value")
-    found = told("LD a\nST b\nJMP next\nnext:\nLD a\nSUB\nST b")
+    assert messages("LD a\nST\nLD b\nST a") == [("E0120", 2, "Network 1, row 2: ST needs an operand")]
+    assert messages("LD a\nST b\nLD c\nADD 1\nLD b\nST a")[0][2].startswith("Network 1, row 3: the value")
+    found = messages("LD a\nST b\nJMP next\nnext:\nLD a\nSUB\nST b")
     assert [(c, r) for c, r, _ in found] == [("E0120", 6)]
     assert "Network 2, row 2" in found[0][2]
 
@@ -120,7 +120,7 @@ def test_message_tells_network_and_row() -> None:
     ],
 )
 def test_first_instruction_tells_the_language(body: str) -> None:
-    assert [c for c, _, _ in told(body, language=None) if c[0] == "E"] == []
+    assert [c for c, _, _ in messages(body, language=None) if c[0] == "E"] == []
     unit = parse(Source("P", f"{_DECLARATION}{body}\nEND_PROGRAM")).unit
     assert isinstance(unit.declarations[0], ast.Pou)
     assert unit.declarations[0].language == "IL"

@@ -295,8 +295,8 @@ def test_the_texts_of_a_library_without_values_are_those_of_all() -> None:
 def test_whatever_is_typed_gives_a_program_or_a_message_at_the_reference(value: str) -> None:
     for parameter in ("cSlots", "aStart", "eMode", "cPause"):
         result = build(reference(**{parameter: value}), check_only=True)
-        told = [d for d in result.diagnostics if d.severity == "error"]
-        assert all((d.code, d.uri) == ("E0904", MANAGER) for d in told), [str(d) for d in told]
+        found = [d for d in result.diagnostics if d.severity == "error"]
+        assert all((d.code, d.uri) == ("E0904", MANAGER) for d in found), [str(d) for d in found]
 
 
 @given(st.text(max_size=60))

@@ -60,7 +60,7 @@ def test_every_template_says_what_it_is(kind: ObjectKind[Any]) -> None:
     for subkind in kind.templates:
         app = at(project, APP)
         project, item = edit.add_object(project, app.id, kind.name, subkind=subkind)
-        plain = subkind == "variable_list"  # a list without parameters is told by its kind alone
+        plain = subkind == "variable_list"  # its kind alone determines a list without parameters
         assert item.subkind == (None if plain else subkind)
     with pytest.raises(InvalidDataError):
         edit.add_object(Project("x"), None, "pou", "P", subkind="struct")

@@ -267,7 +267,7 @@ def test_what_a_missing_plug_in_wrote_is_kept() -> None:
         (f"{APP}/FB_Motor.st", None, r"FB_Motor\.st: is missing, but the index lists 'FB_Motor'"),
         (f"{APP}/FB_Motor.st", b"a\nb\xff", r"FB_Motor\.st: line 2 is not UTF-8"),
         (f"{APP}/FB_Motor.st", b"a\n\x00", r"FB_Motor\.st: pou 'FB_Motor': .*line 2 .*U\+0000"),
-        (f"{APP}/Odd.st", b"x := 1;", r"Odd\.st: what it declares cannot be told"),
+        (f"{APP}/Odd.st", b"x := 1;", r"Odd\.st: what it declares is not recognised"),
         (f"{APP}/A~1.st", b"PROGRAM A", "an object's file is named A, not A~1"),
         (f"{APP}/index.json", b'[{"kind": "pou"}]', r"index\.json: 0\.name: Field required"),
         (

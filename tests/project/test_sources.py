@@ -203,7 +203,7 @@ def test_only_an_application_is_compiled() -> None:
 
 
 def test_language_of_a_body() -> None:
-    """A body in IL is compiled as such whatever its first row looks like; ST is told by its text."""
+    """A body in IL is compiled as such whatever its first row looks like; ST is recognised by its text."""
     project = new_project("Plant")
     (application,) = project.applications()
     project, rows = edit.add_object(project, application.id, "pou", "Rows", language="IL")

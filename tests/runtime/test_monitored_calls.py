@@ -92,8 +92,8 @@ def test_a_fault_of_get_is_told_and_ends_nothing(runtime: LocalRuntime) -> None:
     runtime.plc.poll()
     runtime.run(cycles=2)
     runtime.plc.poll()
-    told = [entry.message for entry in runtime.plc.log.since() if entry.component == "monitoring"]
-    assert told == [
+    found = [entry.message for entry in runtime.plc.log.since() if entry.component == "monitoring"]
+    assert found == [
         "monitoring 'PLC_PRG.fb.Quotient' ended in an exception of its Get, which is called no more"
     ]
     assert runtime.state == "run"

@@ -1,4 +1,4 @@
-"""Tests that kill their process: which one it was is told, and the others run on in a new process."""
+"""Tests that kill their process: which one it was is reported, and the others run on in a new process."""
 
 from __future__ import annotations
 

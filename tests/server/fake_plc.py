@@ -97,7 +97,7 @@ class FakePlc:
         self.clients.append(client)
         return client
 
-    def tell(self, kind: str) -> None:
+    def notify(self, kind: str) -> None:
         for client in self.clients:
             for callback in client.callbacks:
                 callback(RuntimeEvent(kind, self.state))
@@ -107,7 +107,7 @@ class FakePlc:
         self.down = True
         for recorder in self.recorders:
             recorder.end()
-        self.tell("lost")
+        self.notify("lost")
         self.clients.clear()
 
     def set(self, path: str, value: Any) -> None:
@@ -145,12 +145,12 @@ class FakePlc:
         if self.state == "exception":
             raise PlcError("the application is in the state exception; reset it before starting")
         self.state = "run"
-        self.tell("state")
+        self.notify("state")
 
     def stop(self) -> None:
         self._need()
         self.state = "stop"
-        self.tell("state")
+        self.notify("state")
 
     def single_cycle(self) -> None:
         self._need()
@@ -165,7 +165,7 @@ class FakePlc:
         if kind == "origin":
             self.state, self.application = "empty", None
             self.code_id = self.data_id = self.symbol_map = None
-        self.tell("state")
+        self.notify("state")
 
     def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
         return [bytes(self.image[offset : offset + size]) for offset, size in places]
@@ -184,11 +184,11 @@ class FakePlc:
     def force(self, values: Sequence[PlacedValue]) -> None:
         self.write(values)
         self.forced |= {(value.place.offset, value.place.bit): value.data for value in values}
-        self.tell("forces")
+        self.notify("forces")
 
     def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
         released = [self.forced.pop(key, None) for key in (list(self.forced) if keys is None else keys)]
-        self.tell("forces")
+        self.notify("forces")
         return sum(data is not None for data in released)
 
     def forces(self) -> list[tuple[Force, str | None]]:
@@ -300,7 +300,7 @@ class FakeClient:
         plc.image = bytearray(parsed.initial_image.ljust(IMAGE_SIZE, b"\0"))
         if mode == "download":
             plc.state = "stop"
-        plc.tell("application")
+        plc.notify("application")
         return plc.info()
 
     async def record(
@@ -321,7 +321,7 @@ class FakeClient:
 
 
 def division_by_zero() -> ExceptionReport:
-    """What a runtime tells about a fault."""
+    """What a runtime reports of a fault."""
     frame = CallFrame("FB_Motor", "FB_Motor", 12)
     return ExceptionReport(
         1, "DIV_ZERO", "division by zero", "MainTask", "FB_Motor", "FB_Motor", 12, 99, 1, (frame,), {}

@@ -110,7 +110,7 @@ class Client:
         assert "error" in answer, answer
         return answer["error"]
 
-    async def tell(self, method: str, params: Any) -> None:
+    async def notify(self, method: str, params: Any) -> None:
         if method == "textDocument/didOpen":
             self.shown.add(params["textDocument"]["uri"])
         elif method == "textDocument/didClose":
@@ -120,21 +120,21 @@ class Client:
     async def start(self, locale: str = "en") -> dict[str, Any]:
         params = {"processId": None, "rootUri": None, "capabilities": {}, "locale": locale}
         result = await self.ask("initialize", params)
-        await self.tell("initialized", {})
+        await self.notify("initialized", {})
         return result
 
     async def open(self, document: str, text: str, version: int = 1) -> dict[str, Any]:
         """Open a text; gives the params that ask about its `|`."""
         before, mark, after = text.partition("|")
         item = {"uri": document, "languageId": "iec-st", "version": version, "text": before + after}
-        await self.tell("textDocument/didOpen", {"textDocument": item})
+        await self.notify("textDocument/didOpen", {"textDocument": item})
         lines = before.split("\n")
         position = {"line": len(lines) - 1, "character": len(lines[-1].encode("utf-16-le")) // 2}
         return {"textDocument": {"uri": document}, **({"position": position} if mark else {})}
 
     async def published(self, document: str) -> list[dict[str, Any]]:
         """The next messages published for a document, of an open one those of the opened text: the stored one
-        may be told about while the document is being opened."""
+        may be published while the document is being opened."""
         while True:
             for index, (method, params) in enumerate(self.notified):
                 if method != "textDocument/publishDiagnostics" or params["uri"] != document:

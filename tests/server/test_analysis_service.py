@@ -76,7 +76,7 @@ class Browser:
         text = json.dumps({"jsonrpc": "2.0", **message})
         await self.service.receive(self.project, self.client, text)
 
-    async def tell(self, method: str, params: Any) -> None:
+    async def notify(self, method: str, params: Any) -> None:
         await self.send({"method": method, "params": params})
 
     async def begin(self, method: str, params: Any) -> int:
@@ -92,17 +92,17 @@ class Browser:
     async def start(self, locale: str = "en") -> None:
         params = {"processId": None, "rootUri": None, "capabilities": {}, "locale": locale}
         assert "result" in await self.answer("initialize", params)
-        await self.tell("initialized", {})
+        await self.notify("initialized", {})
 
     async def open(self, document: str, text: str, version: int = 1) -> None:
         item = {"uri": document, "languageId": "iec-st", "version": version, "text": text}
-        await self.tell("textDocument/didOpen", {"textDocument": item})
+        await self.notify("textDocument/didOpen", {"textDocument": item})
 
     async def change(self, document: str, edits: list[dict[str, Any]], version: int) -> None:
         identifier = {"uri": document, "version": version}
-        await self.tell("textDocument/didChange", {"textDocument": identifier, "contentChanges": edits})
+        await self.notify("textDocument/didChange", {"textDocument": identifier, "contentChanges": edits})
 
-    async def told(self, document: str, errors: list[str], version: int | None = None) -> None:
+    async def until_published(self, document: str, errors: list[str], version: int | None = None) -> None:
         """Wait for just these errors of a document, of one version of its text if given."""
 
         def met() -> bool:
@@ -175,15 +175,15 @@ async def test_many_browsers_share_one_process(tmp_path: Path) -> None:
         browsers = [await here.browser() for _ in range(5)]
         for browser in browsers[1:]:
             await browser.open(here.body, "iStep := 1;")
-            await browser.told(here.body, ["E0201"])
+            await browser.until_published(here.body, ["E0201"])
         await browsers[0].open(here.head, HEAD.replace("iCount", "iStep"))
         for browser in browsers[1:]:
-            await browser.told(here.body, [])
+            await browser.until_published(here.body, [])
         pid = here.process().pid
         assert children().count(pid) == 1
         browsers[0].close()  # what its user typed goes with it
         for browser in browsers[1:]:
-            await browser.told(here.body, ["E0201"])
+            await browser.until_published(here.body, ["E0201"])
         for browser in browsers[1:]:
             browser.close()
     assert pid not in children()
@@ -197,7 +197,7 @@ async def test_an_analysis_that_is_killed_starts_again_with_all_unsaved_texts(tm
         await one.change(here.head, [{"range": edit, "text": "\U0001f600iStep"}, {"text": HEAD}], 2)
         await one.change(here.head, [{"range": edit, "text": "iStep"}], 3)
         await two.open(here.body, "iStep := iMissing;", 7)
-        await two.told(here.body, ["E0201"], 7)
+        await two.until_published(here.body, ["E0201"], 7)
         first = here.process().pid
         os.kill(first, signal.SIGKILL)
         await one.until(lambda: bool(one.said))
@@ -211,10 +211,10 @@ async def test_an_analysis_that_is_killed_starts_again_with_all_unsaved_texts(tm
         assert here.process().pid != first
         # the declaration is in the unsaved text of the other one, at a line that both show
         assert found["result"] is None or found["result"]["uri"] == here.head
-        await two.told(here.body, ["E0201"], 7)
+        await two.until_published(here.body, ["E0201"], 7)
         edit = {"start": {"line": 0, "character": 9}, "end": {"line": 0, "character": 17}}
         await two.change(here.body, [{"range": edit, "text": "iStep"}], 8)
-        await two.told(here.body, [], 8)
+        await two.until_published(here.body, [], 8)
 
 
 async def test_what_waits_is_answered_when_the_analysis_ends(tmp_path: Path) -> None:
@@ -242,7 +242,7 @@ async def test_a_worker_is_bounded(tmp_path: Path, text: str, limits: Limits, re
         await browser.until(lambda: bool(browser.said))
         assert reason in browser.said[0]
         await browser.change(here.body, [{"text": "iMissing := 1;"}], 2)
-        await browser.told(here.body, ["E0201"], 2)
+        await browser.until_published(here.body, ["E0201"], 2)
 
 
 async def test_a_text_that_always_fails_is_left_alone_for_a_while(tmp_path: Path) -> None:
@@ -278,12 +278,12 @@ async def test_a_browser_that_reads_nothing_keeps_nobody_waiting(tmp_path: Path)
     async with site(tmp_path) as here:
         quick, slow = await here.browser(), Browser(here.service, here.project, reads=False)
         await slow.begin("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
-        await slow.tell("initialized", {})
+        await slow.notify("initialized", {})
         await slow.open(here.body, "")
         await quick.open(here.body, "")
         for version in range(2, 12):
             await quick.change(here.body, [{"text": f"iMissing{version} := 1;" * version}], version)
-            await quick.told(here.body, ["E0201"] * version, version)
+            await quick.until_published(here.body, ["E0201"] * version, version)
         waiting = [json.loads(text) for text in slow.client.outbox._waiting.values()]
         published = [
             m["params"]["uri"] for m in waiting if m.get("method") == "textDocument/publishDiagnostics"
@@ -316,7 +316,7 @@ async def test_an_idle_process_ends_and_another_one_takes_over(tmp_path: Path) -
         assert here.service.projects == {}
         again = await here.browser()
         await again.open(here.body, "iMissing := 1;")
-        await again.told(here.body, ["E0201"])
+        await again.until_published(here.body, ["E0201"])
         assert here.process().pid != pid
 
 
@@ -349,20 +349,20 @@ async def test_stored_changes_reach_the_analysis(tmp_path: Path) -> None:
     async with site(tmp_path) as here:
         browser = await here.browser()
         await browser.open(here.body, "iStep := F_New(1);")
-        await browser.told(here.body, ["E0201", "E0201"])
+        await browser.until_published(here.body, ["E0201", "E0201"])
         item = here.store.get(here.project, here.main)
         data = item.data.model_copy(update={"declaration": HEAD.replace("iCount", "iStep")})
         here.store.save(here.project, here.main, item.revision, data, "tester")
-        await browser.told(here.body, ["E0201"])
+        await browser.until_published(here.body, ["E0201"])
         application = here.store.load(here.project).applications()[0].id
         texts = {
             "declaration": "FUNCTION F_New : INT\nVAR_INPUT\n    a : INT;\nEND_VAR",
             "implementation": "F_New := a;",
         }
         made = here.store.add(here.project, "tester", application, "pou", "F_New", data=texts)
-        await browser.told(here.body, [])
+        await browser.until_published(here.body, [])
         here.store.delete(here.project, "tester", made.id)
-        await browser.told(here.body, ["E0201"])
+        await browser.until_published(here.body, ["E0201"])
         here.store.delete_project(here.project, "tester")
         here.service.project_deleted(here.project)
         await browser.until(lambda: browser.ended)
@@ -417,7 +417,7 @@ async def test_random_edits_and_a_crash_leave_the_messages_of_a_fresh_analysis(
         for document, found in reports(snapshot).items():
             expected[document] = [report.code for report in found if report.severity == "error"]
         for document, browser in owner.items():
-            await browser.told(document, expected[document], 100)
+            await browser.until_published(document, expected[document], 100)
 
 
 SERVER = """

@@ -109,7 +109,7 @@ def test_relations_from_foreign_to_online_change(
     admin: TestClient, project: Stored, runtime_id: str, plc: FakePlc
 ) -> None:
     plc.application = "Pump"
-    plc.tell("application")
+    plc.notify("application")
     admin.post(f"/api/v1/runtimes/{runtime_id}/stop")
     foreign = _login(admin, project, runtime_id)
     assert foreign["relation"] == "foreign"

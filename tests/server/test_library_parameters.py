@@ -108,24 +108,24 @@ def test_a_message_about_a_value_leads_to_the_library_manager(
     manager = plant.give("Small", value, name)
     report = plant.build("Small")
     assert report["ok"] is ok
-    (told,) = [d for d in report["diagnostics"] if d["severity"] in ("error", "warning")]
-    assert (told["code"], told["object_id"], told["part"], told["line"]) == (code, manager, None, None)
-    assert told["object_path"] == "Small/PLC Logic/Application/Library Manager"
+    (found,) = [d for d in report["diagnostics"] if d["severity"] in ("error", "warning")]
+    assert (found["code"], found["object_id"], found["part"], found["line"]) == (code, manager, None, None)
+    assert found["object_path"] == "Small/PLC Logic/Application/Library Manager"
 
 
 def test_a_project_whose_values_do_not_suit_becomes_no_library(plant: Plant) -> None:
     manager = plant.give("Small", "'many'")
     answer = plant.client.post(f"/api/v1/projects/{plant.id}/library", json={"version": "1.0.0.0"})
     assert answer.status_code == 422
-    told = [d for d in answer.json().get("diagnostics", []) if d["severity"] == "error"]
-    assert [(d["code"], d["object_id"]) for d in told] == [("E0904", manager)]
+    found = [d for d in answer.json().get("diagnostics", []) if d["severity"] == "error"]
+    assert [(d["code"], d["object_id"]) for d in found] == [("E0904", manager)]
 
 
 def test_a_missing_library_leads_to_the_library_manager(plant: Plant) -> None:
     manager = plant.give("Small", None)
     archive.remove("Conveyors", "1.0.0.0")
-    told = [d for d in plant.build("Small")["diagnostics"] if d["code"] == "E0902"]
-    assert [d["object_id"] for d in told] == [manager]
+    found = [d for d in plant.build("Small")["diagnostics"] if d["code"] == "E0902"]
+    assert [d["object_id"] for d in found] == [manager]
 
 
 def test_hover_shows_the_value_of_the_application(plant: Plant) -> None:

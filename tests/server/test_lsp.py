@@ -42,11 +42,11 @@ async def test_diagnostics_follow_the_typing() -> None:
             "text": "\n",
         }
         identifier = {"uri": BODY, "version": 2}
-        await client.tell(
+        await client.notify(
             "textDocument/didChange", {"textDocument": identifier, "contentChanges": [change, rest]}
         )
         assert await client.published(BODY) == []
-        await client.tell("textDocument/didClose", {"textDocument": {"uri": BODY}})
+        await client.notify("textDocument/didClose", {"textDocument": {"uri": BODY}})
         assert (
             await client.ask(
                 "textDocument/hover", {"textDocument": {"uri": BODY}, "position": here(0, 0, 0)["start"]}
@@ -290,7 +290,7 @@ async def test_formatting_follows_the_settings() -> None:
             ),
             (None, "IF iCount = 1 THEN f(1, 2); END_IF"),
         ):
-            await client.tell("workspace/didChangeConfiguration", {"settings": settings})
+            await client.notify("workspace/didChangeConfiguration", {"settings": settings})
             (found,) = await client.ask("textDocument/formatting", {**params, "options": options})
             assert found["newText"] == expected
 
@@ -382,6 +382,6 @@ async def test_an_edited_text_is_told_of_before_the_others(monkeypatch: pytest.M
             change = {"range": here(2, 4, 5), "text": name}
             changed = {"textDocument": {"uri": head, "version": 2}, "contentChanges": [change]}
             client.notified.clear()
-            await client.tell("textDocument/didChange", changed)
+            await client.notify("textDocument/didChange", changed)
             assert [d["code"] for d in await client.published(first)] == codes[:1]
             assert [d["code"] for d in await client.published(later)] == codes[1:]

@@ -106,8 +106,8 @@ async def test_uris_come_back_as_the_client_spells_them(tmp_path: Path) -> None:
         params = {"textDocument": {"uri": spelled}, "position": {"line": 2, "character": 0}}
         assert (await client.ask("textDocument/definition", params))["uri"] == spelled
         (tmp_path / "a b.st").write_text("PROGRAM Saved END_PROGRAM")
-        await client.tell("textDocument/didClose", {"textDocument": {"uri": spelled}})
-        await client.tell("workspace/didChangeWatchedFiles", {"changes": []})
+        await client.notify("textDocument/didClose", {"textDocument": {"uri": spelled}})
+        await client.notify("workspace/didChangeWatchedFiles", {"changes": []})
         (entry,) = await client.ask("textDocument/documentSymbol", {"textDocument": {"uri": spelled}})
         assert entry["name"] == "Saved"
 
@@ -152,7 +152,7 @@ async def test_the_process_an_editor_starts(tmp_path: Path) -> None:
     assert process.stdin is not None
     assert process.stdout is not None
 
-    async def tell(**message: Any) -> None:
+    async def notify(**message: Any) -> None:
         assert process.stdin is not None
         process.stdin.write(frame(json.dumps({"jsonrpc": "2.0", **message})))
         await process.stdin.drain()
@@ -164,16 +164,16 @@ async def test_the_process_an_editor_starts(tmp_path: Path) -> None:
         message: dict[str, Any] = json.loads(text)
         return message
 
-    await tell(id=1, method="initialize", params={"processId": None, "rootUri": None, "capabilities": {}})
+    await notify(id=1, method="initialize", params={"processId": None, "rootUri": None, "capabilities": {}})
     assert (await hear())["result"]["serverInfo"]["name"] == "tappet"
-    await tell(method="initialized", params={})
+    await notify(method="initialized", params={})
     published = await hear()
     assert published["params"]["uri"] == file_uri(tmp_path / "p.st")
     (message,) = [d for d in published["params"]["diagnostics"] if d["code"] == "E0104"]
     assert message["message"] == "An expression expected before ';'. Write a value or a variable."
-    await tell(id=2, method="shutdown")
+    await notify(id=2, method="shutdown")
     assert (await hear())["id"] == 2
-    await tell(method="exit")
+    await notify(method="exit")
     assert await asyncio.wait_for(process.wait(), 30) == 0
     assert process.stderr is not None
     assert await process.stderr.read() == b""

@@ -24,7 +24,7 @@ async def test_positions_behind_characters_of_two_units() -> None:
         found = await client.ask("textDocument/hover", params)
         assert found["range"] == here(0, 11, 17)
         change = {"range": here(0, 11, 17), "text": "motor.xOn"}
-        await client.tell(
+        await client.notify(
             "textDocument/didChange",
             {"textDocument": {"uri": BODY, "version": 2}, "contentChanges": [change]},
         )
@@ -43,7 +43,7 @@ async def test_each_request_sees_the_edits_before_it() -> None:
         for number, char in enumerate("motor.xOn := iCount > 5;"):
             change = {"range": here(0, len(text), len(text)), "text": char}
             identifier = {"uri": BODY, "version": number + 2}
-            await client.tell(
+            await client.notify(
                 "textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]}
             )
             text += char
@@ -61,7 +61,7 @@ async def test_a_waiting_request_can_be_cancelled() -> None:
         await client.open(BODY, "")
         params = {"textDocument": {"uri": BODY}, "position": {"line": 0, "character": 0}}
         begun = [await client.begin("textDocument/completion", params) for _ in range(5)]
-        await client.tell("$/cancelRequest", {"id": begun[-1][0]})
+        await client.notify("$/cancelRequest", {"id": begun[-1][0]})
         answers = [await asyncio.wait_for(future, 20) for _, future in begun]
         assert answers[-1]["error"]["code"] == rpc.REQUEST_CANCELLED
         assert all("result" in answer for answer in answers[:-1])
@@ -120,7 +120,7 @@ async def test_order_of_life() -> None:
         await client.start()
         assert await client.ask("shutdown", None) is None
         assert (await client.refused("textDocument/hover", params))["code"] == rpc.NOT_INITIALIZED
-        await client.tell("exit", None)
+        await client.notify("exit", None)
         await asyncio.wait_for(client.session.exit.wait(), 60)
 
 
@@ -153,7 +153,7 @@ async def test_positions_outside_of_the_text() -> None:
             await client.ask("textDocument/completion", params)
             await client.ask("textDocument/hover", params)
         far = {"start": {"line": 50, "character": 9}, "end": {"line": 2, "character": 0}}
-        await client.tell(
+        await client.notify(
             "textDocument/didChange",
             {
                 "textDocument": {"uri": BODY, "version": 2},

@@ -58,10 +58,10 @@ def codes(diagnostics: list[dict[str, Any]]) -> list[str]:
     return [d["code"] for d in diagnostics]
 
 
-async def told(
+async def until_published(
     client: Client, document: str, expected: list[str], line: int | None = None
 ) -> list[dict[str, Any]]:
-    """Wait until a client is told just these errors, the first one in a line."""
+    """Wait until a client gets just these errors, the first one in a line."""
     while True:
         found = [d for d in await client.published(document) if d["severity"] == 1]
         if codes(found) == expected and (line is None or found[0]["range"]["start"]["line"] == line):
@@ -69,7 +69,7 @@ async def told(
 
 
 async def change(client: Client, document: str, text: str, version: int) -> None:
-    await client.tell(
+    await client.notify(
         "textDocument/didChange",
         {"textDocument": {"uri": document, "version": version}, "contentChanges": [{"text": text}]},
     )
@@ -79,18 +79,18 @@ async def test_users_see_each_others_declarations_at_once() -> None:
     async with clients(2, Stored(**PROJECT)) as (one, two):
         body = "iCount := iCount + iStep;\n"
         await two.open(BODY, body)
-        await told(two, BODY, ["E0201"])
+        await until_published(two, BODY, ["E0201"])
         declaration = PROJECT["PLC_PRG"][0].replace("iCount : INT;", "iCount, iStep : INT;")
         await one.open(HEAD, PROJECT["PLC_PRG"][0])
         await change(one, HEAD, declaration, 2)
-        await told(two, BODY, [])
+        await until_published(two, BODY, [])
         found = await two.ask(
             "textDocument/definition",
             {"textDocument": {"uri": BODY}, "position": {"line": 0, "character": body.index("iStep") + 1}},
         )
         assert found is None  # the line that declares it is in no text that this user is shown
         await one.session.close()
-        await told(two, BODY, ["E0201"])
+        await until_published(two, BODY, ["E0201"])
 
 
 async def test_ten_sessions_are_one_analysis() -> None:
@@ -103,7 +103,7 @@ async def test_ten_sessions_are_one_analysis() -> None:
         assert composed == 1
         await change(all_clients[0], BODY, "iCount := iMissing;", 2)
         for client in all_clients[:1]:
-            await told(client, BODY, ["E0201"])
+            await until_published(client, BODY, ["E0201"])
         await asyncio.gather(*(client.session.endpoint.settle() for client in all_clients))
         assert project.composed == composed + 1
         assert all_clients[0].session.workspace is all_clients[9].session.workspace
@@ -116,7 +116,10 @@ async def test_each_session_has_its_own_language() -> None:
         text = "iCount := iMissing;"
         await english.open(BODY, text)
         await chinese.open(BODY, text)
-        (first,), (second,) = await told(english, BODY, ["E0201"]), await told(chinese, BODY, ["E0201"])
+        (first,), (second,) = (
+            await until_published(english, BODY, ["E0201"]),
+            await until_published(chinese, BODY, ["E0201"]),
+        )
         assert first["message"] != second["message"]
         assert first["range"] == second["range"]
         await chinese.session.close()
@@ -129,10 +132,10 @@ async def test_two_texts_of_one_document_have_their_own_positions() -> None:
         await one.open(BODY, stored)
         await two.open(BODY, stored)
         for client in (one, two):
-            await told(client, BODY, ["E0201"], line=2)
+            await until_published(client, BODY, ["E0201"], line=2)
         await change(one, BODY, "(* new *)\n" + stored, 2)
-        await told(one, BODY, ["E0201"], line=3)
-        await told(two, BODY, ["E0201"], line=2)
+        await until_published(one, BODY, ["E0201"], line=3)
+        await until_published(two, BODY, ["E0201"], line=2)
 
         def at(line: int) -> dict[str, Any]:
             return {"textDocument": {"uri": BODY}, "position": {"line": line, "character": 2}}
@@ -143,14 +146,14 @@ async def test_two_texts_of_one_document_have_their_own_positions() -> None:
         assert [place["range"]["start"]["line"] for place in found] == [0, 1, 2]
         # the line that only the second user has is no part of the analysed text: no answer, and no wrong one
         await change(two, BODY, stored.replace("2;", "3;"), 2)
-        await told(two, BODY, ["E0201"])
+        await until_published(two, BODY, ["E0201"])
         assert await one.ask("textDocument/hover", at(2)) is None
         refused = await one.refused("textDocument/rename", {**at(2), "newName": "iOther"})
         assert "Somebody else" in refused["message"]
         assert (await two.ask("textDocument/hover", at(1)))["range"] == here(1, 0, 6)
         # the newest edit is closed: the other one's counts again
-        await two.tell("textDocument/didClose", {"textDocument": {"uri": BODY}})
-        await told(one, BODY, ["E0201"], line=3)
+        await two.notify("textDocument/didClose", {"textDocument": {"uri": BODY}})
+        await until_published(one, BODY, ["E0201"], line=3)
         assert (await one.ask("textDocument/hover", at(2)))["range"] == here(2, 0, 6)
 
 
@@ -159,10 +162,10 @@ async def test_opening_the_stored_text_hides_no_edit() -> None:
     async with clients(2, project) as (one, two):
         await one.open(BODY, PROJECT["PLC_PRG"][1])
         await change(one, BODY, "iCount := iMissing;", 2)
-        await told(one, BODY, ["E0201"])
+        await until_published(one, BODY, ["E0201"])
         await two.open(BODY, PROJECT["PLC_PRG"][1])
         assert await two.published(BODY) == []  # the mistake is in a line that is not shown here
-        await one.tell("workspace/didChangeWatchedFiles", {"changes": []})
+        await one.notify("workspace/didChangeWatchedFiles", {"changes": []})
         symbols = await one.ask(
             "textDocument/hover", {"textDocument": {"uri": BODY}, "position": here(0, 2, 2)["start"]}
         )
@@ -244,7 +247,7 @@ async def test_random_edits_of_several_sessions_are_those_of_a_fresh_analysis(se
                 await client.open(document, shown[document].replace("|", ""))
             elif rng.random() < 0.15:
                 del shown[document]
-                await client.tell("textDocument/didClose", {"textDocument": {"uri": document}})
+                await client.notify("textDocument/didClose", {"textDocument": {"uri": document}})
             else:
                 text = shown[document]
                 at = rng.randrange(len(text) + 1)

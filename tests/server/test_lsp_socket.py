@@ -35,7 +35,7 @@ class Socket:
         self.number = 0
         self.published: dict[str, list[dict[str, Any]]] = {}
 
-    def tell(self, method: str, params: Any) -> None:
+    def notify(self, method: str, params: Any) -> None:
         self.socket.send_text(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
 
     def ask(self, method: str, params: Any) -> Any:
@@ -60,7 +60,7 @@ class Socket:
 
     def start(self) -> None:
         self.ask("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
-        self.tell("initialized", {})
+        self.notify("initialized", {})
 
 
 def test_edit_and_navigate_a_stored_project(as_role: dict[str, TestClient], project: str) -> None:
@@ -80,9 +80,9 @@ def test_edit_and_navigate_a_stored_project(as_role: dict[str, TestClient], proj
         body = part_uri(project, objects["PLC_PRG"], "implementation")
         text = "PROGRAM PLC_PRG\nVAR\n    m : FB_Motor;\nEND_VAR"
         item = {"uri": head, "languageId": "iec-st", "version": 1, "text": text}
-        socket.tell("textDocument/didOpen", {"textDocument": item})
+        socket.notify("textDocument/didOpen", {"textDocument": item})
         item = {"uri": body, "languageId": "iec-st", "version": 1, "text": "m(xOn := TRUE);"}
-        socket.tell("textDocument/didOpen", {"textDocument": item})
+        socket.notify("textDocument/didOpen", {"textDocument": item})
         socket.wait_for(body, ["E0502"])
 
         # somebody else adds the input and stores it
@@ -142,7 +142,7 @@ def test_documents_of_a_project(services: Services) -> None:
     store.delete(info.id, "tester", main.id)
     assert any(
         t.source.uri == "PLC_PRG" for t in programs({head: "PROGRAM PLC_PRG"})[0].texts
-    )  # not told yet
+    )  # not published yet
     programs.changed()
     assert not any(t.source.uri == "PLC_PRG" for t in programs({head: "PROGRAM PLC_PRG"})[0].texts)
 

@@ -184,7 +184,7 @@ def test_download_renews_the_layout(admin: TestClient, runtime_id: str, plc: Fak
 
         def another_application() -> None:
             plc.state, plc.code_id, plc.data_id = "empty", None, None
-            plc.tell("application")
+            plc.notify("application")
 
         _in_loop(admin, another_application)
         message = next_message(socket)

@@ -147,7 +147,7 @@ def test_a_killed_runtime_comes_back_with_its_application(app: FastAPI, engineer
 
 
 def test_a_runtime_that_does_not_start_is_tried_again_and_says_why(settings: ServerSettings) -> None:
-    """A file stands where its folder should be: the list tells. It comes up once that is mended."""
+    """A file stands where its folder should be: the list says so. It comes up once that is mended."""
     folder = settings.data_dir / "runtime"
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     folder.write_text("no folder")

@@ -53,7 +53,7 @@ def test_operator_starts_engineer_resets(as_role: dict[str, TestClient], runtime
 
 def test_exception_is_told_with_place(admin: TestClient, runtime_id: str, plc: FakePlc) -> None:
     plc.state, plc.report = "exception", division_by_zero()
-    plc.tell("exception")
+    plc.notify("exception")
     until(lambda: admin.get(f"{URL}/{runtime_id}").json()["state"] == "exception")
     report = admin.get(f"{URL}/{runtime_id}").json()["exception"]
     assert (report["task"], report["pou"], report["line"]) == ("MainTask", "FB_Motor", 12)

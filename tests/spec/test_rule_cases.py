@@ -132,7 +132,7 @@ def test_case(case: Case) -> None:
     assert package is not None
     if expected.fault:
         fault = guarded(lambda: _fault(package)).fault
-        # The processor finds that nothing lies there: the runtime tells of the signal, here it ends a child.
+        # The processor finds that nothing lies there: the runtime reports the signal, here it ends a child.
         assert fault is not None
         assert expected.fault in fault.lower() or (expected.fault == "null" and "signal 11" in fault), fault
         return

@@ -59,9 +59,9 @@ class Edit:
     part: str
     good: str
     bad: str
-    told: str
+    reported: str
     """Object that the messages are about."""
-    told_part: str = "implementation"
+    reported_part: str = "implementation"
     last: str = ""
     """Object that the messages are about which come last; '' where nothing comes later."""
 
@@ -71,7 +71,7 @@ class Edit:
         return replace(
             self,
             edited=self.edited.format(**fill),
-            told=self.told.format(**fill),
+            reported=self.reported.format(**fill),
             last=self.last.format(**fill),
             good=self.good.format(**fill),
             bad=self.bad.format(**fill),
@@ -182,31 +182,31 @@ class Editor:
 
     session: LanguageSession
     document: str
-    told: str
-    """Document that hears messages."""
+    reported: str
+    """Document whose messages are published."""
     last: str
-    """Document that hears messages when everything is checked."""
+    """Document whose messages are published when everything is checked."""
     text: str
     version: int = 0
-    heard: dict[str, asyncio.Queue[list[Any]]] = field(default_factory=dict)
+    published: dict[str, asyncio.Queue[list[Any]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.heard = {document: asyncio.Queue() for document in (self.told, self.last)}
+        self.published = {document: asyncio.Queue() for document in (self.reported, self.last)}
 
     async def take(self, message: str) -> None:
         """A message of the server."""
         content = json.loads(message)
         params = content.get("params")
-        if content.get("method") == lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS and params["uri"] in self.heard:
-            self.heard[params["uri"]].put_nowait(params["diagnostics"])
+        if content.get("method") == lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS and params["uri"] in self.published:
+            self.published[params["uri"]].put_nowait(params["diagnostics"])
 
-    async def tell(self, method: str, params: object) -> None:
+    async def notify(self, method: str, params: object) -> None:
         """Send a notification."""
         await self.session.receive(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
 
     async def messages(self, document: str) -> list[Any]:
         """The next messages of a document. Raises TimeoutError."""
-        return await asyncio.wait_for(self.heard[document].get(), PATIENCE_S)
+        return await asyncio.wait_for(self.published[document].get(), PATIENCE_S)
 
     async def open(self) -> float:
         """Seconds from opening the document to its first messages: everything is checked."""
@@ -214,10 +214,10 @@ class Editor:
         hello: dict[str, Any] = {"processId": None, "rootUri": None, "capabilities": {}}
         request = {"jsonrpc": "2.0", "id": 1, "method": lsp.INITIALIZE, "params": hello}
         await self.session.receive(json.dumps(request))
-        await self.tell(lsp.INITIALIZED, {})
+        await self.notify(lsp.INITIALIZED, {})
         item = {"uri": self.document, "languageId": "iec-st", "version": 0, "text": self.text}
-        await self.tell(lsp.TEXT_DOCUMENT_DID_OPEN, {"textDocument": item})
-        for document in self.heard:
+        await self.notify(lsp.TEXT_DOCUMENT_DID_OPEN, {"textDocument": item})
+        for document in self.published:
             await self.messages(document)
         return time.perf_counter() - started
 
@@ -238,9 +238,9 @@ class Editor:
             "contentChanges": [{"range": span, "text": new}],
         }
         started, worked = time.perf_counter(), time.process_time()
-        await self.tell(lsp.TEXT_DOCUMENT_DID_CHANGE, params)
+        await self.notify(lsp.TEXT_DOCUMENT_DID_CHANGE, params)
         times = []
-        for document in self.heard:
+        for document in self.published:
             await self.messages(document)
             times.append(Seconds(time.perf_counter() - started, time.process_time() - worked))
         return times
@@ -258,11 +258,11 @@ async def measure(edit: Edit, pous: int = build_bench.POUS) -> tuple[float, list
 
     analysis = ProjectAnalysis(ProjectPrograms(_ID, lambda: content), debounce_s=0.0)
     session = LanguageSession(analysis, send)
-    # with its message from the beginning: of a text without any, nothing would be told when it is opened
+    # with its message from the beginning: of a text without any, nothing would be published when it is opened
     text = str(getattr(found, edit.part)).replace(edit.good, edit.bad, 1)
-    told = part_uri(_ID, ids[edit.told], edit.told_part)
-    last = part_uri(_ID, ids[edit.last], "implementation") if edit.last else told
-    editor = Editor(session, part_uri(_ID, ids[edit.edited], edit.part), told, last, text)
+    reported = part_uri(_ID, ids[edit.reported], edit.reported_part)
+    last = part_uri(_ID, ids[edit.last], "implementation") if edit.last else reported
+    editor = Editor(session, part_uri(_ID, ids[edit.edited], edit.part), reported, last, text)
     try:
         first = await editor.open()
         seconds = []

@@ -63,7 +63,7 @@ class Memory:
 
 @dataclass(slots=True)
 class Browser:
-    """A client that reads what it is told about one document."""
+    """A client that reads what is published of one document."""
 
     service: AnalysisService
     project: str
@@ -71,7 +71,7 @@ class Browser:
     text: str
     client: Client = field(init=False)
     version: int = 0
-    heard: asyncio.Queue[list[Any]] = field(default_factory=asyncio.Queue)
+    published: asyncio.Queue[list[Any]] = field(default_factory=asyncio.Queue)
     reading: asyncio.Task[None] | None = None
 
     async def open(self) -> float:
@@ -89,7 +89,7 @@ class Browser:
 
     async def messages(self) -> list[Any]:
         """The next messages of the document. Raises TimeoutError."""
-        return await asyncio.wait_for(self.heard.get(), PATIENCE_S)
+        return await asyncio.wait_for(self.published.get(), PATIENCE_S)
 
     async def edit(self) -> None:
         """Make the mistake, or take it back."""
@@ -118,7 +118,7 @@ class Browser:
             params = message.get("params")
             published = message.get("method") == "textDocument/publishDiagnostics"
             if published and params["uri"] == self.document:
-                self.heard.put_nowait(params["diagnostics"])
+                self.published.put_nowait(params["diagnostics"])
 
     def close(self) -> None:
         """The browser goes."""

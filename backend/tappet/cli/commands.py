@@ -1,7 +1,7 @@
 """The table of all commands, with the modules that are imported when one of them is called.
 
 A command `f` of a module is the function `f`, which takes the parsed arguments and returns the exit code, and
-`f_arguments`, which tells the parser what arguments there are.
+`f_arguments`, which declares the arguments to the parser.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ class Command(NamedTuple):
     function: str
     summary: str
     goes_on: bool = False
-    """Runs until it is ended, or for as long as it is told."""
+    """Runs until it is ended, or for the given time."""
 
     def load(self, parser: ArgumentParser) -> Callable[[Namespace], int]:
-        """Tells the parser the arguments; the function that executes the command."""
+        """Declares the arguments to the parser; the function that executes the command."""
         module = import_module(f"tappet.cli.{self.module}")
         getattr(module, f"{self.function}_arguments")(parser)
         execute: Callable[[Namespace], int] = getattr(module, self.function)

@@ -15,7 +15,7 @@ def serve_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--host",
         default="127.0.0.1",
-        help="address to listen on; beyond this machine only if told (default: %(default)s)",
+        help="address to listen on; beyond this machine only on request (default: %(default)s)",
     )
     parser.add_argument(
         "--port",

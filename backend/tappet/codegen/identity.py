@@ -26,7 +26,7 @@ _PARTS = re.compile(
 
 
 def text_digest(source: Source) -> bytes:
-    """Digest of what a text tells the compiler: comments left out, line by line."""
+    """Digest of what the compiler reads of a text: comments left out, line by line."""
     return _library_digest(source) if source.scope is Scope.LIBRARY else _digest(source)
 
 

@@ -96,7 +96,7 @@ def _aligned(offset: int) -> int:
 
 
 class Signatures:
-    """Text that tells whether bytes laid out for one type can be read as another: names, offsets, types."""
+    """Text that shows whether bytes laid out for one type can be read as another: names, offsets, types."""
 
     def __init__(self) -> None:
         self.known: dict[int, str] = {}

@@ -68,7 +68,7 @@ class Body:
         self.loop_guards: list[int] = []
         """How many of them were open where each open loop began."""
         self.writing = False
-        """Whether the place that is being worked out is written to; CheckPointer is told."""
+        """Whether the place that is being worked out is written to; an argument of CheckPointer."""
         self.temporaries = 0
         self.held: dict[int, ir.Place] = {}
         """Where the accumulator of IL is kept, by the number of its `Hold`."""

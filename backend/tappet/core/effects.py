@@ -25,7 +25,7 @@ class Effects:
 
 
 class Instances:
-    """Whether functions are called on instances that only a pointer or a reference tells."""
+    """Whether functions are called on instances known only through a pointer or a reference."""
 
     def __init__(self, module: ir.Module) -> None:
         self.module = module

@@ -1,4 +1,4 @@
-"""Which memory the statements of one function write to, as far as its callers can tell.
+"""Which memory the statements of one function write to, as far as its callers can see.
 
 Addresses are followed through the scalar locals of the function, whatever the order of its statements: a
 pointer that holds nothing but addresses of the function's own memory writes to nothing else.

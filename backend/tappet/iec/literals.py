@@ -18,7 +18,7 @@ from tappet.iec.words import STRING_TYPES, elementary_type
 
 _NUMBER: Final = r"\d\w*+(?:\#\w*+|(?:\.\d\w*+)?+(?:(?<=\d[eE])[+-]\d\w*+)?+)"
 BASED_OR_REAL: Final = _NUMBER
-"""Digits and what may follow them: `12`, `16#FF`, `1.5e-3`. What is no number is told by `decode`."""
+"""Digits and what may follow them: `12`, `16#FF`, `1.5e-3`. `decode` refuses what is no number."""
 QUOTED: Final = r"""'(?:[^'$\r\n]|\$[^\r\n])*+\$?+'?+|"(?:[^"$\r\n]|\$[^\r\n])*+\$?+"?+"""
 """A string that ends in its line, or the rest of the line."""
 DATE_OR_TIME: Final = (
@@ -57,7 +57,7 @@ Value = bool | int | float | str | bytes | None
 
 @dataclass(frozen=True, slots=True)
 class Decoded:
-    """A literal: `kind` and `prefix` as in `ast.Literal`; value None when `problem` tells what is wrong."""
+    """A literal: `kind` and `prefix` as in `ast.Literal`; value None when `problem` says what is wrong."""
 
     kind: str
     prefix: str | None = None

@@ -172,7 +172,7 @@ def whole_text(object_id: str) -> SourceMap:
 
 
 class BodyText(Struct, frozen=True, array_like=True):
-    """Bodies of a text from a line on, where their language is not told by their first words."""
+    """Bodies of a text from a line on, where their language does not show in their first words."""
 
     line: int
     language: str

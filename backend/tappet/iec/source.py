@@ -50,7 +50,7 @@ class Source:
     """0-based line where the implementation begins, when declaration and body are edited apart; 0 = one
     text."""
     bodies: tuple[BodyText, ...] = ()
-    """Where bodies do not tell their language by their first words, or are drawn, in order of the lines."""
+    """Where the first words of bodies do not show their language, or are drawn, in order of the lines."""
     uses: tuple[tuple[str, str], ...] = ()
     """Libraries that the text's library needs: the name it gives to one, and the namespace that is here."""
     private: bool = False

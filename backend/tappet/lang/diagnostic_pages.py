@@ -81,7 +81,7 @@ def _index() -> str:
     lines = [
         "# Messages of the compiler",
         "",
-        "Words in braces stand for the names and types of the place. A page of its own tells",
+        "Words in braces stand for the names and types of the place. A page of its own says",
         "[what the rules of CODESYS Static Analysis are called here](codesys.md).",
         "",
     ]
@@ -101,12 +101,12 @@ def _index() -> str:
 _NOT_CHECKED = {
     "SA0005": "Invalid addresses and data types: errors of the compiler (E0601 and those behind it).",
     "SA0063": "Operations that a 16-bit controller cuts: every target here computes narrow integers in 32"
-    " bits or more; W1010 and S1241 tell where that is seen.",
+    " bits or more; W1010 and S1241 report where that is seen.",
     "SA0077": "Types that do not fit the CASE: errors of the compiler (E0301, E0805, E0806).",
     "SA0179": "Coupling between objects: a number of the whole design that no place of the text answers for;"
     " the cross references show who uses an object.",
     "SA0181": "Forbidden symbols: a list of names that each project would keep for itself."
-    " {attribute 'obsolete'} above an object tells so at each use of it (W1203).",
+    " {attribute 'obsolete'} above an object warns at each use of it (W1203).",
 }
 """Rules of CODESYS Static Analysis that are none here, and why."""
 

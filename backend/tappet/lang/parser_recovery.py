@@ -45,7 +45,7 @@ class StatementRecovery(ExpressionParser):
             if self.orphan_ends:
                 self.orphan_ends -= 1
             elif self.open and ENDS[self.open[-1][0]] in _STATEMENT_ENDS:
-                return False  # `close` tells that the wrong end was written
+                return False  # `close` reports that the wrong end was written
             else:
                 self.error("E0106", found=kind, hint=f"Remove it or write the {begin} it closes.")
         elif kind in _BRANCH_OWNERS:

@@ -205,7 +205,7 @@ class VariableParser(TypeParser):
         return self.texts[self.i - 1].upper()
 
     def initialisation(self, type_ref: ast.TypeRef) -> tuple[ast.Expr | None, bool]:
-        """`:= value` or `REF= variable` if it stands here; the flag tells the second."""
+        """`:= value` or `REF= variable` if it stands here; the flag is set for the second."""
         start = self.i
         kind = self.kinds[start]
         if kind == ":=":

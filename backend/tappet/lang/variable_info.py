@@ -1,4 +1,4 @@
-"""`__SYSTEM.VAR_INFO`: what `__VARINFO(x)` tells about a variable."""
+"""`__SYSTEM.VAR_INFO`: what `__VARINFO(x)` returns for a variable."""
 
 from __future__ import annotations
 

@@ -179,7 +179,7 @@ class _Resolution:
 
 
 def _label(item: Installed) -> str:
-    """First part of the names of its texts: the version is told where it is not the newest one."""
+    """First part of the names of its texts: the version is part of it where it is not the newest one."""
     newest = repository.find(item.name)
     return item.name if newest.version == item.version else f"{item.name} {item.version}"
 

@@ -1,6 +1,6 @@
 """The library texts that a program can reach: as a linker takes from an archive what is named.
 
-An index tells the identifiers of every library text and the names that it makes known. A text is taken when
+An index holds the identifiers of every library text and the names that it makes known. A text is taken when
 something taken before names one of its names; texts with data of their own (variable lists, programs, static
 variables), exported functions and check functions are always taken, so that the memory of an application does
 not depend on what is left out. The index is made once, by content, and kept in the user's cache folder.

@@ -15,7 +15,7 @@ class ParameterValue:
     """A value that a reference gives to a parameter of the library."""
 
     list: str
-    """The parameter list; '' where the reference does not tell, then the parameter is known by its name."""
+    """The parameter list; '' where the reference has none, then the parameter is known by its name."""
     name: str
     value: str
     """A constant expression as written."""

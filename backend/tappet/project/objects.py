@@ -76,7 +76,7 @@ def describe(error: ValidationError) -> str:
 
 
 def any_object() -> Any:
-    """The shape of any object for the API document: the kinds that are installed, told apart by `kind`.
+    """The shape of any object for the API document: the kinds that are installed, distinguished by `kind`.
 
     A kind that is not known here is an `UnknownObjectKind`.
     """

@@ -73,7 +73,7 @@ class ApplicationAccess:
             return self._need().read(places)
 
     def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
-        """Store values together at a cycle begin; the result tells, when called, whether it has happened."""
+        """Store values together at a cycle begin; the result says, when called, whether it has happened."""
         with self._lock:
             application = self._need()
             try:

@@ -52,7 +52,7 @@ class RuntimeRefused(RuntimeError):  # noqa: N818
 
 @dataclass(frozen=True, slots=True)
 class RuntimeEvent:
-    """What a runtime tells: kind `state`, `exception`, `application`, `forces` or `lost`, and its state."""
+    """An event of a runtime: kind `state`, `exception`, `application`, `forces` or `lost`, and its state."""
 
     kind: str
     state: str

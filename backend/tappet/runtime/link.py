@@ -183,7 +183,7 @@ def _address_of(name: str, imports: Mapping[str, int]) -> int:
 def _witnesses(
     tables: list[tuple[list[ObjectSymbol], dict[int, int]]],
 ) -> dict[tuple[int, int], ObjectSymbol]:
-    """For each code section one exported function, whose address tells where the section lies."""
+    """For each code section one exported function, whose address is that of the section."""
     found: dict[tuple[int, int], ObjectSymbol] = {}
     for index, (symbols, code) in enumerate(tables):
         for s in symbols:

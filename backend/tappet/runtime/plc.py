@@ -57,7 +57,7 @@ class RuntimeInfo:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something clients are told at once: kind `state`, `exception`, `application` or `forces`."""
+    """An event that clients get at once: kind `state`, `exception`, `application` or `forces`."""
 
     kind: str
     state: State
@@ -129,7 +129,7 @@ class SoftPlc(ApplicationAccess):
         return tuple(notes)
 
     def poll(self) -> None:
-        """Look for a change that came from the tasks, tell listeners, release what is no longer used.
+        """Look for a change that came from the tasks, notify listeners, release what is no longer used.
 
         A service calls this some 20 times a second.
         """

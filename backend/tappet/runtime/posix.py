@@ -101,7 +101,7 @@ def _error(what: str, number: int | None = None) -> OSError:
 
 @dataclass(slots=True)
 class Mapping:
-    """A mapped range of memory; `low` tells whether it lies below 4 GiB."""
+    """A mapped range of memory; `low`: whether it lies below 4 GiB."""
 
     address: int
     size: int

@@ -39,7 +39,7 @@ class TaskStack:
         return self.mapping.low
 
     def describe(self, task: Record) -> None:
-        """Tell a task context where its stack is."""
+        """Set the bounds of the stack in a task context."""
         task["guardLow"] = self.mapping.address
         task["stackLow"] = self.mapping.address + GUARD_SIZE
         task["stackHigh"] = self.mapping.address + self.mapping.size
@@ -84,7 +84,7 @@ def real_time_scheduling(*, pin: bool = True) -> Scheduling:
     """
     stack = TaskStack()
     try:
-        # a thread that ends at once tells whether the priority is permitted
+        # a thread that ends at once shows whether the priority is permitted
         thread = create_thread(
             symbol_address("sched_yield"), 0, stack.mapping, GUARD_SIZE, ThreadOptions("probe", 49)
         )

@@ -21,7 +21,7 @@ StillAllowed = Callable[[], Awaitable[bool]]
 async def until_one_ends(*parts: Part, gone: tuple[type[Exception], ...] = ()) -> None:
     """Run the parts of a socket until one of them ends.
 
-    A browser that went away is no error, nor are the exceptions `gone`, by which others tell the same.
+    A browser that went away is no error, nor are the exceptions `gone`, by which others signal the same.
     """
     async with anyio.create_task_group() as group:
 

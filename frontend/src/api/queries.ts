@@ -120,7 +120,7 @@ function remember<Data>(projectId: string, saved: ProjectObject<Data>): void {
   patchSummary(projectId, saved);
 }
 
-/** The conflict that a refusal tells, if it is one with a version of somebody else. */
+/** The conflict of a refusal, if it is one with a version of somebody else. */
 function staleOf<Data>(error: unknown, yours: (id: string) => Data): StaleObject<Data> | null {
   if (!(error instanceof ApiError) || error.status !== 409) return null;
   const { current } = error.problem;

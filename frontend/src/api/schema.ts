@@ -2266,7 +2266,7 @@ export interface components {
             object_id?: string | null;
             /**
              * Outcome
-             * @description imported: as it was; changed: with a difference that the text tells; kept: stored unchanged but not compiled; refused: not in the project.
+             * @description imported: as it was; changed: with a difference that the text describes; kept: stored unchanged but not compiled; refused: not in the project.
              * @enum {string}
              */
             outcome: "imported" | "changed" | "refused" | "kept";
@@ -2284,7 +2284,7 @@ export interface components {
         };
         /**
          * OpenObject
-         * @description Tells the others which object one looks at; null for none.
+         * @description Shows the other users which object this one has open; null for none.
          */
         EventClientMessage: {
             /** Object Id */

@@ -19,7 +19,7 @@ function setUp(random = 0.5) {
 }
 
 describe('a reconnecting socket', () => {
-  it('connects, says what it hears, and tells its state', () => {
+  it('connects, passes messages on, and reports its state', () => {
     const { socket, sockets, log } = setUp();
     expect(socket.send({ op: 'early' })).toBe(false);
     sockets[0]!.accept();
@@ -66,7 +66,7 @@ describe('a reconnecting socket', () => {
     }
   }); // prettier-ignore
 
-  it('tells a loss once, however often it fails to connect', () => {
+  it('reports a loss once, however often it fails to connect', () => {
     const { sockets, log, elapse } = setUp();
     for (let round = 0; round < 3; round++) {
       sockets.at(-1)!.drop();

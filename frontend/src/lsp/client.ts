@@ -117,7 +117,7 @@ export class LanguageClient {
     return rpc.request<Result>(method, params);
   }
 
-  /** Tells the server something now, if it is connected. */
+  /** Sends the server a notification now, if it is connected. */
   notify(method: string, params: unknown): void {
     void this.ready.then((rpc) => rpc?.notify(method, params));
   }

@@ -21,7 +21,7 @@ interface NameCellProps {
 
 const INDENT_PX = 16;
 
-/** Name with its place in the tree, an arrow to open, and an icon that tells input, output and others apart (DECL-46). */
+/** Name with its place in the tree, an arrow to open, and an icon for input, output and others (DECL-46). */
 export function NameCell({ row, session, onToggle }: NameCellProps) {
   const t = useText();
   const live = useLiveValue(session?.runtimeId ?? null, row.expression);

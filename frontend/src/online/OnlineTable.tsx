@@ -25,7 +25,7 @@ export interface OnlineTableProps {
   onKey?: (event: KeyboardEvent, rows: readonly OnlineRow[]) => boolean;
   menu?: (rows: readonly OnlineRow[]) => readonly MenuEntry[];
   empty?: ReactNode;
-  /** Told when the table gets the focus, with a way to ask for the selected expressions. */
+  /** Called when the table gets the focus, with a way to ask for the selected expressions. */
   onFocus?: (chosen: () => readonly string[]) => void;
 }
 

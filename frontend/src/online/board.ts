@@ -2,7 +2,7 @@
  * The latest values of one runtime, with a listener list per expression.
  *
  * 1,000 values at 10 Hz stay cheap because a frame is compared byte by byte with the one before: only items whose
- * bytes differ are decoded, and only the views of those are told, once per animation frame.
+ * bytes differ are decoded, and only the views of those are notified, once per animation frame.
  */
 import { decodeValue, itemChanged, type Frame } from './frame';
 import { expressionKey, valueKind, type PlcValue, type SubscribedItem } from './item';
@@ -38,7 +38,7 @@ export class ValueBoard {
   private readonly touched = new Set<string>();
   private scheduled = false;
   /** Frames and decoded items since the start, for the performance view and the tests. */
-  readonly counters = { frames: 0, decoded: 0, told: 0 };
+  readonly counters = { frames: 0, decoded: 0, notified: 0 };
 
   constructor(private readonly clock: BoardClock) {}
 
@@ -126,10 +126,10 @@ export class ValueBoard {
       this.scheduled = false;
       const keys = [...this.touched];
       this.touched.clear();
-      const told = new Set<Listener>();
-      for (const touched of keys) for (const listener of this.listeners.get(touched) ?? []) told.add(listener);
-      this.counters.told += told.size;
-      for (const listener of told) listener();
+      const notified = new Set<Listener>();
+      for (const touched of keys) for (const listener of this.listeners.get(touched) ?? []) notified.add(listener);
+      this.counters.notified += notified.size;
+      for (const listener of notified) listener();
     });
   }
 }

@@ -218,20 +218,20 @@ describe('value board', () => {
       ),
     );
 
-  it('tells only the views of changed values, once a picture', () => {
+  it('notifies only the views of changed values, once a picture', () => {
     const { board: values, draw, pass } = board();
-    const told = { a: 0, b: 0 };
-    values.subscribe('p.A', () => (told.a += 1));
-    values.subscribe('P.b', () => (told.b += 1));
+    const notified = { a: 0, b: 0 };
+    values.subscribe('p.A', () => (notified.a += 1));
+    values.subscribe('P.b', () => (notified.b += 1));
     values.open(1, two);
     values.receive(frame(1n, 1, 1));
     draw();
-    expect(told).toEqual({ a: 1, b: 1 });
+    expect(notified).toEqual({ a: 1, b: 1 });
     pass(100);
     values.receive(frame(2n, 2, 1));
     values.receive(frame(3n, 3, 1));
     draw();
-    expect(told).toEqual({ a: 2, b: 1 });
+    expect(notified).toEqual({ a: 2, b: 1 });
     expect(values.get('P.A')).toMatchObject({ value: 3, changedAt: 1100 });
     expect(values.get('P.B')).toMatchObject({ value: 1, changedAt: 0 });
     expect(values.counters.decoded).toBe(4);

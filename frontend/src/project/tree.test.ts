@@ -39,7 +39,7 @@ describe('rows', () => {
     expect(rootsOf(forest, 'pous').map((root) => root.id)).toEqual(['Shared']);
   });
 
-  it('tell position and number of siblings', () => {
+  it('give position and number of siblings', () => {
     const rows = rowsOf(forest, rootsOf(forest, 'devices'), open);
     expect(rows.at(-1)).toMatchObject({ position: 2, siblings: 2, expandable: true, expanded: false });
   });

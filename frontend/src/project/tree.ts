@@ -74,7 +74,7 @@ export function objectPath(objects: readonly ObjectSummary[] | Forest, id: strin
     .join('.');
 }
 
-/** All names from the root to the object, as the server tells the place of a message. */
+/** All names from the root to the object, as the server names the place of a message. */
 export function treePath(objects: readonly ObjectSummary[] | Forest, id: string): string {
   return lineage(objects, id)
     .map((object) => object.name)

@@ -35,7 +35,7 @@ function panelOf(panelId: string): PanelEditors {
 export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor): void {
   const panel = panelOf(panelId);
   panel.editors[part] = editor;
-  const tell = () => {
+  const report = () => {
     const position = editor.getPosition();
     const selection = editor.getSelection();
     const model = editor.getModel();
@@ -47,10 +47,10 @@ export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor):
     panel.active = part;
     panel.table = null;
     panel.chosen = null;
-    tell();
+    report();
   });
   editor.onDidChangeCursorSelection(() => {
-    if (editor.hasTextFocus()) tell();
+    if (editor.hasTextFocus()) report();
   });
 }
 

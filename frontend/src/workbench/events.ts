@@ -23,7 +23,7 @@ export const usePresence = create<Presence>(() => ({ users: [], connected: false
 type EventMessage = ObjectEvent | { op: 'presence'; users: PresentUser[] };
 
 export interface ProjectEvents {
-  /** Tells the others which object is looked at; null for none. */
+  /** Shows the other users which object is open; null for none. */
   look(objectId: string | null): void;
   close(): void;
 }

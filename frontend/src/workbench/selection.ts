@@ -39,7 +39,7 @@ export function selectObjects(objectIds: readonly string[]): void {
   useSelection.setState({ objectIds });
 }
 
-/** An editor tells whether it holds changes that are not saved. */
+/** An editor reports whether it holds changes that are not saved. */
 export function setDirty(panelId: string, dirty: boolean): void {
   const before = useSelection.getState().dirty;
   if (before.has(panelId) === dirty) return;
@@ -49,7 +49,7 @@ export function setDirty(panelId: string, dirty: boolean): void {
   useSelection.setState({ dirty: next });
 }
 
-/** An editor tells the cursor position for the status bar; null when it has none. */
+/** An editor reports the cursor position for the status bar; null when it has none. */
 export function setCursor(panelId: string, position: CursorPosition | null): void {
   const cursors = new Map(useSelection.getState().cursors);
   if (position) cursors.set(panelId, position);

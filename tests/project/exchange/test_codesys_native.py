@@ -128,9 +128,9 @@ def test_an_accessor_of_another_name_is_refused() -> None:
         Item(8, 7, "accessor", "Fetch", "", "Force := 1;"),
     ]
     done = import_files({"one.export": native(items)})
-    (told,) = done.report.noteworthy()
-    assert (told.object, told.outcome) == ("Fetch", "refused")
-    assert "is named Get or Set, not 'Fetch'" in told.text
+    (entry,) = done.report.noteworthy()
+    assert (entry.object, entry.outcome) == ("Fetch", "refused")
+    assert "is named Get or Set, not 'Fetch'" in entry.text
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Bodies of Beremiz and OpenPLC projects: what means something else there is rewritten and told."""
+"""Bodies of Beremiz and OpenPLC projects: what means something else there is rewritten and reported."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 Contract: a body is lowered again when analysis has looked at it again, or when the content of one of its
 dependencies differs from what it was when the body was lowered. Dependencies are all that its tree names,
-each as far as lowering can tell a difference:
+each as far as it makes a difference to lowering:
 
 - a variable: where it is stored, and its type by name;
 - a POU that it calls: the head, with the initial values of parameters;

@@ -98,7 +98,7 @@ class Relowering:
     def finish(self, same: Callable[[ir.Function, ir.Function], bool]) -> set[str]:
         """Bring up to date what relied on other code, and run the passes on all that is new.
 
-        Names of what has other code than before, as far as `same` can tell.
+        Names of what has other code than before, as far as `same` compares them.
         """
         program, module = self.program, self.module
         complete_bodies(program)

@@ -16,7 +16,7 @@ _AGGREGATES = (ast.ArrayInit, ast.StructInit)
 
 def initialise_parameter(body: Body, variable: VarSymbol, decl: ast.VarDecl, type_: Type) -> ast.Expr | None:
     """Resolves the initial value of a parameter: the one that a reference gives, or that of the library when
-    it does not suit, which is told at the reference. Returns what holds."""
+    it does not suit, which is reported at the reference. Returns what holds."""
     given, value = decl.given, decl.initial
     assert given is not None
     assert value is not None

@@ -111,7 +111,7 @@ def _is_row(value: ast.Expr) -> bool:
 
 
 def _named_repeat(b: Body, e: ast.Call) -> ast.Expr:
-    """`N(7)` with a constant N looks like a call to the parser; only its name tells that it is a
+    """`N(7)` with a constant N looks like a call to the parser; only its name shows that it is a
     repetition."""
     callee = e.callee
     if isinstance(callee, ast.Member):

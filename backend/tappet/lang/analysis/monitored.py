@@ -1,7 +1,7 @@
 """What keeps the value of a property with attribute 'monitoring': 'variable' (LPRG-32) or 'call' (LPRG-33).
 
 With 'variable' it is what the program got or set last. With 'call' the task calls Get at the end of its
-cycles while the property is watched: a second variable tells whether it is.
+cycles while the property is watched: a second variable holds whether it is.
 """
 
 from __future__ import annotations

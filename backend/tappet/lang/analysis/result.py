@@ -118,7 +118,7 @@ class AnalysisOptions:
 
 
 AGREED: Final = "__AGREED"
-"""The hidden list that tells which of a marker and its variable has changed."""
+"""The hidden list that records which of a marker and its variable has changed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +181,7 @@ class Analysis:
     continued: bool = False
     """Whether symbols of the previous analysis live on here."""
     is_waiting: bool = False
-    """Whether bodies have not been analysed yet; `resume` analyses them, and the next analysis tells of
+    """Whether bodies have not been analysed yet; `resume` analyses them, and the next analysis reports
     them."""
     state: object | None = None
     """What the next analysis may reuse; no business of others."""

@@ -33,7 +33,7 @@ def member_named(owner: PouSymbol | InterfaceSymbol, key: str) -> Symbol | None:
 def is_free(
     session: Session, found: Collected, owner: PouSymbol, what: str, name: str, source: Source, span: Span
 ) -> bool:
-    """Whether a block has no member of this name yet; tells of one, and of a variable of this name.
+    """Whether a block has no member of this name yet; reports one, and a variable of this name.
 
     An action may be named as a variable, which the name then means: programs that run with TwinCAT do so.
     """

@@ -135,7 +135,7 @@ class ArrayInit(Expr):
 
     elements: list[Expr]
     bare: bool = False
-    """Whether it stands without brackets, as in CoDeSys 2.3, where the text alone does not tell an array."""
+    """Whether it stands without brackets, as in CoDeSys 2.3, where the text alone does not show an array."""
 
 
 @dataclass(slots=True, kw_only=True)

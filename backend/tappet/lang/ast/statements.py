@@ -165,11 +165,11 @@ class WhenDeclared(Stmt):
     body: list[Stmt]
     otherwise: list[Stmt]
     step: str | None = None
-    """The step that names an action: an unknown name is an error then, told once: empty in a second place."""
+    """The step that names an action: an unknown name is an error, reported once: empty in a second place."""
     role: str | None = None
     """STEP, ENTRY or EXIT where only an action may stand."""
     described: Described | None = None
-    """What `body` tells about a variable."""
+    """What `body` says about a variable."""
     chosen: list[Stmt] = field(default_factory=list, metadata=RESOLVED_TREE)
 
 

@@ -330,7 +330,7 @@ def _enum(view: View, type_: t.Enum, rank: int) -> Iterator[Completion]:
 def _expected_type(
     view: View, scope: Scope, cursor: Cursor, before: str, call: EnclosingCall | None
 ) -> t.Type | None:
-    """The type that the place wants, as far as the tokens before it tell."""
+    """The type expected at the place, as far as the tokens before it determine it."""
     lexed = view.lexed
     if before in ("IF", "ELSIF", "WHILE", "UNTIL", "NOT", "AND", "OR"):
         return t.BOOL

@@ -39,7 +39,7 @@ class Key(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Occurrence:
-    """A name in a text. `symbol` is None for labels and for what only the type of a variable tells."""
+    """A name in a text. `symbol` is None for labels and for what only the type of a variable determines."""
 
     span: Span
     role: Role

@@ -57,7 +57,7 @@ _TYPES = {"B": "BYTE", "W": "WORD", "D": "DWORD", "R": "REAL", "L": "LWORD"}
 _NAMES_LIST = "PLC_CONFIGURATION"
 
 _WHY = {
-    "PLC_CONFIGURATION": "the controller configuration is of a device that is not here; add devices anew",
+    "PLC_CONFIGURATION": "the controller configuration is of a device that is not here; add devices by hand",
     "VISUALISATION": "visualisations of CoDeSys 2.3 are not read",
     "_WORKSPACE": "settings of the other editor are not read",
     "_ALARMCONFIG": "the alarm configuration is not read",
@@ -160,7 +160,7 @@ def _read_tasks(source: str, part: str, line: int, batch: Batch, report: ImportR
 
 
 def _read_library(source: str, part: str, line: int, batch: Batch, report: ImportReport) -> None:
-    """Refer to a library that is here, or tell what of it is missing."""
+    """Refer to a library that is here, or report what of it is missing."""
     match = _LIBRARY.match(part.lstrip())
     name = re.split(r"[\\/]", match["name"])[-1] if match else "LIBRARY"
     stem = name.rpartition(".")[0].casefold()

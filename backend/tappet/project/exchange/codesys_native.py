@@ -1,6 +1,6 @@
 """CODESYS V3: `.export`, its own exchange file: a list of objects with id, id of the parent, and texts.
 
-What the texts are is told by the type ids of the objects and, where they say nothing, by the first keyword.
+What the texts are follows from the type ids of the objects and, where they say nothing, by the first keyword.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ class Channel(NamedTuple):
 
     variable: str
     type: str
-    """Empty where the export does not tell it."""
+    """Empty where the export does not hold it."""
     label: str
 
 
@@ -108,7 +108,7 @@ def read_devices(
     line = configuration.line
     application.children.append(Draft("gvl", MAPPING_LIST, {"declaration": declaration}, source, line))
     text = (
-        "holds the variables that channels of devices are mapped to; add the devices anew and map them again "
+        "holds the variables that channels of devices are mapped to; add the devices and map them again "
         "to join them with inputs and outputs"
     )
     report.add("changed", source, text, name=MAPPING_LIST, line=line)

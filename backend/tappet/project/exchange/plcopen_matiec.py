@@ -89,7 +89,7 @@ def rewritten(text: str) -> tuple[str, list[str]]:
     notes = ["CONCAT of more than two texts was nested"] if names.pop("CONCAT", "") is None else []
     if pragmas:
         count = f"{pragmas} pieces of C code" if pragmas > 1 else "a piece of C code"
-        notes.append(f"{count} between braces became comments: what C does has to be written anew")
+        notes.append(f"{count} between braces became comments: what C does has to be written again in ST")
     if names:
         notes.append(f"{', '.join(names)} count seconds there and milliseconds here; they were rewritten")
     return "".join(bottom.pieces), notes

@@ -37,7 +37,7 @@ class Entry(BaseModel):
     line: int | None = Field(default=None, description="Line in the file, from 1; null: the file as a whole.")
     object: str = Field(default="", description="The object, such as FB_Motor.Start; empty: none.")
     outcome: Outcome = Field(
-        description="imported: as it was; changed: with a difference that the text tells; kept: stored "
+        description="imported: as it was; changed: with a difference that the text describes; kept: stored "
         "unchanged but not compiled; refused: not in the project."
     )
     text: str = Field(default="", description="What was changed or why it could not be read.")

@@ -248,8 +248,8 @@ class _System:
                     place = " > ".join(second.get("Name").split("^")[1:])
                     axis = second.get("Name").startswith("TINC^")
                     advice = "" if axis else "; map the variables to channels of a device here"
-                    told = f"links with {'the axis ' if axis else ''}'{place}' are not read{advice}"
-                    text = f"{told}: {', '.join(links[:_LINKS_SHOWN])}{more}"
+                    described = f"links with {'the axis ' if axis else ''}'{place}' are not read{advice}"
+                    text = f"{described}: {', '.join(links[:_LINKS_SHOWN])}{more}"
                     self.report.add("refused", source, text, name=plc, line=second.line)
 
 

@@ -247,7 +247,7 @@ class _Reader:
             kind = kind_of_text(read_utf8(path, self.files[path]))
             if kind is None:
                 raise FolderFormatError(
-                    path, "what it declares cannot be told; it should begin with PROGRAM, TYPE or the like"
+                    path, "what it declares is not recognised; it should begin with PROGRAM, TYPE or the like"
                 )
         elif kind is None or kind not in kinds() or isinstance(_form(kind), IecText):
             kind = None

@@ -1,4 +1,4 @@
-"""The store: projects and objects, every revision of them, and who is told about changes."""
+"""The store: projects and objects, every revision of them, and who is notified of changes."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 `TEST('x'); ... TEST_FINISHED();` becomes `IF TAPPET_TEST('x') THEN ... TEST_FINISHED(); END_IF;`, so that
 a test that ended in an exception is left out when the others are run again. `TAPPET_MARK(n);` at the begin
-of a test and before an assertion tells its place. Everything is put in on the line where it belongs, so that
+of a test and before assertions records the place. Everything is put in on the line where it belongs, so that
 lines stay the same.
 """
 

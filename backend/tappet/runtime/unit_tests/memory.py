@@ -32,7 +32,7 @@ class MemoryLimit:
         resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
 
     def lift(self) -> None:
-        """No limit any more, so that what came of the tests can be told."""
+        """No limit any more, so that the results of the tests can be reported."""
         resource.setrlimit(resource.RLIMIT_DATA, self._former)
 
     @property

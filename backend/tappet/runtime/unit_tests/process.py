@@ -53,7 +53,7 @@ def order(
 
 
 def run_in_process(command: bytes) -> Report:
-    """Run an order and wait for its report; a test that kills its process is told, and the others run on."""
+    """Run an order and wait for its report; a test that kills its process is reported, others continue."""
     with Attempts(command) as attempts:
         report = None
         while report is None:

@@ -1,7 +1,7 @@
 """The seam between the web server and the analysis of a project: messages over a pair of pipes.
 
 Contract. The server begins a worker with `Begin` and the stored objects of its project (`StoredTexts`), and
-tells it of every change of them. Each browser socket is a session with a number: `Attach`, any number of
+sends it every change of them. Each browser socket is a session with a number: `Attach`, any number of
 `Receive` with one message of the Language Server Protocol each, unread, then `Detach`. The worker answers
 with `Send`, one protocol message for one session. Everything is plain data that names no path, database or
 process of the server, and nothing but libraries is read from disk; so the worker may as well run on another

@@ -167,7 +167,7 @@ class AnalysedProject:
         self._feed_soon()
 
     async def _read(self, process: WorkerProcess) -> None:
-        """Take what the process says; when it ends by itself, tell the clients."""
+        """Take what the process says; when it ends by itself, notify the clients."""
         try:
             async for message in process.received():
                 client = self.clients.get(message.session)
@@ -231,7 +231,7 @@ class AnalysedProject:
             self._feeding = asyncio.create_task(self._feed())
 
     async def _feed(self) -> None:
-        """Tell the worker what has changed, until it knows everything."""
+        """Send the worker what has changed, until it has everything."""
         try:
             while self._process is not None and self._touched is not None:
                 process, touched, self._touched = self._process, self._touched, None

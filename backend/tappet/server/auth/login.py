@@ -49,7 +49,7 @@ class Login:
         self._secrets = secrets
 
     def by_password(self, username: str, password: str, client: Client) -> LoggedIn:
-        """Blocks for one hash. Raises 401 and 429 problems; neither tells whether the account exists."""
+        """Blocks for one hash. Raises 401 and 429 problems; neither shows whether the account exists."""
         keys = [lockout.account_key(username), lockout.address_key(client.address)]
         self._attempt(keys, username, client)
 

@@ -297,7 +297,7 @@ class _Worker:
 
 
 async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict[str, Any]]) -> bool:
-    """Whether a process ends its build when told to, and is ready for the next one."""
+    """Whether a process ends its build on request, and is ready for the next one."""
     with suppress(ProcessLookupError):
         process.send_signal(CANCEL)
     await asyncio.wait([exchange], timeout=GRACE_S)

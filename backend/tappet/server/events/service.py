@@ -1,6 +1,6 @@
 """Who has a project open, and what changes in it: from the store to the events sockets.
 
-The store tells of a change in the thread that made it; here it goes to the event loop and from there to the
+The store signals a change in the thread that made it; here it goes to the event loop and from there to the
 sockets of the project. A socket that cannot follow is closed: its page reconnects and reloads.
 """
 

@@ -11,7 +11,7 @@ from tappet.server.shapes import Reply, Request
 
 
 class OpenObject(Request):
-    """Tells the others which object one looks at; null for none."""
+    """Shows the other users which object this one has open; null for none."""
 
     op: Literal["open"]
     object_id: Annotated[str, StringConstraints(max_length=64)] | None

@@ -32,7 +32,7 @@ class Publication:
         """Documents whose messages were published at other lines, because the client shows another text."""
 
     def expect(self, documents: Iterable[str]) -> None:
-        """Tell about these the next time, also when they have no messages."""
+        """Publish these the next time, also when they have no messages."""
         self._due.update(documents)
 
     def news(

@@ -169,7 +169,7 @@ class LanguageSession:
     # -- life
 
     def initialize(self, params: lsp.InitializeParams) -> lsp.InitializeResult:
-        """Tell what is served."""
+        """The capabilities of this server."""
         self.language = language_of(params.locale)
         self._state = "initialized"
         full = lsp.SemanticTokensLegend(list(TOKEN_TYPES), list(TOKEN_MODIFIERS))

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 Stored = Callable[[str], str | None]
-"""The stored text of a document; None when there is none, or nobody can tell."""
+"""The stored text of a document; None when there is none, or none is known."""
 
 
 def nothing_stored(document: str) -> str | None:

@@ -1,7 +1,7 @@
 """A document as one client shows it: places of the analysed text as places in the client's own lines.
 
 Mostly both texts are the same. Where they are not (another user has edited the document, see
-`shared_texts`), places in lines that both have are moved, and places in other lines are not told to this
+`shared_texts`), places in lines that both have are moved, and places in other lines are not published to this
 client at all.
 """
 

@@ -143,7 +143,7 @@ class RuntimeLink:
         return self.symbols
 
     async def refresh(self) -> None:
-        """Asks the runtime for its facts now, and tells the listeners what changed."""
+        """Reads the state of the runtime now, and notifies the listeners of changes."""
         async with self._refreshing:
             client = self._client
             if client is not None:

@@ -16,7 +16,7 @@ LONGEST_PAUSE_S = 30.0
 
 
 class LocalRuntime:
-    """Keeps the process alive and tells its link where it listens. Starting does not hold the server up.
+    """Keeps the process alive and gives its link the address. Starting does not hold the server up.
 
     A start that fails is repeated after `first_pause_s`, then after twice that, and so on; until one succeeds
     the link says what the process printed last and when the next attempt follows.

@@ -117,7 +117,7 @@ async def browse_symbols(
 
 
 def _log_entry(entry: logbook.LogEntry, places: SourcePlaces | None) -> LogEntry:
-    """The line as the log shows it; a place in a program is told as the editor counts lines."""
+    """The line as the log shows it; a place in a program is given as the editor counts lines."""
     line = shown_line(places, entry.uri, entry.line)
     return LogEntry(
         id=entry.number,

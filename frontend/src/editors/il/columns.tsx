@@ -169,7 +169,7 @@ function Mark({ messages }: { messages: readonly RowMessage[] }) {
   );
 }
 
-/** What a cell tells when the pointer rests on it: of an operand its declaration (FBD-04), the messages of the row. */
+/** The tooltip of a cell: of an operand its declaration (FBD-04), the messages of the row. */
 export function cellHint({ row, facts, messages }: CellView, column: ColumnId): string | undefined {
   const lines =
     column === 'line' || column === 'operator' || column === 'operand' ? messages.map((m) => m.message) : [];

@@ -33,7 +33,7 @@ export interface Run extends Range {
   readonly bare: string;
 }
 
-/** A text in pieces that are commented out and those that are not; `lines` are its lines, `isComment` tells of each. */
+/** A text in pieces that are commented out and those that are not; `lines` are its lines, `isComment` one flag each. */
 export function runsOf(text: string, lines: readonly Range[], isComment: (line: Range) => boolean): readonly Run[] {
   const runs: { start: number; end: number; excluded: boolean }[] = [];
   for (const line of lines) {

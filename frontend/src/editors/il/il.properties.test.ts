@@ -206,7 +206,7 @@ describe('IL text and table', () => {
         const [first, last] = [from % rows.length, to % rows.length].sort((a, b) => a - b) as [number, number];
         const chosen = rows.map((_, index) => index).slice(first, last + 1);
         const before = pick % (rows.length + 1);
-        // Whole lines, none into a network that is commented out; what shares a line is told by examples.
+        // Whole lines, none into a network that is commented out; examples show what shares a line.
         const begins = (at: number) => rows[at] === undefined || rows[at].start === rows[at].lineStart;
         fc.pre(begins(first) && begins(last + 1) && begins(before) && text !== '');
         fc.pre(closesStrings(text)); // an open one goes on where a later line has a quote

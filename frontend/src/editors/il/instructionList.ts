@@ -29,7 +29,7 @@ function withoutLabel(text: string, row: readonly Token[]): readonly Token[] {
   return labelled ? row.slice(2) : row;
 }
 
-/** Whether a body is IL: IEC tells by the first instruction. `tokens` are those without comments. */
+/** Whether a body is IL: by the standard the first instruction decides. `tokens` are those without comments. */
 export function isInstructionList(text: string, tokens: readonly Token[]): boolean {
   const rows = rowsOf(text, tokens)
     .map((row) => withoutLabel(text, row))

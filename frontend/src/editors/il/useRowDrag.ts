@@ -4,10 +4,10 @@ import type { RowDrop } from '@/ui/grid/useRowDrop';
 import { copyRows } from './edits';
 import type { useIlActs } from './useIlActs';
 
-/** Tells rows of IL from other things that are dragged. */
+/** Distinguishes rows of IL from other things that are dragged. */
 const ROWS_TYPE = 'application/x-tappet-il-rows';
 
-/** What is being dragged in this window; the browser tells it only when it is dropped. */
+/** What is being dragged in this window; the browser gives it only when it is dropped. */
 let dragged: { readonly model: editor.ITextModel; readonly rows: readonly number[] } | null = null;
 
 /** Rows dragged to another place of the table: moved, with Ctrl copied; into another table always copied. */

@@ -1,6 +1,6 @@
 /**
  * The text of objects as the runtime executes it: taken while project and runtime are the same, kept while the user
- * goes on editing, so that values can tell lines that run from lines that do not run yet.
+ * goes on editing, so that values are shown at lines that run, not at lines that do not run yet.
  */
 import { create } from 'zustand';
 import { useOnline, type OnlineSession } from '@/workbench/onlineSession';

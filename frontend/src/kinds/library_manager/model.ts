@@ -109,7 +109,7 @@ export function rowsOf(
   return rows;
 }
 
-/** What tells a reference from the others: no two have one namespace. */
+/** What identifies a reference: no two have one namespace. */
 export function keyOf(reference: LibraryReference, installed: readonly LibrarySummary[]): string {
   return `${reference.name} ${reference.version} ${namespaceOf(reference, installed)}`;
 }

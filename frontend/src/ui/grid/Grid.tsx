@@ -115,7 +115,7 @@ export function Grid(props: GridProps) {
   const { onRange } = props;
   useEffect(() => {
     onRange?.(first, last);
-    // Told for other rows only, not for another function.
+    // Called for other rows only, not for another function.
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [first, last]);
 

@@ -2,7 +2,7 @@
 import type { Library, LibraryItem, Pin } from '@/api/types';
 import type { TextKey } from '@/i18n';
 
-/** What tells an installed library from all others. */
+/** What identifies an installed library. */
 export interface LibraryId {
   name: string;
   version: string;

@@ -28,7 +28,7 @@ const session = (applicationId: string, raised: RuntimeException | null): Online
 });
 
 describe('exceptions', () => {
-  it('are told by their kind, unknown ones in the words of the runtime', () => {
+  it('are described by their kind, unknown ones in the words of the runtime', () => {
     expect(exceptionTitle(exception('DIV_ZERO'))).toBe('Division by zero');
     expect(exceptionTitle(exception('USER'))).toBe('as the runtime says it');
   });

@@ -42,7 +42,7 @@ export function followRelation(compare: Compare): RelationFollower {
         const { relation } = await compare(session);
         if (!closed && turn === asked) relationChanged(session.applicationId, relation);
       } catch {
-        // Text that does not build has no relation; the messages tell what is wrong with it.
+        // Text that does not build has no relation; the messages say what is wrong with it.
       }
     }
   };

@@ -28,8 +28,8 @@ function server(state: RuntimeState, relation: LoginAnswer['relation'] | Error):
 beforeEach(() => useOnline.setState({ sessions: {} }));
 afterEach(() => void vi.restoreAllMocks());
 
-describe('logins after the page was loaded anew', () => {
-  it('come back with the relation the server tells', async () => {
+describe('logins after the page was reloaded', () => {
+  it('come back with the relation of the server', async () => {
     server(runtime({}), 'online_change');
     resumeLogins('p', tab(held));
     await settled();

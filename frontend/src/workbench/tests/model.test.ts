@@ -79,7 +79,7 @@ describe('a run of what was not good', () => {
     ]);
   });
 
-  it('keeps the results of the others and counts anew', () => {
+  it('keeps the results of the others and counts again', () => {
     const before = report(suite('A', ['passed', 'failed', 'skipped']), suite('B', ['error']));
     const now = report(suite('A', ['skipped', 'passed', 'skipped']), suite('B', ['failed']));
     const both = withOthers(before, now, ['A.t1', 'B.t0']);

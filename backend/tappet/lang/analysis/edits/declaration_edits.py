@@ -201,7 +201,7 @@ class _Redeclaration:
         return finish(state) if session.suggestions < SUGGESTION_LIMIT else None
 
     def _stays_where_it_is(self, message: Diagnostic) -> bool:
-        """Whether a full analysis would tell the same there: which type of a circle it tells of depends on
+        """Whether a full analysis would report the same there: which type of a circle it reports depends on
         the one that is laid out first."""
         return message.uri in self.texts and (message.code not in _OF_CIRCLES or not self.layout.made)
 

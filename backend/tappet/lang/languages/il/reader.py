@@ -40,7 +40,7 @@ class InstructionList(TextReader):
     name: ClassVar[str] = "IL"
 
     def begins(self, parser: StatementParser, pou: ast.Pou) -> bool:
-        """Rows follow rows; the first one is told from a statement by its instruction."""
+        """Rows follow rows; its instruction distinguishes the first one from a statement."""
         if any(not isinstance(statement, ast.PragmaStmt) for statement in pou.body):
             return pou.language == self.name
         return is_instruction_list(parser)

@@ -1,4 +1,4 @@
-"""Whether the body that begins at a token is IL: IEC tells the languages apart by the first instruction."""
+"""Whether the body that begins at a token is IL: by the standard the first instruction decides."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ _COMPARING = frozenset({"=", "<>"})
 
 
 def _bare(outer: ast.Binary, inner: ast.Binary) -> bool:
-    """Whether no parenthesis stands around the inner operation; its span tells."""
+    """Whether no parenthesis stands around the inner operation; its span shows it."""
     if inner is outer.left:
         return outer.span[:2] == inner.span[:2]
     return outer.span[2:] == inner.span[2:]

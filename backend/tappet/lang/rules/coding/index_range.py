@@ -2,7 +2,7 @@
 
 What an index can be is known from constant bounds of the loop, subranges, MOD, AND, LIMIT; behind a condition
 inside the loop (IF, AND_THEN, SEL) nothing is said of the loop variable, as the condition may keep the index
-inside. W1125 tells of the plain loop variable.
+inside. W1125 reports the plain loop variable.
 
 Source: spec LTYP-150; coding guidelines of PLCopen, L10; CODESYS Static Analysis SA0172, SA0180.
 

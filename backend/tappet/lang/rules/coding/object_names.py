@@ -1,4 +1,4 @@
-"""Objects and types are told by the prefix of their name.
+"""Names of objects and types: their prefix.
 
 The prefixes stand in `lang.coding_settings`.
 

@@ -116,7 +116,7 @@ def _fits(source: Type | None, target: Type | None) -> bool:
 
 
 def _orders(e: ast.Binary, arithmetic_reported: bool) -> bool:
-    """Whether an operation asks where pointers lie; `pointer - number` only if nothing else tells it."""
+    """Whether an operation asks where pointers lie; `pointer - number` only if nothing else reports it."""
     if not isinstance(e.left.type, Pointer):
         return False
     other = isinstance(e.right.type, Pointer)

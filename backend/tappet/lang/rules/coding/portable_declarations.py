@@ -67,7 +67,7 @@ if TYPE_CHECKING:
 
 CODES = ("S1601", "S1602", "S1603", "S1604", "S1605", "S1606", "S1607", "S1608")
 _Found = Iterator[tuple[str, Span, str]]
-"""Code, place, and the name that the message tells."""
+"""Code, place, and the name in the message."""
 
 
 def check_unit(session: Session, unit: ast.Unit) -> None:

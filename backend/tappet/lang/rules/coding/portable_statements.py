@@ -89,7 +89,7 @@ def check_pou(b: Body, chosen: frozenset[str]) -> None:
 
 
 def _number(e: ast.Expr | None, signed_reported: bool) -> Elementary | None:
-    """The type of an integer that is no bit string; a signed one only if no other rule tells of it."""
+    """The type of an integer that is no bit string; a signed one only if no other rule reports it."""
     if e is None or e.type is None or e.is_constant:
         return None
     type_ = value_type(e.type)

@@ -1,4 +1,4 @@
-"""Variables are told by their names: prefix by type, length, spelling.
+"""Names of variables: prefix by type, length, spelling.
 
 Source: coding guidelines of PLCopen, N2 (prefixes), N4 (length), N6 (characters), N7 (reserved words), N10
 (names of constants); `lang.coding_settings` holds prefixes and limits.
