@@ -74,6 +74,23 @@ def test_a_project_is_saved_installed_used_and_removed(tmp_path: Path) -> None:
     assert "is not installed" in refused.errors
 
 
+def test_a_library_can_ask_for_its_namespace(tmp_path: Path) -> None:
+    folder.save(project_of_motor(), tmp_path / "project")
+    file = tmp_path / "drives.tappetlib"
+    invoke("library", "save", tmp_path / "project", "--to", file, "--version", "1.0.0.0", "--qualified-only")
+    invoke("library", "install", file)
+    shown = invoke("library", "show", "Drives")
+    assert shown.startswith("LIBRARY Drives 1.0.0.0, namespace Drives, qualified access only\n")
+    listed = json.loads(invoke("library", "list", "--format", "json"))
+    flags = {library["name"]: library["qualified_only"] for library in listed}
+    assert (flags["Drives"], flags["Standard"]) == (True, False)
+    program = tmp_path / "main.st"
+    program.write_text("PROGRAM Main\nVAR m : FB_Motor; END_VAR\nm();\nEND_PROGRAM\n")
+    refused = commands.invoke("check", program)
+    assert refused.code == 1
+    assert "Write 'Drives.FB_Motor'" in refused.output
+
+
 def test_a_project_that_does_not_compile_is_no_library(tmp_path: Path) -> None:
     project = project_of_motor()
     body = {"declaration": "FUNCTION Bad : INT", "implementation": "Bad := nowhere;"}

@@ -123,7 +123,16 @@ def _source(head: list[str], text: str, language: str | None) -> Source:
     if kind == "pous":
         return Source(name, text, Scope.POUS, bodies=bodies)
     if kind == "library":
-        return Source(name, text, Scope.LIBRARY, library=rest[0], namespace=rest[0], bodies=bodies)
+        qualified_only = "qualified_only" in rest
+        return Source(
+            name,
+            text,
+            Scope.LIBRARY,
+            library=rest[0],
+            namespace=rest[0],
+            qualified_only=qualified_only,
+            bodies=bodies,
+        )
     if kind == "owner":
         return Source(f"{rest[0]}.{name}", text, owner=rest[0], bodies=bodies)
     return Source(name, text, bodies=bodies, name=name if "VAR_GLOBAL" in text else None)

@@ -78,7 +78,7 @@ def test_who_uses_a_version_and_what_a_library_needs(admin: TestClient) -> None:
     listed = {(item["name"], item["version"]): item for item in admin.get(URL).json()}
     values = [{"list": "GVL", "name": "cMax", "value": "3"}]
     assert listed["Plant", "1.0.0.0"]["requires"] == [
-        {"name": "Util", "version": "*", "namespace": "", "parameters": values}
+        {"name": "Util", "version": "*", "namespace": "", "qualified_only": False, "parameters": values}
     ]
     assert (
         "Tc2_Standard" in next(item for (name, _), item in listed.items() if name == "Standard")["replaces"]
@@ -145,3 +145,15 @@ def test_a_project_is_saved_as_library_and_used_by_another(admin: TestClient) ->
     empty = admin.post("/api/v1/projects", json={"name": "Nothing", "template": "empty"}).json()["id"]
     refused = admin.post(f"/api/v1/projects/{empty}/library", json={"version": "1.0"})
     assert (refused.status_code, refused.json()["type"]) == (422, "urn:tappet:problem:no-library")
+
+
+def test_a_library_is_saved_with_qualified_access_only(admin: TestClient) -> None:
+    maker = admin.post("/api/v1/projects", json={"name": "Strict", "template": "empty"}).json()["id"]
+    data = {"declaration": "FUNCTION Twice : INT", "implementation": "Twice := 2;"}
+    body = {"parent_id": None, "kind": "pou", "name": "Twice", "data": data}
+    assert admin.post(f"/api/v1/projects/{maker}/objects", json=body).status_code == 201
+    facts = {"version": "1.0.0.0", "qualified_only": True}
+    saved = admin.post(f"/api/v1/projects/{maker}/library", json=facts)
+    assert saved.json()["qualified_only"] is True
+    assert admin.get(f"{URL}/Strict").json()["qualified_only"] is True
+    assert admin.get(f"{URL}/Standard").json()["qualified_only"] is False

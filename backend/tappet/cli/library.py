@@ -15,6 +15,7 @@ from tappet.cli.output import show_json
 from tappet.libraries import archive
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.catalog import Item, Pin, items
+from tappet.libraries.library import Library
 
 
 def list_libraries_arguments(parser: ArgumentParser) -> None:
@@ -26,7 +27,7 @@ def list_libraries(given: Namespace) -> int:
     """Shows the libraries."""
     found = libraries.every_version()
     if given.format == "json":
-        keys = ("name", "version", "namespace", "company", "description")
+        keys = ("name", "version", "namespace", "qualified_only", "company", "description")
         show_json(
             [
                 {key: getattr(library, key) for key in keys}
@@ -54,6 +55,8 @@ def show(given: Namespace) -> int:
     if given.format == "json":
         show_json([asdict(item) for item in chosen])
         return 0
+    with suppress(libraries.UnknownLibraryError):
+        print(_head(libraries.load(given.name)))
     for item in chosen:
         print(_text(item))
     return 0
@@ -66,6 +69,7 @@ def save_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--version", required=True, help="such as 1.2.0.0")
     parser.add_argument("--name", help="name of the library; that of the project")
     parser.add_argument("--namespace", default="", help="prefix of its names; the name")
+    parser.add_argument("--qualified-only", action="store_true", help="its names need the prefix in any case")
     parser.add_argument("--company", default="", help="who makes it")
     parser.add_argument("--description", help="what it is for; that of the project")
 
@@ -90,6 +94,7 @@ def save(given: Namespace) -> int:
             company=given.company,
             description=project.description if given.description is None else given.description,
             requires=requirements(needed),
+            qualified_only=given.qualified_only,
         )
     except (ProjectError, LibraryFileError) as error:
         raise UsageError(str(error)) from error
@@ -148,6 +153,11 @@ def _find(name: str) -> list[Item]:
     if not found:
         raise UsageError(f"no library, POU or type '{name}'; libraries are {', '.join(libraries.names())}")
     return found
+
+
+def _head(library: Library) -> str:
+    access = ", qualified access only" if library.qualified_only else ""
+    return f"LIBRARY {library.name} {library.version}, namespace {library.namespace}{access}\n"
 
 
 def _text(item: Item) -> str:

@@ -42,7 +42,8 @@ def _digest(source: Source) -> bytes:
         text = source.text
     place = (source.uri, source.scope, source.owner, source.name, source.library, source.namespace)
     given = [(item.name, item.value) for item in source.given]  # where the values stand is no difference
-    head = repr((*place, source.uses, source.private, source.body_line, source.bodies, given))
+    seen = (source.uses, source.private, source.qualified_only)
+    head = repr((*place, *seen, source.body_line, source.bodies, given))
     return hashlib.blake2b(f"{head}\n{text}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import NamedTuple
 
 from tappet.iec.places import BodyText, Segment, SourceMap
 
@@ -26,6 +27,17 @@ class GivenValue:
     """An expression as written."""
     place: str
     """Where it stands, for messages: the path of the library manager."""
+
+
+class Use(NamedTuple):
+    """A library that another one needs."""
+
+    name: str
+    """The name that the needing library gives to it."""
+    label: str
+    """The namespace under which it is here."""
+    qualified_only: bool = False
+    """Its names are used behind that name only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,10 +63,12 @@ class Source:
     text."""
     bodies: tuple[BodyText, ...] = ()
     """Where the first words of bodies do not show their language, or are drawn, in order of the lines."""
-    uses: tuple[tuple[str, str], ...] = ()
-    """Libraries that the text's library needs: the name it gives to one, and the namespace that is here."""
+    uses: tuple[Use, ...] = ()
+    """Libraries that the text's library needs."""
     private: bool = False
     """Only libraries that use this one see it: the application has another version of it."""
+    qualified_only: bool = False
+    """The application sees the library's objects behind the namespace only (LIB-08)."""
     given: tuple[GivenValue, ...] = ()
     """Values that the reference to the library gives to parameters of this list, in place of its own."""
     map: SourceMap | None = field(default=None, compare=False)

@@ -3,7 +3,7 @@
 A sample is one or more objects, or the declarations and statements of a program, with types before them.
 Lines that begin with `@` set the stage:
 
-    @source NAME [pous | library NAMESPACE | owner POU]    another text begins
+    @source NAME [pous | library NAMESPACE [qualified_only] | owner POU]    another text begins
     @task NAME KIND INTERVAL_MS PRIORITY EVENT|- PROGRAM ...
     @watchdog TASK TIME_MS SENSITIVITY
     @language IL     the bodies of this text are IL

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from tappet.iec.places import NOWHERE, BodyText, SourceMap, Span
-from tappet.iec.source import GivenValue, Scope, Source
+from tappet.iec.source import GivenValue, Scope, Source, Use
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
@@ -33,6 +33,7 @@ __all__ = [
     "Source",
     "SourceMap",
     "Span",
+    "Use",
     "split_lines",
     "text_at",
 ]

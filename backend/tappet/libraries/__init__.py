@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from tappet.lang.diagnostics import Diagnostic, report
-from tappet.lang.source import NOWHERE, Scope, Source
+from tappet.lang.source import NOWHERE, Scope, Source, Use
 from tappet.libraries import repository
 from tappet.libraries.library import Library
 from tappet.libraries.repository import NEWEST, ROOT, Installed, Requirement, UnknownLibraryError
@@ -28,7 +28,7 @@ def names() -> tuple[str, ...]:
 
 def every_version() -> list[Library]:
     """All libraries to choose from in all versions, by name, newest first."""
-    return [_load(item, item.namespace, _label(item)) for item in repository.installed() if not item.internal]
+    return [_whole(item, item.namespace) for item in repository.installed() if not item.internal]
 
 
 def load(name: str, version: str = NEWEST, namespace: str | None = None) -> Library:
@@ -38,7 +38,7 @@ def load(name: str, version: str = NEWEST, namespace: str | None = None) -> Libr
     Raises UnknownLibraryError, with what is installed, when there is no such library or version.
     """
     found = repository.find(name, version)
-    return _load(found, namespace or repository.namespace_of(found, name), _label(found))
+    return _whole(found, namespace or repository.namespace_of(found, name))
 
 
 def as_called(name: str, texts: Iterable[str]) -> str:
@@ -75,9 +75,10 @@ class _Used:
     space: str
     user: str
     private: bool = False
+    qualified_only: bool = False
     place: str = ""
     """Path of the library manager whose reference brings it in."""
-    uses: list[tuple[str, str]] = field(default_factory=list)
+    uses: list[Use] = field(default_factory=list)
     given: list[tuple[ParameterValue, str]] = field(default_factory=list)
     """Values for its parameters, with where they are given: paths of library managers."""
 
@@ -104,7 +105,8 @@ class _Resolution:
         return [self._loaded(used) for used in self._found.values()], self.problems
 
     def _loaded(self, used: _Used) -> Library:
-        library = _load(used.item, used.space, _label(used.item), tuple(used.uses), used.private)
+        only = used.qualified_only or used.item.qualified_only
+        library = _load(used.item, used.space, _label(used.item), only, tuple(used.uses), used.private)
         if not used.given:
             return library
         from tappet.libraries.parameters import Given, with_values
@@ -136,6 +138,7 @@ class _Resolution:
             )
             return
         known.given += [(parameter, place) for parameter in reference.parameters]
+        known.qualified_only |= reference.qualified_only
         if placeholder:
             self._placeholders.setdefault(placeholder.upper(), known)
 
@@ -144,7 +147,9 @@ class _Resolution:
         application refers to the further part itself."""
         for item in repository.completing(used.space):
             if all(other.item.name != item.name for other in self._found.values()):
-                further = _Used(item, used.space, APPLICATION, place=used.place)
+                further = _Used(
+                    item, used.space, APPLICATION, qualified_only=used.qualified_only, place=used.place
+                )
                 self._found[f"{used.space.upper()} {item.name.upper()}"] = further
 
     def _require(self, user: _Used, required: Requirement) -> None:
@@ -163,8 +168,9 @@ class _Resolution:
         if there is None:
             there = self._beside(item, wanted, user, private=bool(same))
         there.given += [(parameter, user.place) for parameter in required.parameters]
-        if there is not user and (wanted, there.space) not in user.uses:
-            user.uses.append((wanted, there.space))
+        use = Use(wanted, there.space, required.qualified_only or item.qualified_only)
+        if there is not user and use not in user.uses:
+            user.uses.append(use)
 
     def _beside(self, item: Installed, wanted: str, user: _Used, *, private: bool) -> _Used:
         private = private or wanted.upper() in self._found
@@ -174,7 +180,7 @@ class _Resolution:
             space = f"{wanted}_{version}"
             while space.upper() in self._found:
                 space += "_"
-        used = _Used(item, space, f"'{user.item.name}'", private, user.place)
+        used = _Used(item, space, f"'{user.item.name}'", private, place=user.place)
         return self._found.setdefault(space.upper(), used)
 
 
@@ -184,9 +190,19 @@ def _label(item: Installed) -> str:
     return item.name if newest.version == item.version else f"{item.name} {item.version}"
 
 
+def _whole(item: Installed, space: str) -> Library:
+    """The library by itself, as it is shown."""
+    return _load(item, space, _label(item), item.qualified_only)
+
+
 @lru_cache(maxsize=128)
 def _load(
-    item: Installed, space: str, label: str, uses: tuple[tuple[str, str], ...] = (), private: bool = False
+    item: Installed,
+    space: str,
+    label: str,
+    qualified_only: bool,
+    uses: tuple[Use, ...] = (),
+    private: bool = False,
 ) -> Library:
     sources = tuple(
         Source(
@@ -196,6 +212,7 @@ def _load(
             name=path.stem,
             library=item.name,
             namespace=space,
+            qualified_only=qualified_only,
             uses=uses,
             private=private,
         )
@@ -209,6 +226,7 @@ def _load(
         item.description,
         sources,
         item.requires,
+        qualified_only,
         item.removable,
         tuple(known.name for known in item.replaces),
     )

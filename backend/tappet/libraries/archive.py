@@ -42,9 +42,10 @@ def manifest(
     company: str = "",
     description: str = "",
     requires: list[dict[str, Any]] | None = None,
+    qualified_only: bool = False,
 ) -> dict[str, Any]:
     """The content of `library.json`; raises LibraryFileError for a name or version that cannot be one."""
-    facts = {
+    facts: dict[str, Any] = {
         "company": company,
         "description": description,
         "name": name,
@@ -52,6 +53,8 @@ def manifest(
         "requires": requires or [],
         "version": version,
     }
+    if qualified_only:
+        facts["qualified_only"] = True
     _check_manifest(facts)
     return facts
 
@@ -169,11 +172,18 @@ def _check_manifest(facts: Mapping[str, Any]) -> None:
     for key in ("company", "description"):
         if not isinstance(facts.get(key, ""), str):
             raise LibraryFileError(f"'{key}' has to be a text")
+    _check_qualified_only(facts)
     requires = facts.get("requires", [])
     if not isinstance(requires, list) or not all(isinstance(r, dict) and "name" in r for r in requires):
         raise LibraryFileError("'requires' has to be a list of objects with a name")
     for required in requires:
         _check_parameters(required.get("parameters", []))
+        _check_qualified_only(required)
+
+
+def _check_qualified_only(facts: Mapping[str, Any]) -> None:
+    if not isinstance(facts.get("qualified_only", False), bool):
+        raise LibraryFileError("'qualified_only' has to be true or false")
 
 
 def _check_parameters(parameters: object) -> None:

@@ -19,6 +19,8 @@ class Library:
     description: str
     sources: tuple[Source, ...]
     requires: tuple[Requirement, ...] = ()
+    qualified_only: bool = False
+    """Its names are used behind the namespace only."""
     removable: bool = False
     """It was installed besides those of the product."""
     replaces: tuple[str, ...] = ()

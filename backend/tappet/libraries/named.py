@@ -129,7 +129,15 @@ def _key(libraries: Sequence[Source]) -> str:
     digest = hashlib.blake2b(f"{FORMAT}|{compiler_stamp()}|".encode(), digest_size=20)
     for source in libraries:
         head: tuple[Any, ...] = (source.uri, source.owner, source.name, source.library, source.namespace)
-        head = (*head, source.uses, source.private, source.given, source.bodies, len(source.text))
+        head = (
+            *head,
+            source.qualified_only,
+            source.uses,
+            source.private,
+            source.given,
+            source.bodies,
+            len(source.text),
+        )
         digest.update(f"{head!r}\n{source.text}".encode("utf-8", "surrogatepass"))
     return digest.hexdigest()
 

@@ -49,6 +49,8 @@ class Requirement:
     namespace: str = ""
     parameters: tuple[ParameterValue, ...] = ()
     """Values of its parameters that the library asks for."""
+    qualified_only: bool = False
+    """The library that needs it uses its names behind the namespace only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +63,8 @@ class Installed:
     namespace: str
     company: str
     description: str
+    qualified_only: bool
+    """Its names are used behind the namespace only."""
     internal: bool
     """Only the compiler calls it."""
     replaces: tuple[Designation, ...]
@@ -185,6 +189,7 @@ def _requirement(facts: Mapping[str, Any]) -> Requirement:
             ParameterValue(str(one.get("list", "")), str(one["name"]), str(one["value"]))
             for one in facts.get("parameters", ())
         ),
+        bool(facts.get("qualified_only", False)),
     )
 
 
@@ -198,6 +203,7 @@ def _read(path: Path, stamp: int, removable: bool) -> Installed:
         namespace=str(facts.get("namespace") or facts["name"]),
         company=str(facts.get("company", "")),
         description=str(facts.get("description", "")),
+        qualified_only=bool(facts.get("qualified_only", False)),
         internal=bool(facts.get("internal", False)),
         replaces=tuple(designation(text) for text in facts.get("replaces", ())),
         completes=tuple(str(name).upper() for name in facts.get("completes", ())),

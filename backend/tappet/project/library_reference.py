@@ -32,6 +32,8 @@ class LibraryReference:
     placeholder: str | None = None
     """The name that libraries which need it know it by, where that is another one."""
     parameters: tuple[ParameterValue, ...] = ()
+    qualified_only: bool = False
+    """The application uses its names behind the namespace only, whatever the library asks for."""
     place: str = ""
     """Path of the library manager that holds the reference, for messages about it."""
 

@@ -81,6 +81,8 @@ def _requirement(reference: LibraryReference) -> dict[str, Any]:
         "version": "*" if is_placeholder else reference.version,
         "namespace": reference.namespace or "",
     }
+    if reference.qualified_only:
+        facts["qualified_only"] = True
     if reference.parameters:
         facts["parameters"] = [asdict(parameter) for parameter in reference.parameters]
     return facts

@@ -2750,6 +2750,11 @@ export interface components {
             /** Namespace */
             namespace: string;
             /**
+             * Qualified Only
+             * @description Its names are used behind the namespace only.
+             */
+            qualified_only: boolean;
+            /**
              * Removable
              * @description Installed besides those of the product.
              */
@@ -2895,6 +2900,12 @@ export interface components {
              */
             placeholder: string | null;
             /**
+             * Qualified Only
+             * @description Names of the library are used behind the namespace only, also where the library itself allows them without.
+             * @default false
+             */
+            qualified_only: boolean;
+            /**
              * Version
              * @description A version, or * for the newest installed one.
              * @default *
@@ -2924,6 +2935,11 @@ export interface components {
             name: string;
             /** Namespace */
             namespace: string;
+            /**
+             * Qualified Only
+             * @description Its names are used behind the namespace only.
+             */
+            qualified_only: boolean;
             /**
              * Removable
              * @description Installed besides those of the product.
@@ -3149,6 +3165,12 @@ export interface components {
              * @default
              */
             namespace: string;
+            /**
+             * Qualified Only
+             * @description Its names are used behind that prefix only.
+             * @default false
+             */
+            qualified_only: boolean;
             /**
              * Version
              * @description Such as 1.2.0.0.
@@ -3942,6 +3964,11 @@ export interface components {
              * @description Values that it asks for.
              */
             parameters: components["schemas"]["ParameterValue"][];
+            /**
+             * Qualified Only
+             * @description Its names are used behind that prefix only.
+             */
+            qualified_only: boolean;
             /**
              * Version
              * @description A version, or * for the one that the application refers to.

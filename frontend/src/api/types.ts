@@ -34,7 +34,11 @@ export type TaskData = Schemas['TaskData'];
 export type TaskType = TaskData['type'];
 export type TaskPou = Schemas['ProgramCall'];
 export type LibraryParameter = Schemas['LibraryParameterData'];
-export type LibraryReference = Omit<Schemas['LibraryReferenceData'], 'placeholder' | 'parameters'> & {
+export type LibraryReference = Omit<
+  Schemas['LibraryReferenceData'],
+  'placeholder' | 'parameters' | 'qualified_only'
+> & {
+  qualified_only?: boolean;
   placeholder?: string | null;
   parameters?: LibraryParameter[];
 };

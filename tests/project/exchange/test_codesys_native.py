@@ -22,6 +22,7 @@ LIBRARIES = (
     '<List Name="Items"><Single>'
     + single("DefaultResolution", "Util, * (System)")
     + single("Namespace", "Util")
+    + single("QualifiedOnly", "True")
     + "</Single></List>"
 )
 WHOLE = [
@@ -81,6 +82,7 @@ def test_a_whole_project() -> None:
     assert task["pous"] == ({"name": "PLC_PRG", "comment": "first"},)
     manager = done.project.get(paths["Press/PLC Logic/App/Library Manager"]).data.model_dump()
     assert [one["name"] for one in manager["references"]] == ["Standard", "Util"]
+    assert [one.get("qualified_only") for one in manager["references"]] == [None, True]
     refused = [entry for entry in done.report.entries if entry.outcome == "refused"]
     assert [(entry.object, entry.text) for entry in refused] == [
         ("Screen", "visualisations are not read"),

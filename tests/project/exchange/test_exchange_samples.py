@@ -321,6 +321,20 @@ def test_twincat_parameters_of_libraries_and_empty_folders_of_functions() -> Non
     assert parameters(again.project) == parameters(done.project)
 
 
+@pytest.mark.parametrize(("written", "expected"), [("true", True), ("False", False), ("", False)])
+def test_twincat_says_that_names_of_a_library_need_the_namespace(written: str, expected: bool) -> None:
+    project_file = (
+        '<Project xmlns="http://schemas.microsoft.com/developer/msbuild/2003"><ItemGroup>'
+        '<PlaceholderReference Include="ZCore"><DefaultResolution>ZCore, * (Z)</DefaultResolution>'
+        f"<Namespace>ZCore</Namespace><QualifiedOnly>{written}</QualifiedOnly></PlaceholderReference>"
+        "</ItemGroup></Project>"
+    )
+    done = import_files({"P.plcproj": project_file.encode()})
+    (application,) = done.project.applications()
+    (reference,) = [one for one in libraries(done.project, application.id) if one.name == "ZCore"]
+    assert reference.qualified_only is expected
+
+
 def parameters(project: Project) -> list[tuple[str, str, str, str]]:
     """Values that the references of the only application give to parameters."""
     (application,) = project.applications()

@@ -13,7 +13,7 @@ from tappet.lang.analysis.expressions import place_or_name, text_of, value
 from tappet.lang.analysis.pins import pin_of_iec
 from tappet.lang.analysis.places import is_input, is_place, mark_written, note_output, writable
 from tappet.lang.analysis.result import yields_reference
-from tappet.lang.analysis.scope import describe
+from tappet.lang.analysis.scope import QualifiedSymbol, describe
 from tappet.lang.analysis.type_conversions import find_operator
 from tappet.lang.any_type import accepts, is_any
 from tappet.lang.heritage import has_unknown_base
@@ -40,7 +40,7 @@ def _resolve(b: Body, e: ast.Call) -> None:
     if callee.__class__ is ast.Name and not callee.leading_dot:
         key = callee.name.upper()
         symbol = b.locals.get(key) or b.values.get(key) or b.names.get(key)
-        if symbol is None:
+        if symbol is None or symbol.__class__ is QualifiedSymbol:
             resolve = find_operator(key)
             if resolve is not None:
                 callee.type = None

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from tappet.lang import ast
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
-from tappet.lang.analysis.scope import Fits, Levels, suggestion
+from tappet.lang.analysis.scope import Fits, Levels, QualifiedSymbol, suggestion
 from tappet.lang.attributes import attribute
 from tappet.lang.diagnostics import Diagnostic, Related, report
 from tappet.lang.source import Source, Span
@@ -147,6 +147,11 @@ class Session:
     ) -> None:
         """Adds a message."""
         self.diagnostics.append(report(code, uri, span, related, **fields))
+
+    def report_qualified(self, uri: str, span: Span, symbol: QualifiedSymbol) -> None:
+        """Adds the message about a name that stands without what belongs in front of it."""
+        code = "E0220" if symbol.library else "E0207"
+        self.report(code, uri, span, name=symbol.name, choice=symbol.choice, library=symbol.library)
 
 
 class Body:

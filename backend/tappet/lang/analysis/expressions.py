@@ -245,7 +245,7 @@ def resolve_object(b: Body, e: ast.Name | ast.Member, symbol: Symbol) -> None:
         b.report("E0203", e.span, name=e.name, choices=choices)
     elif isinstance(symbol, QualifiedSymbol):
         e.symbol = None
-        b.report("E0207", e.span, name=e.name, choice=symbol.choice)
+        b.session.report_qualified(b.uri, e.span, symbol)
 
 
 def _unknown_name(b: Body, e: ast.Name, key: str) -> None:

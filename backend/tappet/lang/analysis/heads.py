@@ -10,7 +10,7 @@ from tappet.lang.analysis.collected import Collected
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.same_names import check_inherited, check_result
-from tappet.lang.analysis.scope import Fits, describe, suggestion
+from tappet.lang.analysis.scope import Fits, QualifiedSymbol, describe, is_type, suggestion
 from tappet.lang.attributes import attribute
 from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import (
@@ -58,6 +58,9 @@ def _find(session: Session, source: Source, name: str, span: Span) -> Symbol | N
             symbol = symbol.members.get(part.upper())
         else:
             return None
+    if isinstance(symbol, QualifiedSymbol) and symbol.target is not None and is_type(symbol.target):
+        session.report_qualified(source.uri, span, symbol)
+        symbol = symbol.target
     if symbol is not None and not may_use(symbol, None, source):
         home, what = home_of(symbol), describe(symbol).capitalize()
         session.report(

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from tappet.lang.nearest import nearest
-from tappet.lang.source import Scope, Source
+from tappet.lang.source import Scope, Source, Use
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -28,9 +28,14 @@ class AmbiguousSymbol(Symbol):
 
 @dataclass(eq=False, slots=True)
 class QualifiedSymbol(Symbol):
-    """A name that exists but, by attribute 'qualified_only', only behind its list or type."""
+    """A name that exists but only behind another one."""
 
     choice: str = ""
+    """The whole name."""
+    target: Symbol | None = None
+    """What the whole name denotes."""
+    library: str = ""
+    """The library whose names need the namespace; '' where the attribute 'qualified_only' is the cause."""
 
 
 @dataclass(slots=True)
@@ -41,8 +46,10 @@ class Level:
     """'' for application and POUs view, the namespace of a library."""
     library: str = ""
     """Name of the library; its own texts and others may qualify by it, too, when the namespace is another."""
-    uses: tuple[tuple[str, str], ...] = ()
-    """Libraries that this one needs: the name it gives to one, and the label of its level."""
+    qualified_only: bool = False
+    """A library whose names the application uses behind the namespace only."""
+    uses: tuple[Use, ...] = ()
+    """Libraries that this one needs."""
     private: bool = False
     """Seen by the libraries that use it only."""
     objects: dict[str, Symbol] = field(default_factory=dict)
@@ -68,6 +75,24 @@ class Level:
         found.update(self.objects)
         return found
 
+    def seen_names(self, qualified_only: bool) -> dict[str, Symbol]:
+        """The names of a library for texts outside of it; `qualified_only`: each as one to be qualified."""
+        names = self.names()
+        if not qualified_only:
+            return names
+        return {key: self._behind(symbol) for key, symbol in names.items() if symbol.access != "INTERNAL"}
+
+    def _behind(self, symbol: Symbol) -> QualifiedSymbol:
+        target: Symbol | None = symbol
+        inner = symbol.name
+        if isinstance(symbol, QualifiedSymbol):
+            inner, target = symbol.choice, symbol.target
+        elif isinstance(symbol, AmbiguousSymbol):
+            inner, target = symbol.choices[0], None
+        return QualifiedSymbol(
+            symbol.name, choice=f"{self.label}.{inner}", target=target, library=self.library
+        )
+
     @staticmethod
     def _add(
         found: dict[str, Symbol],
@@ -80,7 +105,7 @@ class Level:
         old = found.get(key)
         if qualified:
             if old is None:
-                found[key] = QualifiedSymbol(symbol.name, choice=f"{where}.{symbol.name}")
+                found[key] = QualifiedSymbol(symbol.name, choice=f"{where}.{symbol.name}", target=symbol)
         elif old is None or isinstance(old, QualifiedSymbol):
             found[key] = symbol
             origin[key] = where
@@ -123,7 +148,7 @@ class Levels:
         label = source.namespace or source.library or "Library"
         found = self.libraries.get(label.upper())
         if found is None:
-            found = Level(label, source.library or label, source.uses, source.private)
+            found = Level(label, source.library or label, source.qualified_only, source.uses, source.private)
             self.libraries[label.upper()] = found
         return found
 
@@ -196,10 +221,10 @@ class Levels:
     def _used_names(self, level: Level) -> dict[str, Symbol]:
         """What a library sees of those it needs: these versions, also where the application has others."""
         table: dict[str, Symbol] = {}
-        for name, label in level.uses:
+        for name, label, qualified_only in level.uses:
             used = self.libraries.get(label.upper())
             if used is not None:
-                table.update(_without_qualified(used.names(), table))
+                table.update(_without_qualified(used.seen_names(qualified_only), table))
                 namespace = self._namespace(used)
                 table[name.upper()] = namespace
                 table.setdefault(used.library.upper(), namespace)
@@ -212,7 +237,7 @@ class Levels:
         if found is None:
             found = NamespaceSymbol(level.label, members=dict(level.names()))
             self._namespaces[level.label.upper()] = found
-            for name, label in level.uses:
+            for name, label, _ in level.uses:
                 used = self.libraries.get(label.upper())
                 if used is not None:
                     found.members.setdefault(name.upper(), self._namespace(used))
@@ -228,7 +253,7 @@ class Levels:
             for level in public:
                 table.setdefault(level.library.upper(), self._namespace(level))
             for level in public:
-                for key, symbol in level.names().items():
+                for key, symbol in level.seen_names(level.qualified_only).items():
                     old = table.get(key)
                     if old is None or (symbol.access != "INTERNAL" and _gives_way(old)):
                         table[key] = symbol

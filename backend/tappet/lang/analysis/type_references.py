@@ -12,7 +12,7 @@ from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import check_use, value
 from tappet.lang.analysis.generic_values import check_values
 from tappet.lang.analysis.initial import initialise
-from tappet.lang.analysis.scope import AmbiguousSymbol, describe
+from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol, describe, is_type
 from tappet.lang.any_type import ANY_TYPES
 from tappet.lang.attributes import attribute
 from tappet.lang.heritage import has_unknown_base
@@ -106,6 +106,9 @@ class TypeReferences:
         symbol = self._named_symbol(body, name)
         if symbol is None and key in ANY_TYPES:
             return _any_group(body, ref, key)
+        if isinstance(symbol, QualifiedSymbol) and symbol.target is not None and is_type(symbol.target):
+            body.session.report_qualified(body.uri, ref.span, symbol)
+            symbol = symbol.target
         if symbol is not None and symbol.access:
             check_use(body, ref, symbol)
         if isinstance(symbol, TypeSymbol):

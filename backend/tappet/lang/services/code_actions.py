@@ -26,6 +26,7 @@ _MENDS: Final[dict[str, Callable[[Site], Iterator[CodeAction]]]] = {
     "E0216": fix_names.unknown_type,
     "E0217": fix_names.unknown_type,
     "E0218": fix_names.unknown_member,
+    "E0220": fix_names.qualified,
     "E0301": fix_syntax.conversion,
     "E0307": fix_syntax.condition,
     "E0418": fix_members.implement,

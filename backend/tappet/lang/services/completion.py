@@ -315,11 +315,13 @@ def _operators(word: str) -> Iterator[Completion]:
 
 
 def _enum(view: View, type_: t.Enum, rank: int) -> Iterator[Completion]:
+    named = view.snapshot.analysis.scope.get((type_.name or "").upper())
+    path = named.choice if isinstance(named, QualifiedSymbol) else type_.name
     for order, value in enumerate(enum_values(type_).values()):
         assert isinstance(value, EnumValueSymbol)
         plain = view.snapshot.analysis.scope.get(value.name.upper())
         bare = isinstance(plain, EnumValueSymbol) and plain.type is type_
-        label = value.name if bare else f"{type_.name}.{value.name}"
+        label = value.name if bare else f"{path}.{value.name}"
         detail = f"{type_.name} = {value.number}"
         yield Completion(label, ItemKind.ENUM_VALUE, detail, value.comment, rank=rank, order=order)
 

@@ -6,6 +6,7 @@ import re
 
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.analysis.scope import QualifiedSymbol
 from tappet.lang.services import describe
 from tappet.lang.services.fix_site import Site
 from tappet.lang.services.resolution import callable_pou, resolve
@@ -27,7 +28,8 @@ def type_for(site: Site, name: str) -> str:
     """The type as it is written in a declaration; '' for what is called like a function."""
     found = _by_place(site)
     if found:
-        return found
+        named = site.snapshot.analysis.scope.get(found.upper())
+        return named.choice if isinstance(named, QualifiedSymbol) else found
     parent = site.path[-2] if len(site.path) > 1 else None
     if isinstance(parent, ast.Call) and parent.callee is site.path[-1]:
         return ""
@@ -99,9 +101,10 @@ def _block_with(site: Site, call: ast.Call) -> str:
         return ""
     fitting: list[tuple[bool, int, str]] = []
     for symbol in site.snapshot.analysis.scope.values():
-        if isinstance(symbol, PouSymbol) and symbol.kind == "FUNCTION_BLOCK":
-            pins = {pin.name.upper() for pin in describe.pins(symbol)}
+        block = symbol.target if isinstance(symbol, QualifiedSymbol) else symbol
+        if isinstance(block, PouSymbol) and block.kind == "FUNCTION_BLOCK":
+            pins = {pin.name.upper() for pin in describe.pins(block)}
             if names <= pins:
-                library = symbol.source is not None and symbol.source.library is not None
-                fitting.append((library, len(pins), symbol.name))
+                library = block.source is not None and block.source.library is not None
+                fitting.append((library, len(pins), block.name))
     return min(fitting)[2] if fitting else ""

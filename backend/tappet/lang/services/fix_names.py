@@ -42,7 +42,7 @@ def unknown_name(site: Site) -> Iterator[CodeAction]:
 
 
 def qualified(site: Site) -> Iterator[CodeAction]:
-    """A name that must be qualified (E0207)."""
+    """A name that must be qualified (E0207, E0220)."""
     yield site.replacement(site.span, site.facts["choice"])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tappet.iec import literals
 from tappet.lang import types as t
+from tappet.lang.analysis.scope import QualifiedSymbol
 from tappet.lang.lexer import ID, INT, NUMBER, STRING
 from tappet.lang.services import describe
 from tappet.lang.services.cursor import token_at
@@ -33,8 +34,9 @@ def hover(snapshot: Snapshot, document: str, position: Position) -> Hover | None
 def _declared_symbol(snapshot: Snapshot, found: Occurrence) -> Symbol | None:
     """The symbol of a type or enumeration value whose declaration was found without one."""
     for symbol in snapshot.analysis.scope.values():
-        if key_of(symbol) == found.key:
-            return symbol
+        meant = symbol.target if isinstance(symbol, QualifiedSymbol) else symbol
+        if meant is not None and key_of(meant) == found.key:
+            return meant
     return None
 
 

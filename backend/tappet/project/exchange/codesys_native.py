@@ -19,7 +19,7 @@ from tappet.project.exchange.drafts import (
     hex_id,
     task_configuration,
 )
-from tappet.project.exchange.libraries import reference
+from tappet.project.exchange.libraries import reference, take_access
 from tappet.project.exchange.plcopen_tasks import KINDS
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.standard_tasks import cycle, priority
@@ -272,7 +272,8 @@ class NativeReader:
             version = rest.partition("(")[0].strip() or "*"
             if name.strip() and not any(one["name"] == name.strip() for one in found):
                 namespace = _value(item, "Namespace")
-                found.append(reference(self.source, name.strip(), version, namespace, self.report, item.line))
+                made = reference(self.source, name.strip(), version, namespace, self.report, item.line)
+                found.append(take_access(made, _value(item, "QualifiedOnly")))
 
 
 def _stands_directly(kind: str) -> bool:

@@ -26,6 +26,11 @@ def reference(
     return {"name": name, "version": "*", "namespace": "" if namespace == name else namespace}
 
 
+def take_access(made: dict[str, Any], qualified_only: str) -> dict[str, Any]:
+    """The data of a reference with what a file says of qualified access: `true` or `false` in any letters."""
+    return made | {"qualified_only": True} if qualified_only.strip().casefold() == "true" else made
+
+
 def take_parameters(
     source: str, made: dict[str, Any], library: Element, report: ImportReport
 ) -> dict[str, Any]:

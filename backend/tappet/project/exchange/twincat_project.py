@@ -15,7 +15,7 @@ from tappet.project.exchange.drafts import (
     plc_logic,
     task_configuration,
 )
-from tappet.project.exchange.libraries import reference, take_parameters
+from tappet.project.exchange.libraries import reference, take_access, take_parameters
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.twincat import ENDINGS, NOT_READ, read_object
 from tappet.project.exchange.twincat_system import SystemTask, adjust_task
@@ -124,6 +124,8 @@ def _library(source: str, item: Element, include: str, application: Draft, repor
         item.line,
     )
     made = take_parameters(source, made, item, report)
+    access = item.child("QualifiedOnly")
+    made = take_access(made, access.text() if access is not None else "")
     library_manager(application).data.setdefault("references", []).append(made)
 
 

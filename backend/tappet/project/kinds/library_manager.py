@@ -38,6 +38,12 @@ class LibraryReferenceData(Data):
     namespace: Line = Field(
         default="", description="Prefix of the library's names; empty means its own namespace."
     )
+    qualified_only: bool = Field(
+        default=False,
+        description="Names of the library are used behind the namespace only, also where the library itself "
+        "allows them without.",
+        exclude_if=lambda qualified_only: not qualified_only,
+    )
     parameters: tuple[LibraryParameterData, ...] = Field(
         default=(),
         description="Parameters of the library that have another value here.",
@@ -77,6 +83,7 @@ def _reference(data: LibraryReferenceData, place: str) -> LibraryReference:
         namespace=data.namespace or None,
         placeholder=data.placeholder,
         parameters=tuple(ParameterValue(one.list, one.name, one.value) for one in data.parameters),
+        qualified_only=data.qualified_only,
         place=place,
     )
 

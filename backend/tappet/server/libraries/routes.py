@@ -57,6 +57,7 @@ def _summary(library: Library) -> LibrarySummary:
         name=library.name,
         version=library.version,
         namespace=library.namespace,
+        qualified_only=library.qualified_only,
         company=library.company,
         description=library.description,
         removable=library.removable,
@@ -160,6 +161,7 @@ async def save_as_library(
             company=body.company,
             description=body.description or project.description,
             requires=requirements(library_requirements(project)),
+            qualified_only=body.qualified_only,
         )
         report = await commissioning.builder.check(Application.library(project_id, project))
         if not report.ok:

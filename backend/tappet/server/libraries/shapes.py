@@ -21,6 +21,7 @@ class RequiredLibrary(Reply):
     name: str
     version: str = Field(description="A version, or * for the one that the application refers to.")
     namespace: str = Field(description="Prefix of its names there; empty: its own.")
+    qualified_only: bool = Field(description="Its names are used behind that prefix only.")
     parameters: list[ParameterValue] = Field(description="Values that it asks for.")
 
 
@@ -30,6 +31,7 @@ class LibrarySummary(Reply):
     name: str
     version: str
     namespace: str
+    qualified_only: bool = Field(description="Its names are used behind the namespace only.")
     company: str
     description: str
     removable: bool = Field(description="Installed besides those of the product.")
@@ -99,5 +101,6 @@ class NewLibrary(Request):
     name: str = Field(default="", max_length=80, description="That of the project when empty.")
     version: str = Field(description="Such as 1.2.0.0.", max_length=40)
     namespace: str = Field(default="", max_length=80, description="Prefix of its names; the name when empty.")
+    qualified_only: bool = Field(default=False, description="Its names are used behind that prefix only.")
     company: str = Field(default="", max_length=200)
     description: str = Field(default="", max_length=4000)

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { ObjectSummary } from '@/api/types';
 import {
+  asReferenced,
   isQualifiedOnly,
   languageEntries,
   libraryEntries,
@@ -17,6 +18,7 @@ const library: LibraryDetail = {
   name: 'Standard',
   version: '1',
   namespace: 'Standard',
+  qualified_only: false,
   items: ['TON', 'LEN'].map((name) => ({
     name,
     kind: name === 'TON' ? 'function_block' : 'function',
@@ -62,6 +64,18 @@ describe('input assistant', () => {
     expect(entries.map(({ insert, detail, category }) => [insert, detail, category])).toEqual([
       ['GVL_Belt.cSlots', 'INT', 'variables'],
     ]);
+  });
+
+  it('puts the namespace in front where the library or its reference asks for it', () => {
+    const inserts = (detail: LibraryDetail) => libraryEntries(detail).map((entry) => entry.insert);
+    const reference = { name: 'Standard', version: '*', namespace: 'Std' };
+    expect(inserts(asReferenced(library, reference))).toEqual(['TON', 'TON', 'LEN']);
+    expect(inserts(asReferenced(library, { ...reference, qualified_only: true }))).toEqual([
+      'Std.TON',
+      'Std.TON',
+      'Std.LEN',
+    ]);
+    expect(inserts(asReferenced({ ...library, qualified_only: true }, undefined))[0]).toBe('Standard.TON');
   });
 
   it('knows the language and the libraries of the project', () => {

@@ -53,6 +53,8 @@ export interface LibraryDetail {
   name: string;
   version: string;
   namespace: string;
+  /** Its names are used behind the namespace only. */
+  qualified_only: boolean;
   items: LibraryItem[];
 }
 
@@ -104,11 +106,21 @@ export function objectEntries(objects: readonly ObjectSummary[], group: string):
   });
 }
 
+/** A library as a reference shows it: under the namespace and with the access of the reference. */
+export function asReferenced(library: LibraryDetail, reference: LibraryReference | undefined): LibraryDetail {
+  return {
+    ...library,
+    namespace: reference?.namespace || library.namespace,
+    qualified_only: library.qualified_only || (reference?.qualified_only ?? false),
+  };
+}
+
 export function libraryEntries(library: LibraryDetail): Entry[] {
+  const prefix = library.qualified_only ? `${library.namespace}.` : '';
   return library.items.flatMap((item) => {
     const entry = (category: Category): Entry => ({
       name: item.name,
-      insert: item.name,
+      insert: prefix + item.name,
       detail: kindName(item.kind),
       comment: item.summary,
       group: library.name,
@@ -118,7 +130,7 @@ export function libraryEntries(library: LibraryDetail): Entry[] {
       return item.members.map((pin) => ({
         ...entry('variables'),
         name: pin.name,
-        insert: `${item.name}.${pin.name}`,
+        insert: `${prefix}${item.name}.${pin.name}`,
         detail: pin.type,
         comment: pin.comment,
       }));

@@ -7,6 +7,7 @@ import type { LibraryManagerData, ObjectSummary, ProjectObject, TextData } from 
 import { useText } from '@/i18n';
 import { applicationOf } from '@/project/tree';
 import {
+  asReferenced,
   isQualifiedOnly,
   languageEntries,
   libraryEntries,
@@ -37,8 +38,9 @@ export function useLibraries(projectId: string, object: ObjectSummary | undefine
     ...objectQuery<LibraryManagerData>(projectId, manager?.id ?? ''),
     enabled: manager !== undefined,
   });
+  const references = manager === undefined ? null : (chosen.data?.data.references ?? []);
   const names = referenced(
-    manager === undefined ? null : (chosen.data?.data.references ?? []),
+    references,
     (installed.data ?? []).map((library) => library.name),
   );
   return useQueries({
@@ -47,7 +49,15 @@ export function useLibraries(projectId: string, object: ObjectSummary | undefine
       queryFn: () => api.get<LibraryDetail>(`/libraries/${encodeURIComponent(name)}`),
       staleTime: Infinity,
     })),
-    combine: (answers) => answers.flatMap((answer) => answer.data ?? []),
+    combine: (answers) =>
+      answers.flatMap(({ data }) =>
+        data
+          ? asReferenced(
+              data,
+              references?.find((reference) => reference.name === data.name),
+            )
+          : [],
+      ),
   });
 }
 

@@ -53,7 +53,8 @@ export function useMemberSource(projectId: string, type: string): MemberSource {
       for (const item of library.items) {
         const pins = [...item.inputs, ...item.outputs, ...item.members];
         const members = pins.map((pin) => ({ name: pin.name, type: pin.type, initial: pin.default || null }));
-        known.set(item.name.toUpperCase(), members.length > 0 ? members : null);
+        const name = library.qualified_only ? `${library.namespace}.${item.name}` : item.name;
+        known.set(name.toUpperCase(), members.length > 0 ? members : null);
       }
     }
     for (const text of texts) known.set(text.name.toUpperCase(), membersOf(text.data.declaration));

@@ -1,7 +1,7 @@
 import type { LibraryReference, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
-import { namespaceFault, namespaceOf, newestOf, versionsOf } from './model';
+import { libraryOf, namespaceFault, namespaceOf, newestOf, versionsOf } from './model';
 
 interface ReferenceFieldsProps {
   reference: LibraryReference;
@@ -12,11 +12,12 @@ interface ReferenceFieldsProps {
   change: (reference: LibraryReference) => void;
 }
 
-/** Version, namespace, and the placeholder that the reference is, if it is one. */
+/** Version, namespace, how names are used, and the placeholder that the reference is, if it is one. */
 export function ReferenceFields({ reference, at, references, installed, change }: ReferenceFieldsProps) {
   const t = useText();
   const fault = namespaceFault(reference, at, references, installed);
   const isPlaceholder = reference.placeholder != null;
+  const demanded = libraryOf(reference, installed)?.qualified_only ?? false;
   return (
     <>
       <Checkbox
@@ -74,6 +75,13 @@ export function ReferenceFields({ reference, at, references, installed, change }
           />
         )}
       </Field>
+      <Checkbox
+        checked={demanded || (reference.qualified_only ?? false)}
+        disabled={demanded}
+        onChecked={(qualified_only) => change({ ...reference, qualified_only })}
+      >
+        {t(demanded ? 'library.qualifiedOnlyDemanded' : 'library.qualifiedOnly')}
+      </Checkbox>
     </>
   );
 }

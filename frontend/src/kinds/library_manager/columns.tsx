@@ -7,7 +7,7 @@ import { Select } from '@/ui/Field';
 import type { Column } from '@/ui/table';
 import { Twist } from '@/ui/Twist';
 import styles from './LibraryManager.module.css';
-import { namespaceFault, namespaceOf, type ReferenceRow } from './model';
+import { isQualifiedOnly, namespaceFault, namespaceOf, type ReferenceRow } from './model';
 import { versionChoices } from './ReferenceFields';
 
 const Icon = objectIcon('library_manager');
@@ -73,6 +73,13 @@ export function referenceColumns(options: ColumnOptions): Column<ReferenceRow>[]
         ) : (
           <span className="code">{row.library?.namespace ?? ''}</span>
         ),
+    },
+    {
+      id: 'qualifiedOnly',
+      title: t('library.access'),
+      width: 110,
+      cell: (row) => (isQualifiedOnly(row) ? <span>{t('library.accessQualified')}</span> : null),
+      hint: (row) => (isQualifiedOnly(row) ? t('library.qualifiedOnlyHint') : t('library.accessFree')),
     },
     {
       id: 'version',

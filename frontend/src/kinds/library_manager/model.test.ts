@@ -1,6 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import type { LibraryReference, LibrarySummary } from '@/api/types';
-import { freshReference, libraryOf, namespaceFault, namespaceOf, newestOf, rowsOf, versionsOf } from './model';
+import {
+  freshReference,
+  isQualifiedOnly,
+  libraryOf,
+  namespaceFault,
+  namespaceOf,
+  newestOf,
+  rowsOf,
+  versionsOf,
+} from './model';
 
 const installed = [
   ['Standard', '3.5.9.0'],
@@ -83,5 +92,16 @@ describe('library references', () => {
       'Standard 3.5.10.0',
       'Util 1.0',
     ]);
+  });
+
+  it('show which names need the namespace, by the library or by the reference', () => {
+    const library = { ...installed[2]!, qualified_only: true };
+    const [plain, asked] = rowsOf(
+      [reference('Util'), { ...reference('Util', '*', 'U2'), qualified_only: true }],
+      installed,
+      new Set(),
+    );
+    expect([isQualifiedOnly(plain!), isQualifiedOnly(asked!)]).toEqual([false, true]);
+    expect(isQualifiedOnly(rowsOf([reference('Util')], [library], new Set())[0]!)).toBe(true);
   });
 });

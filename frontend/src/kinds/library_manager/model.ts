@@ -61,6 +61,11 @@ export interface ReferenceRow {
   expandable: boolean;
 }
 
+/** Whether names of the library are used behind the namespace only. */
+export function isQualifiedOnly({ library, reference }: ReferenceRow): boolean {
+  return (library?.qualified_only ?? false) || (reference?.qualified_only ?? false);
+}
+
 const DEEPEST = 20;
 
 /** Rows for the references and, below those that are open, for what they need. */

@@ -8,7 +8,7 @@ import { buildFinished } from '../messages/store';
 import { notify, notifyError } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
-import { Field, TextInput } from '@/ui/Field';
+import { Checkbox, Field, TextInput } from '@/ui/Field';
 import { idOf, libraryFaults, nextVersion } from './model';
 
 interface SaveLibraryDialogProps {
@@ -26,6 +26,7 @@ export function SaveLibraryDialog({ projectId, projectName, description, install
     name: projectName,
     version: nextVersion(projectName, installed),
     namespace: '',
+    qualified_only: false,
     company: installed.find((library) => library.name === projectName)?.company ?? '',
     description,
   }));
@@ -96,6 +97,9 @@ export function SaveLibraryDialog({ projectId, projectName, description, install
           />
         )}
       </Field>
+      <Checkbox checked={facts.qualified_only} onChecked={(qualified_only) => set({ qualified_only })}>
+        {t('libraries.qualifiedOnly')}
+      </Checkbox>
       <Field label={t('libraries.description')}>
         {(attributes) => (
           <TextInput {...attributes} value={facts.description} onValue={(text) => set({ description: text })} />

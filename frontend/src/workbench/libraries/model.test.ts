@@ -22,6 +22,7 @@ const library = (items: LibraryItem[]): Library => ({
   namespace: 'L',
   company: '',
   description: '',
+  qualified_only: false,
   removable: false,
   requires: [],
   replaces: [],
