@@ -19,7 +19,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tappet.iec.tokens import NAME, code_of
+from tappet.iec.identifiers import identifiers
+from tappet.iec.languages import languages
+from tappet.iec.tokens import code_of
 from tappet.lang.source import Source
 from tappet.user_cache import cache_folder, compiler_stamp, store
 
@@ -27,10 +29,6 @@ FORMAT = 1
 KEPT = 8
 """Indexes in memory."""
 _ALWAYS = re.compile(r"\b(?:VAR_GLOBAL|VAR_STAT|PROGRAM|tappet_export)\b|\bCheck", re.IGNORECASE)
-_IMPLICIT = "SFC"
-"""Begins the names that a chart looks for although they do not stand in its text."""
-_CONDITIONAL = "CN"
-"""Ends the name of a function that IL calls on a condition."""
 _CONVERSION = "Conversion"
 """Library whose functions stand behind the conversion operators, which do not name them."""
 _CONVERTS = re.compile(r"(?:^|_)TO_")
@@ -118,13 +116,6 @@ def index_of(libraries: Sequence[Source]) -> Index:
     return found
 
 
-def identifiers(text: str) -> set[str]:
-    """The upper-case identifiers of a text, those in comments and strings included."""
-    found = set(NAME.findall(text.upper()))
-    found.update([name.removesuffix(_CONDITIONAL) for name in found if name.endswith(_CONDITIONAL)])
-    return found
-
-
 def _key(libraries: Sequence[Source]) -> str:
     digest = hashlib.blake2b(f"{FORMAT}|{compiler_stamp()}|".encode(), digest_size=20)
     for source in libraries:
@@ -152,12 +143,13 @@ def _made(libraries: Sequence[Source]) -> Index:
     silent = shared is not None and not any(result.diagnostics for result in results)
     if not silent or analyse([], libraries=shared).diagnostics:
         return Index(True, [True] * len(results), [""] * len(results), [""] * len(results))
+    implicit = tuple(one.implicit_names for one in languages().values() if one.implicit_names)
     always, names, words = [], [], []
     for result in results:
         source = result.unit.source
         read = code_of(source.text)
         made = identifiers_of(result.unit).global_names | ({source.owner.upper()} if source.owner else set())
-        hidden = any(name.startswith(_IMPLICIT) for name in made)
+        hidden = any(name.startswith(implicit) for name in made)
         always.append(hidden or _ALWAYS.search(source.text) is not None)
         names.append(" ".join(sorted(made)))
         words.append(" ".join(sorted(identifiers(read))))

@@ -39,6 +39,11 @@ class Language:
     """Ending of the file that holds a drawn body; empty: bodies are never drawn."""
     offered: bool = False
     """New objects can be written in it."""
+    implicit_names: str = ""
+    """How upper-case names begin that bodies refer to although they do not stand in their text; empty: none.
+    """
+    call_modifier: str = ""
+    """Upper-case ending that makes the name of a function a conditional call of it; empty: there is none."""
 
     def __post_init__(self) -> None:
         if self.extension and (not _EXTENSION.fullmatch(self.extension) or self.extension in ("st", "json")):

@@ -8,4 +8,5 @@ LANGUAGE = Language(
     "tappet.lang.languages.sfc.reader:READER",
     rank=60,
     begins=r"\s*(?:INITIAL_)?STEP\s+\w+\s*:",
+    implicit_names="SFC",
 )

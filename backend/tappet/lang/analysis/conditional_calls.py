@@ -6,6 +6,7 @@ Check(a, b) there. A function whose own name ends with CN is called as it is.
 
 from __future__ import annotations
 
+from tappet.iec.languages.il import LANGUAGE
 from tappet.lang import ast
 from tappet.lang.analysis import calls
 from tappet.lang.analysis.context import Body
@@ -14,7 +15,7 @@ from tappet.lang.analysis.result import carried_type
 from tappet.lang.analysis.type_conversions import find_operator
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol
 
-_MODIFIER = "CN"
+_MODIFIER = LANGUAGE.call_modifier
 
 
 def _call(b: Body, e: ast.Call) -> None:

@@ -51,9 +51,6 @@ class BodyReader(ABC):
 
     name: ClassVar[str]
     """As in `iec.languages`."""
-    implicit_names: ClassVar[str] = ""
-    """How names begin that bodies look for although they do not stand in their text; empty: there are none.
-    """
 
     def library(self) -> Source | None:
         """The text with the types that lowered bodies use; it joins programs that have such a body."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from tappet.iec.languages import language_of
 from tappet.lang import ast
 from tappet.lang.languages import reader_of
 from tappet.lang.parser import parse
@@ -29,10 +30,10 @@ def _library(language: str, units: Iterable[ast.Unit], earlier: Iterable[ast.Uni
 
 def looks_names_up(unit: ast.Unit) -> bool:
     """Whether bodies of a text depend on names that do not stand in it."""
-    return any(reader_of(language).implicit_names for language in unit.graphs)
+    return any(language_of(language).implicit_names for language in unit.graphs)
 
 
 def implicit_names(units: Iterable[ast.Unit]) -> tuple[str, ...]:
     """How upper-case names begin that graphs of a program look for although no text holds them."""
     languages = {language for unit in units if unit.graphs for language in unit.graphs}
-    return tuple(prefix for name in languages if (prefix := reader_of(name).implicit_names))
+    return tuple(prefix for name in languages if (prefix := language_of(name).implicit_names))

@@ -6,13 +6,11 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from tappet.iec.identifiers import identifiers
 from tappet.iec.tokens import NAME, code_of
 from tappet.lang import ast
 from tappet.lang.source import Source, Span, split_lines
 from tappet.lang.walk import variables
-
-_CONDITIONAL = "CN"
-"""Ends the name of a function that IL calls on a condition."""
 
 
 @dataclass(slots=True)
@@ -34,17 +32,11 @@ class Identifiers:
 def identifiers_of(unit: ast.Unit) -> Identifiers:
     """The identifiers of the text of a unit."""
     text = unit.source.text
-    every = _identifiers(text)
+    every = frozenset(identifiers(text))
     head = _head(unit)
-    declared = every if head is None else _identifiers(head)
+    declared = every if head is None else frozenset(identifiers(head))
     names = frozenset(name.upper() for name in _global_names(unit))
     return Identifiers(unit, every, declared, names, _plain_types(unit, text if head is None else head))
-
-
-def _identifiers(text: str) -> frozenset[str]:
-    found = set(NAME.findall(text.upper()))
-    found.update([name.removesuffix(_CONDITIONAL) for name in found if name.endswith(_CONDITIONAL)])
-    return frozenset(found)
 
 
 def _plain_types(unit: ast.Unit, text: str) -> frozenset[str]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Final
 
+from tappet.iec.languages.il import LANGUAGE
 from tappet.lang import ast
 from tappet.lang.diagnostics import report
 from tappet.lang.languages.il.network import Level
@@ -364,7 +365,7 @@ class _Reader(RowReader):
             return
         accumulator = None
         if net.level.value is not None and name.upper() not in WITHOUT_OPERAND:
-            if name.upper().endswith("CN"):
+            if name.upper().endswith(LANGUAGE.call_modifier):
                 net.settle(True)  # the condition, and what stays when nothing is called (IL-52)
             accumulator = self.taken()
         if p.kinds[p.i] == "(" and same_row:

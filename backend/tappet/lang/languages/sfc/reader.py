@@ -35,7 +35,6 @@ class SequentialFunctionChart(TextReader, GraphReader):
     """Steps and transitions are collected in a chart, which is lowered as a whole."""
 
     name: ClassVar[str] = "SFC"
-    implicit_names: ClassVar[str] = "SFC"
 
     def begins(self, parser: StatementParser, pou: ast.Pou) -> bool:
         """A step where no statement has been, or a transition behind a step."""
