@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from compiled_programs import build, change_over
 from linked_application import loaded
 
@@ -165,3 +166,30 @@ def test_attributes_decide_what_an_online_change_initialises():
                 values = [changed.read(f"PLC_PRG.{path}.{name}") for name in ("kept", "anew", "always")]
                 assert values == [3, anew, 1]
             changed.close()
+
+
+@pytest.mark.parametrize("more", ["", "x : LREAL;"], ids=["code", "declarations"])
+def test_an_online_change_initialises_one_bit_of_a_byte(more: str):
+    """LPRG-28 of a BIT: the bits beside it stay."""
+    program = """
+TYPE ST_Bits : STRUCT
+    before : BIT;
+    {{attribute 'init_on_onlchange'}}
+    marked : BIT := TRUE;
+    after : BIT := TRUE;
+END_STRUCT END_TYPE
+VAR_GLOBAL bits : ST_Bits; END_VAR
+PROGRAM PLC_PRG
+VAR n : INT; {more} END_VAR
+bits.before := TRUE; bits.marked := {marked}; bits.after := FALSE; n := n + 1;
+END_PROGRAM
+"""
+    old = build(program.format(more="", marked="FALSE"))
+    new = build(program.format(more=more, marked="NOT bits.before"), old)
+    with loaded(old) as application:
+        application.cycle()
+        assert application.read("bits.marked") is False
+        changed = change_over(application, new)
+        values = [changed.read(f"bits.{name}") for name in ("before", "marked", "after")]
+        assert values == [True, True, False]
+        changed.close()

@@ -114,3 +114,29 @@ END_PROGRAM
             assert (changed.read("PLC_PRG.fb.size"), changed.read("PLC_PRG.fb.factor")) == (8, 4)
         finally:
             changed.close()
+
+
+def test_bits_of_constants_whose_structure_changes() -> None:
+    """A BIT of a variable goes with its byte, that of a constant has its declared value."""
+    head = """
+TYPE ST_Bits : STRUCT first : BIT; {member} second : BIT := TRUE; END_STRUCT END_TYPE
+VAR_GLOBAL CONSTANT cBits : ST_Bits := (first := {value}, second := {value}); END_VAR
+VAR_GLOBAL vBits : ST_Bits := (first := {value}, second := {value}); END_VAR
+PROGRAM PLC_PRG
+VAR CONSTANT cOwn : ARRAY[0..1] OF ST_Bits := [(first := {value}), (second := {value})]; END_VAR
+VAR n : INT; END_VAR
+n := n + 1;
+END_PROGRAM
+"""
+    old = build(head.format(member="", value="FALSE"))
+    new = build(head.format(member="third : BIT;", value="TRUE"), old)
+    with loaded(old) as application:
+        application.cycle()
+        changed = change_over(application, new)
+        try:
+            for path in ("cBits.first", "cBits.second", "PLC_PRG.cOwn[0].first", "PLC_PRG.cOwn[1].second"):
+                assert changed.read(path) is True, path
+            assert (changed.read("vBits.first"), changed.read("vBits.second")) == (False, False)
+            assert changed.read("cBits.third") is False
+        finally:
+            changed.close()

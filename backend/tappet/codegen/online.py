@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tappet.codegen.layout import Layout
-from tappet.codegen.online_constants import ChangedConstants, without
+from tappet.codegen.online_constants import ChangedConstants, bits_without, without
 from tappet.codegen.package import CodePackage, OnlineChange
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
@@ -23,7 +23,7 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
         if symbol in placed.kept:
             root = symbols.roots.get(symbol.rpartition("tappet.data.")[2])
             if root is not None:
-                plan.fresh += _marked(symbols, symbols.types[root.type], root.offset)
+                _mark(plan, symbols, symbols.types[root.type], root.offset)
             continue
         before = old.data_objects.get(symbol)
         name = symbol.rpartition("tappet.data.")[2]
@@ -48,6 +48,7 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
             plan.reasons.append(f"{symbol.rpartition('tappet.data.')[2]} was removed")
     constants = ChangedConstants(old.symbols, old.initial_image, symbols, image).find()
     plan.moves = without(plan.moves, constants)
+    plan.bits = bits_without(plan.bits, constants)
     plan.fresh += constants
     moves, fresh, reasons = tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)
     return OnlineChange(old.code_id, old.data_id, moves, fresh, reasons, bits=tuple(plan.bits))
@@ -55,29 +56,38 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
 
 def code_change(old: CodePackage, symbols: SymbolMap) -> OnlineChange:
     """An online change of code alone: what is marked to be initialised at every change still is."""
-    ranges = [
-        r for root in symbols.roots.values() for r in _marked(symbols, symbols.types[root.type], root.offset)
-    ]
-    return OnlineChange(old.code_id, old.data_id, initialise=tuple(sorted(ranges)))
+    plan = _Plan(old.symbols, symbols)
+    for root in symbols.roots.values():
+        _mark(plan, symbols, symbols.types[root.type], root.offset)
+    initialise = tuple(sorted(plan.fresh))
+    return OnlineChange(old.code_id, old.data_id, initialise=initialise, bits=tuple(plan.bits))
 
 
-def _marked(symbols: SymbolMap, type_: TypeInfo, at: int) -> list[tuple[int, int]]:
-    """Places of the variables inside an object that every online change initialises (LPRG-28)."""
-    found: list[tuple[int, int]] = []
+def _mark(plan: _Plan, symbols: SymbolMap, type_: TypeInfo, at: int) -> None:
+    """Initialise what every online change initialises inside an object that stays (LPRG-28)."""
     for member in type_.members:
         inner = symbols.types[member.type]
-        if member.absolute or member.bit is not None or member.section == "VAR_IN_OUT":
+        if member.absolute or member.section == "VAR_IN_OUT":
             continue
         start = at + member.offset
         if INIT in member.flags:
-            found.append((start, inner.size))
+            plan.fresh.append((start, 1 if member.bit is not None else inner.size))
+            if (
+                member.bit is not None
+            ):  # bytes are initialised: the other bits of this one get back what they had
+                plan.bits += [(start, bit, start, bit) for bit in _kept_beside(type_, member)]
         elif inner.kind == "array" and inner.elem is not None:
             element = symbols.types[inner.elem]
             for offset in range(0, inner.size, element.size) if element.members else ():
-                found += _marked(symbols, element, start + offset)
+                _mark(plan, symbols, element, start + offset)
         elif inner.members:
-            found += _marked(symbols, inner, start)
-    return found
+            _mark(plan, symbols, inner, start)
+
+
+def _kept_beside(type_: TypeInfo, member: MemberInfo) -> list[int]:
+    """Bits of the byte of a BIT that belong to others, which no online change initialises."""
+    beside = (m for m in type_.members if m.offset == member.offset and INIT not in m.flags)
+    return [m.bit for m in beside if m.bit is not None]
 
 
 def _is_reinitialised(member: MemberInfo) -> bool:

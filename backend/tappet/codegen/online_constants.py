@@ -81,3 +81,10 @@ def without(moves: list[tuple[int, int, int]], ranges: list[Range]) -> list[tupl
         if at < end:
             found.append((old + at - new, at, end - at))
     return found
+
+
+def bits_without(
+    bits: list[tuple[int, int, int, int]], ranges: list[Range]
+) -> list[tuple[int, int, int, int]]:
+    """Moves of bits (old offset, bit, new offset, bit) that leave ranges of the new image alone."""
+    return [move for move in bits if not any(at <= move[2] < at + size for at, size in ranges)]
