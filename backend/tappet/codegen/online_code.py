@@ -15,7 +15,7 @@ from tappet.core.life_cycle import holding, init_methods, life_cycle_methods
 from tappet.core.lower import Lowered, complete_bodies, instances
 from tappet.core.program import Program
 from tappet.lang import types as t
-from tappet.lang.parts import Holding
+from tappet.lang.parts import Holding, stored
 
 _GONE = 0xFFFF_FFFF
 
@@ -170,12 +170,9 @@ def _reinitialise_moved(b: Body, place: ir.Place, type_: t.Type, at: int, fresh:
     if isinstance(type_, t.Array):
         for element, first in _elements(b, place, at, type_.count, type_.element.size, fresh):
             _reinitialise_moved(b, element, type_.element, first, fresh)
-    if not isinstance(type_, t.FunctionBlock | t.Struct):
-        return
-    for member in type_.members.values():
-        if member.section != "VAR_IN_OUT":
-            inner = places.at(place, member.offset)
-            _reinitialise_moved(b, inner, member.type, at + member.offset, fresh)
+    for member in stored(type_):
+        inner = places.at(place, member.offset)
+        _reinitialise_moved(b, inner, member.type, at + member.offset, fresh)
     if isinstance(type_, t.FunctionBlock) and fresh.moved_into(at, type_.size):
         for method in life_cycle_methods(type_, "FB_REINIT"):
             prepared = calls.Prepared()

@@ -23,7 +23,7 @@ from tappet.core.watched_properties import is_watchable
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import ConfiguredAddress
-from tappet.lang.parts import Part, stored, types_holding, variables_of, walk
+from tappet.lang.parts import Part, innermost, stored, types_holding, variables_of, walk
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 from tappet.lang.types import Kind
 
@@ -69,10 +69,7 @@ class TypeTable:
         self.remanent.forget(entities)
         self.with_path.forget(entities)
         for number, type_ in list(self.described.items()):
-            inner = type_
-            while isinstance(inner, t.Array):
-                inner = inner.element
-            if id(inner) in entities:
+            if id(innermost(type_)) in entities:
                 self.types[number] = self._describe(type_)
 
     def number(self, type_: t.Type) -> int:

@@ -11,6 +11,7 @@ from tappet.core.life_cycle import holding
 from tappet.core.scalars import NULL, convert, scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.parts import innermost
 from tappet.lang.symbols import BuiltinSymbol
 
 _COUNT_BEFORE = 16
@@ -38,7 +39,7 @@ def new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     read = ir.Load(ir.PTR, ir.Place(pointer))
     memory = ir.Call(ir.PTR, "tappet_allocate", [count, ir.Const(ir.U64, max(type_.size, 1))])
     body.append(ir.Store(ir.Place(pointer), memory))
-    made_of = _element(type_)
+    made_of = innermost(type_)
     if isinstance(made_of, t.FunctionBlock | t.Struct):
         b.program.created[str(made_of).upper()] = made_of
     if scalar_of(type_) is None:
@@ -51,12 +52,6 @@ def new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
         body.append(ir.If(ir.Compare(ir.BOOL, "ne", read, NULL), fill, []))
     b.program.expose(b.function, ir.Place(ir.Data("")), type_)
     return ir.Sequence(ir.PTR, body, read)
-
-
-def _element(type_: t.Type) -> t.Type:
-    while isinstance(type_, t.Array):
-        type_ = type_.element
-    return type_
 
 
 def _initialise_elements(

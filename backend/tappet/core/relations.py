@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from tappet.core import ir
 from tappet.core.program import Program
 from tappet.lang import types as t
-from tappet.lang.parts import composed
+from tappet.lang.parts import composed, innermost
 from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
 
 Nested = dict[tuple[str, int], frozenset[str]]
@@ -81,10 +81,9 @@ def _nested_blocks(
 
 def _blocks_in(program: Program, type_: t.Type | None, nested: dict[int, set[str]]) -> set[str]:
     """Names of the block types that have instances inside a type."""
-    while isinstance(type_, t.Array):
-        type_ = type_.element
     if type_ is None:
         return set()
+    type_ = innermost(type_)
     found = nested.get(id(type_))
     if found is None:
         found = nested[id(type_)] = set()

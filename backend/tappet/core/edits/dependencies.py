@@ -29,6 +29,7 @@ from tappet.lang import ast, walk
 from tappet.lang import types as t
 from tappet.lang.analysis.monitored import monitoring_name
 from tappet.lang.ast.fields import tree_fields
+from tappet.lang.parts import innermost
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, TypeSymbol, VarSymbol
 
@@ -230,9 +231,8 @@ _CONTENTS: dict[str, Any] = {
 
 def _inner(type_: t.Type | None) -> t.Struct | t.FunctionBlock | None:
     """The structure or block that a variable of a type consists of."""
-    while isinstance(type_, t.Array):
-        type_ = type_.element
-    return type_ if isinstance(type_, t.Struct | t.FunctionBlock) else None
+    inner = None if type_ is None else innermost(type_)
+    return inner if isinstance(inner, t.Struct | t.FunctionBlock) else None
 
 
 class DependencyCollector:

@@ -17,9 +17,9 @@ from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.heads import plain_body
 from tappet.lang.analysis.result import AGREED, ConfiguredAddress
 from tappet.lang.diagnostics import Related
+from tappet.lang.parts import Part, stored, types_holding, variables_of, walk
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
-from tappet.lang.types import Type
 
 _CHANNEL_BYTES = 8
 """Room for what an address of several levels names: the widest channel."""
@@ -216,75 +216,32 @@ def _fixed_ends(session: Session, found: Collected) -> dict[str, int]:
 
 def _instances(session: Session, found: Collected) -> dict[str, _Incomplete]:
     """Every instance of a variable with an incomplete address, by upper-case path."""
-    walk = _Walk()
-    for program in session.analysis.programs.values():
-        if program.source is not None and program.source.scope is Scope.LIBRARY:
-            continue
-        for variable in program.locals.values():
-            if variable.section not in ("VAR_GLOBAL", "VAR_STAT"):
-                walk.variable(variable, program.qualified_name, variable.offset, program.name)
-    for gvl, _ in found.gvls:
-        for variable in gvl.members.values():
-            walk.variable(variable, gvl.name, variable.offset, gvl.name)
-    return walk.paths
+    holding = types_holding(lambda type_: any(_incomplete(m.decl) is not None for m in stored(type_)))
+    paths: dict[str, _Incomplete] = {}
 
-
-class _Walk:
-    """Descends into the instances and structures that hold incomplete addresses; most hold none."""
-
-    def __init__(self) -> None:
-        self.paths: dict[str, _Incomplete] = {}
-        self.concerned: dict[int, bool] = {}
-
-    def variable(self, variable: VarSymbol, owner: str, offset: int, prefix: str) -> None:
-        path = f"{prefix}.{variable.name}"
-        if _is_incomplete(variable):
-            self.paths[path.upper().replace(" ", "")] = _Incomplete(variable, owner, offset, path)
-        elif _holds(variable) and variable.type is not None:
-            self.inside(variable.type, owner, offset, path)
-
-    def inside(self, type_: Type, owner: str, offset: int, path: str) -> None:
-        if not self.concerns(type_):
-            return
-        if isinstance(type_, t.Array):
-            size = type_.element.size
-            for number, index in enumerate(type_.indices()):
-                text = ", ".join(map(str, index))
-                self.inside(type_.element, owner, offset + number * size, f"{path}[{text}]")
-            return
-        for variable in _parts(type_):
-            self.variable(variable, owner, offset + variable.offset, path)
-
-    def concerns(self, type_: Type) -> bool:
-        """Whether an incomplete address lies somewhere in a variable of the type."""
-        while isinstance(type_, t.Array):
-            type_ = type_.element
-        if not isinstance(type_, t.Struct | t.FunctionBlock):
+    def collect(owner: PouSymbol | GvlSymbol, name: str) -> None:
+        def visit(part: Part) -> bool:
+            variable = _incomplete(part.decl)
+            if variable is None:
+                return holding.holds(part.type)
+            entry = _Incomplete(variable, name, part.offset, part.path)
+            paths[part.path.upper().replace(" ", "")] = entry
             return False
-        known = self.concerned.get(id(type_))
-        if known is None:
-            self.concerned[id(type_)] = False
-            known = self.concerned[id(type_)] = any(
-                _is_incomplete(v) or (_holds(v) and v.type is not None and self.concerns(v.type))
-                for v in _parts(type_)
-            )
-        return known
+
+        for part in variables_of(owner, owner.name, 0):
+            walk(part, visit)
+
+    for program in session.analysis.programs.values():
+        if program.source is None or program.source.scope is not Scope.LIBRARY:
+            collect(program, program.qualified_name)
+    for gvl, _ in found.gvls:
+        collect(gvl, gvl.name)
+    return paths
 
 
-def _parts(type_: Type) -> list[VarSymbol]:
-    """The stored variables of a block or structure, inherited ones included."""
-    if isinstance(type_, t.Struct):
-        members = [m.decl.symbol for m in type_.members.values() if m.decl is not None]
-        return [m for m in members if isinstance(m, VarSymbol)]
-    block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou is not None else None
-    if not isinstance(block, PouSymbol):
-        return []
-    return [v for v in block.locals.values() if v.home is Storage.INSTANCE and v.owner is not None]
-
-
-def _is_incomplete(variable: VarSymbol) -> bool:
-    return variable.area is not None and variable.home is not Storage.DIRECT
-
-
-def _holds(variable: VarSymbol) -> bool:
-    return variable.section not in ("VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL")
+def _incomplete(decl: ast.VarDecl | None) -> VarSymbol | None:
+    """The variable that a declaration leaves without a place in its area."""
+    variable = decl.symbol if decl is not None else None
+    if not isinstance(variable, VarSymbol) or variable.area is None or variable.home is Storage.DIRECT:
+        return None
+    return variable

@@ -18,6 +18,7 @@ from tappet.lang.analysis.generic_values import check_base
 from tappet.lang.analysis.given_values import initialise_parameter
 from tappet.lang.analysis.initial import initialise
 from tappet.lang.analysis.type_references import DEPTH_LIMIT, TypeReferences
+from tappet.lang.parts import innermost
 from tappet.lang.source import Span
 from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, Symbol, TypeSymbol, VarSymbol
 from tappet.lang.types import Elementary, Type
@@ -162,8 +163,7 @@ class Declarations(TypeReferences):
 
     def complete(self, type_: Type) -> bool:
         """Makes sure that size and members of a type are known; False when it contains itself or too much."""
-        while isinstance(type_, t.Array):
-            type_ = type_.element
+        type_ = innermost(type_)
         if isinstance(type_, t.Struct):
             if id(type_) in self.incomplete:
                 return False
@@ -193,9 +193,7 @@ class Declarations(TypeReferences):
     def _member_complete(self, body: Body, span: Span, owner: str, type_: Type) -> bool:
         if self.complete(type_):
             return True
-        inner = type_
-        while isinstance(inner, t.Array):
-            inner = inner.element
+        inner = innermost(type_)
         if id(inner) not in self.incomplete:
             body.report("E0107", span, what="type", limit=DEPTH_LIMIT)
             return False

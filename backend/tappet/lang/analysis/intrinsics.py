@@ -13,6 +13,7 @@ from tappet.lang.analysis.fb_init import bind_fb_init
 from tappet.lang.analysis.places import is_place, mark_written, writable
 from tappet.lang.analysis.result import yields_reference
 from tappet.lang.attributes import attribute
+from tappet.lang.parts import innermost
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Storage, TypeSymbol, VarSymbol
 from tappet.lang.types import Elementary, Type
@@ -221,9 +222,7 @@ def _new(b: Body, e: ast.Call, name: str) -> None:
     b.session.complete(type_)
     if b.assigned is not e:
         b.report("E0519", e.span)
-    made_of = type_
-    while isinstance(made_of, t.Array):
-        made_of = made_of.element
+    made_of = innermost(type_)
     if isinstance(made_of, t.FunctionBlock):
         _check_dynamic(b, operand, made_of)
     finish(e, name, [None, count][: len(e.args)], t.Pointer(type_))

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from tappet.lang import types as t
 from tappet.lang.analysis.bodies import State
 from tappet.lang.analysis.context import DirectWrite
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.diagnostics import Diagnostic, Related, report
+from tappet.lang.parts import innermost
 from tappet.lang.source import NOWHERE, Scope
 from tappet.lang.symbols import PouSymbol, Storage, VarSymbol
 from tappet.lang.types import FunctionBlock
@@ -110,10 +110,7 @@ def _check(variable: VarSymbol, reaches: Sequence[_Reach], torn: bool) -> Iterat
     writers = [r for r in reaches if key in r.written]
     if type_ is None or source is None or span is None or not writers:
         return
-    inner = type_
-    while isinstance(inner, t.Array):
-        inner = inner.element
-    block = isinstance(inner, FunctionBlock)
+    block = isinstance(innermost(type_), FunctionBlock)
     if len(writers) > 1:
         names = " and ".join(f"'{r.task}' (in {r.written[key]})" for r in writers)
         yield report("W1408" if block else "W1405", source.uri, span, name=variable.name, tasks=names)

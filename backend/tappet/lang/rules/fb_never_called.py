@@ -32,9 +32,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from tappet.lang.parts import innermost
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, VarSymbol
-from tappet.lang.types import Array, FunctionBlock
+from tappet.lang.types import FunctionBlock
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
@@ -56,9 +57,7 @@ def check_program(session: Session) -> None:
                 variable = decl.symbol
                 if not isinstance(variable, VarSymbol) or id(variable) in written or decl.attributes:
                     continue
-                type_ = variable.type
-                while isinstance(type_, Array):
-                    type_ = type_.element
+                type_ = None if variable.type is None else innermost(variable.type)
                 if isinstance(type_, FunctionBlock) and _works_by_call(type_):
                     session.report("W1121", source.uri, decl.name_span, name=decl.name, type=type_)
 

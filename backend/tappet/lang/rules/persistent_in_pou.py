@@ -23,9 +23,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
+from tappet.lang.parts import innermost
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, VarSymbol
-from tappet.lang.types import Array, FunctionBlock, Struct, Type
+from tappet.lang.types import FunctionBlock, Struct, Type
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Session
@@ -85,8 +86,7 @@ def _variable_at(session: Session, path: str) -> ast.VarDecl | None:
         variable = list_.members.get(rest.pop(0))
         type_, decl = (variable.type, variable.decl) if variable is not None else (None, None)
     for part in rest:
-        while isinstance(type_, Array):
-            type_ = type_.element
-        member = type_.members.get(part) if isinstance(type_, (FunctionBlock, Struct)) else None
+        inner = None if type_ is None else innermost(type_)
+        member = inner.members.get(part) if isinstance(inner, (FunctionBlock, Struct)) else None
         type_, decl = (member.type, member.decl) if member is not None else (None, None)
     return decl

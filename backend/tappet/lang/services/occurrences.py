@@ -11,6 +11,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis import Analysis
 from tappet.lang.ast.fields import source_fields
+from tappet.lang.parts import innermost
 from tappet.lang.services.documents import Position
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import NOWHERE, Source, Span, split_lines
@@ -244,9 +245,8 @@ class _Finder:
                 symbol = self.analysis.scope.get(name.upper())
                 type_ = symbol.instance if isinstance(symbol, PouSymbol) else getattr(symbol, "type", None)
             else:
-                while isinstance(type_, t.Array):
-                    type_ = type_.element
-                block = type_.pou.symbol if isinstance(type_, t.FunctionBlock) and type_.pou else None
+                inner = None if type_ is None else innermost(type_)
+                block = inner.pou.symbol if isinstance(inner, t.FunctionBlock) and inner.pou else None
                 symbol = block.locals.get(name.upper()) if isinstance(block, PouSymbol) else None
                 type_ = symbol.type if isinstance(symbol, VarSymbol) else None
             if symbol is None:

@@ -40,7 +40,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
-from tappet.lang.types import Array, FunctionBlock, Interface, Reference, Struct
+from tappet.lang.parts import innermost
+from tappet.lang.types import FunctionBlock, Interface, Reference, Struct
 
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body, Session
@@ -69,9 +70,7 @@ def check_unit(session: Session, unit: ast.Unit) -> None:
         if not isinstance(struct, Struct):
             continue
         for member in struct.members.values():
-            inner: object = member.type
-            while isinstance(inner, Array):
-                inner = inner.element
+            inner = innermost(member.type)
             aligned = not isinstance(inner, (Struct, FunctionBlock)) or inner.align <= struct.align
             if not aligned and member.decl is not None:
                 place = member.decl.name_span if _is_own(decl, member.decl) else decl.name_span
