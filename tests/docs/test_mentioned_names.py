@@ -85,7 +85,7 @@ def test_the_docstring_of_a_package_names_what_exists_in_five_lines(path: Path) 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 EXAMPLES = {
     *("wanted_1", "wanted_2", "f_arguments", "iqr", "idx", "base.3", "x.3", "dataclasses.asdict"),
-    *("__getX", "__setX", "__getName", "__setName", "__GETX", "__SETX", "iec.typescript"),
+    *("__getX", "__setX", "__getName", "__setName", "__GETX", "__SETX"),
 }
 """Examples of names, and names of Python's own library."""
 

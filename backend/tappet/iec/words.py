@@ -25,6 +25,8 @@ only."""
 
 SECTIONS: Final = frozenset(word for word in KEYWORDS if word == "VAR" or word.startswith("VAR_"))
 """Keywords that open a block of variables (LDEC-02)."""
+GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
+"""Those that stand outside of POUs."""
 GENERIC_SECTION: Final = "VAR_GENERIC"
 """The block of generic constants, which CODESYS writes before EXTENDS and IMPLEMENTS."""
 SECTION_FLAGS: Final = ("CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT")

@@ -5,7 +5,16 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 from typing import Final
 
-from tappet.iec.words import CHILD_HEADS, ENDS, OBJECT_HEADS, POU_HEADS, SECTIONS
+from tappet.iec.words import (
+    ACCESS_SPECIFIERS,
+    CHILD_HEADS,
+    ENDS,
+    GLOBAL_SECTIONS,
+    INHERITANCE_MODIFIERS,
+    OBJECT_HEADS,
+    POU_HEADS,
+    SECTIONS,
+)
 from tappet.lang import ast
 from tappet.lang.languages import reader_of, text_readers
 from tappet.lang.languages.drawn import DrawnReader
@@ -13,11 +22,8 @@ from tappet.lang.languages.reader import TextReader
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import BODY_END, Opener
 from tappet.lang.parser_type_blocks import TypeBlockParser
-from tappet.lang.parser_variables import ACCESS
 from tappet.lang.source import NOWHERE, Span
 
-_MODIFIERS: Final = frozenset(["ABSTRACT", "FINAL", "OVERRIDE"])
-_GLOBAL_SECTIONS: Final = frozenset(["VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"])
 _BEHIND_VARIABLE: Final = frozenset([":=", "(", ".", "[", "^"])
 """What follows a name that begins a statement."""
 _HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
@@ -43,7 +49,7 @@ class Parser(TypeBlockParser):
                 break
             if kind in POU_HEADS:
                 out.append(self.pou(kind))
-            elif kind in _GLOBAL_SECTIONS:
+            elif kind in GLOBAL_SECTIONS:
                 self._global_list(out)
             elif kind == "TYPE":
                 out.extend(self.type_block())
@@ -78,7 +84,7 @@ class Parser(TypeBlockParser):
             self.error("E0108", found=self.found())
         kinds = self.kinds
         i = self.i + 1
-        while kinds[i] is not END and kinds[i] not in OBJECT_HEADS and kinds[i] not in _GLOBAL_SECTIONS:
+        while kinds[i] is not END and kinds[i] not in OBJECT_HEADS and kinds[i] not in GLOBAL_SECTIONS:
             i += 1
         self.i = i
 
@@ -196,9 +202,9 @@ class Parser(TypeBlockParser):
             if self.texts[self.i + 1].upper() in ("EXTENDS", "IMPLEMENTS"):
                 break
             word = self.word()
-            if word in ACCESS:
+            if word in ACCESS_SPECIFIERS:
                 access = word
-            elif word in _MODIFIERS:
+            elif word in INHERITANCE_MODIFIERS:
                 modifiers.add(word)
             else:
                 break
@@ -375,7 +381,7 @@ class Parser(TypeBlockParser):
         start = self.i
         opener = (word, self.lines[start])
         self.i = start + 1
-        while self.word() in ACCESS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
+        while self.word() in ACCESS_SPECIFIERS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
             self.i += 1  # the property says who may use it
         method = ast.Pou(span=NOWHERE, name=name, name_span=name_span, source=self.source, kind="METHOD")
         while self.kinds[self.i] in SECTIONS:

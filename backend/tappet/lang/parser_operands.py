@@ -6,6 +6,7 @@ from abc import abstractmethod
 from typing import Final
 
 from tappet.iec import literals
+from tappet.iec.words import WORD_OPERATORS
 from tappet.lang import ast
 from tappet.lang.diagnostics import report
 from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, STRING
@@ -14,7 +15,7 @@ from tappet.lang.parser_core import BODY_END, MAX_NESTING, make_span
 from tappet.lang.source import Span
 
 _POSTFIX: Final = frozenset([".", "[", "(", "^"])
-_CALLABLE_OPERATORS: Final = frozenset(["AND", "OR", "XOR", "MOD", "AND_THEN", "OR_ELSE"])
+_CALLABLE_OPERATORS: Final = frozenset(WORD_OPERATORS) - {"NOT"}
 _HINTS: Final = {
     "=": "Comparison is '=', assignment is ':='.",
     "THEN": "Write a condition before THEN.",

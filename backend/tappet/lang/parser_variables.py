@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from typing import Final
 
-from tappet.iec.words import ENDS, OBJECT_HEADS, SECTIONS
+from tappet.iec.words import ACCESS_SPECIFIERS, ENDS, OBJECT_HEADS, SECTION_FLAGS, SECTIONS
 from tappet.lang import ast
 from tappet.lang.lexer import ADDRESS, END, ID
 from tappet.lang.parser_core import STATEMENT_KEYWORDS
 from tappet.lang.parser_types import TypeParser
 from tappet.lang.source import Span
 
-_FLAGS: Final = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"])
-ACCESS: Final = frozenset(["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
-"""Words that say who may use a variable, method, property or object; they are no keywords elsewhere."""
 BEHIND_NAME: Final = frozenset([":", ",", "AT"])
 """What follows the name of a variable."""
 _BLOCK_STOPS: Final = (
@@ -35,7 +32,7 @@ class VariableParser(TypeParser):
         attributes = self.attributes_before(start)
         self.i = start + 1
         flags: set[str] = set()
-        while self.kinds[self.i] in _FLAGS or self._at_access():
+        while self.kinds[self.i] in SECTION_FLAGS or self._at_access():
             flags.add(self.word() if self.kinds[self.i] is ID else self.kinds[self.i])
             self.i += 1
         if section == "VAR_GENERIC" and "CONSTANT" not in flags:
@@ -70,7 +67,7 @@ class VariableParser(TypeParser):
 
     def _at_access(self) -> bool:
         """Whether an access specifier stands here, and not a variable of that name."""
-        return self.word() in ACCESS and self.kinds[self.i + 1] not in BEHIND_NAME
+        return self.word() in ACCESS_SPECIFIERS and self.kinds[self.i + 1] not in BEHIND_NAME
 
     def variables(self, end: str, paths: bool = False) -> list[ast.VarDecl]:
         """Declarations up to the keyword `end`, or to one that shows that it is missing."""

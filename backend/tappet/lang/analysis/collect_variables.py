@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from tappet.iec.words import ACCESS_SPECIFIERS
 from tappet.lang import ast
 from tappet.lang.analysis.collected import Collected, OwnVariables
 from tappet.lang.analysis.context import Session
 from tappet.lang.analysis.same_names import report_twice
 from tappet.lang.analysis.scope import describe
 from tappet.lang.analysis.type_conversions import is_conversion
-from tappet.lang.parser_variables import ACCESS
 from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Storage, VarSymbol
 
@@ -70,14 +70,14 @@ def collect_variables(
                 what = f"a {kind.lower().replace('_', ' ')}"
                 hint = "Use VAR or an own object."
                 session.report("E0405", source.uri, block.span, section=section, what=what, hint=hint)
-        access = next(iter(block.flags & ACCESS), "")
+        access = next(iter(block.flags.intersection(ACCESS_SPECIFIERS)), "")
         if access and (section != "VAR" or kind not in ("PROGRAM", "FUNCTION_BLOCK")):
             what = f"a {kind.lower().replace('_', ' ')}"
             hint = "Access specifiers belong to VAR of a program or function block."
             session.report(
                 "E0405", source.uri, block.span, section=f"{section} {access}", what=what, hint=hint
             )
-        flags = frozenset(block.flags - ACCESS)
+        flags = frozenset(block.flags.difference(ACCESS_SPECIFIERS))
         storage = base_storage
         if section == "VAR_TEMP":
             storage = Storage.LOCAL

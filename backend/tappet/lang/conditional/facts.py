@@ -5,24 +5,27 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from tappet.iec.words import ELEMENTARY_TYPES, STRING_TYPES, TYPE_SYNONYMS
 from tappet.lang import ast
 from tappet.lang.attributes import attribute
 
-_ALIASES = {"TOD": "TIME_OF_DAY", "DT": "DATE_AND_TIME"}
-_SIGNED = {"SINT", "INT", "DINT", "LINT"}
-_UNSIGNED = {"USINT", "UINT", "UDINT", "ULINT"}
-_GROUPS: dict[str, set[str]] = {
-    "ANY_BIT": {"BOOL", "BYTE", "WORD", "DWORD", "LWORD"},
-    "ANY_INT": _SIGNED | _UNSIGNED,
-    "ANY_REAL": {"REAL", "LREAL"},
-    "ANY_STRING": {"STRING", "WSTRING"},
-    "ANY_DATE": {"DATE", "TIME_OF_DAY", "DATE_AND_TIME", "LDATE", "LTIME_OF_DAY", "LDATE_AND_TIME"},
+_ALIASES = {
+    short: name for short, name in TYPE_SYNONYMS.items() if short != "BIT"
+}  # which is a type of its own
+_FAMILIES = {
+    "ANY_BIT": ("bool", "bits"),
+    "ANY_INT": ("signed", "unsigned"),
+    "ANY_REAL": ("real",),
+    "ANY_DATE": ("date",),
+    "ANY_NUM": ("signed", "unsigned", "real"),
+    "ANY_MAGNITUDE": ("signed", "unsigned", "real", "time"),
 }
-_GROUPS["ANY_NUM"] = _GROUPS["ANY_INT"] | _GROUPS["ANY_REAL"]
-_GROUPS["ANY_MAGNITUDE"] = _GROUPS["ANY_NUM"] | {"TIME", "LTIME"}
-_GROUPS["ANY_ELEMENTARY"] = (
-    _GROUPS["ANY_MAGNITUDE"] | _GROUPS["ANY_BIT"] | _GROUPS["ANY_STRING"] | _GROUPS["ANY_DATE"]
-)
+_GROUPS = {
+    group: {name for name, row in ELEMENTARY_TYPES.items() if row.family in families}
+    for group, families in _FAMILIES.items()
+}
+_GROUPS["ANY_STRING"] = set(STRING_TYPES)
+_GROUPS["ANY_ELEMENTARY"] = set(ELEMENTARY_TYPES) | set(STRING_TYPES)
 _DERIVED = "?DERIVED"  # structures, blocks, enumerations, arrays
 
 

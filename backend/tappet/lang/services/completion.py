@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from tappet.iec.words import ACCESS_SPECIFIERS, SECTION_FLAGS, STATEMENT_WORDS
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.access import may_use
@@ -36,13 +37,10 @@ from tappet.lang.services.cursor import (
 from tappet.lang.services.documents import Position
 from tappet.lang.services.instruction_list import JUMPS, in_rows, label_proposals, operator_proposals
 from tappet.lang.services.keywords import (
-    ACCESS,
     ATTRIBUTES,
     DECLARATION_KEYWORDS,
     EXPRESSION_KEYWORDS,
-    FLAGS,
     OBJECT_KEYWORDS,
-    STATEMENT_KEYWORDS,
     STATEMENT_SNIPPETS,
     TYPE_KEYWORDS,
 )
@@ -123,10 +121,10 @@ def _proposals(view: View, cursor: Cursor) -> Iterator[Completion]:
         yield from _keywords(("EXTENDS", "IMPLEMENTS"), 3)
         yield from _keywords(DECLARATION_KEYWORDS, 4)
     if region in ("variables", "type") and not _in_initial_value(view, cursor):
-        flagged = previous_word.startswith("VAR") or previous_word in FLAGS
-        words: tuple[str, ...] = FLAGS if flagged else ("END_VAR", "AT")
+        flagged = previous_word.startswith("VAR") or previous_word in SECTION_FLAGS
+        words: tuple[str, ...] = SECTION_FLAGS if flagged else ("END_VAR", "AT")
         if previous_word == "VAR":
-            words += ACCESS
+            words += ACCESS_SPECIFIERS
         yield from _keywords(words, 4)
         return
     yield from _code(view, scope, cursor, before, region)
@@ -157,11 +155,11 @@ def _code(view: View, scope: Scope, cursor: Cursor, before: str, region: str) ->
     if at_statement and call is None:
         for label, text, detail in STATEMENT_SNIPPETS:
             yield Completion(label, ItemKind.SNIPPET, detail, insert=text, snippet=True, rank=6)
-        yield from _keywords(STATEMENT_KEYWORDS, 7)
+        yield from _keywords(STATEMENT_WORDS, 7)
         if region == "code":
             yield from _keywords(DECLARATION_KEYWORDS, 8)
     elif before not in _VALUE_BEFORE:
-        yield from _keywords(STATEMENT_KEYWORDS, 7)
+        yield from _keywords(STATEMENT_WORDS, 7)
     yield from _keywords(EXPRESSION_KEYWORDS, 7)
     yield from _operators(cursor.word.upper())
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from tappet.iec.words import POU_HEADS, SECTIONS
+from tappet.iec.words import OBJECT_ENDS, OBJECT_HEADS, SECTIONS
 from tappet.lang import ast
 from tappet.lang.lexer import COMMENT, END, ID, PRAGMA, STRING, Lexed
 from tappet.lang.parser_declarations import Parser
@@ -18,11 +18,7 @@ from tappet.lang.source import Source, Span
 Region = Literal["outside", "head", "variables", "type", "code"]
 
 _OPENING = {")": "(", "]": "["}
-_CHILD_HEADS = frozenset(["METHOD", "ACTION", "TRANSITION", "PROPERTY", "INTERFACE"])
-_OBJECT_ENDS = frozenset(
-    f"END_{word}"
-    for word in ("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "METHOD", "ACTION", "PROPERTY", "INTERFACE")
-)
+_OBJECT_CLOSED = frozenset(OBJECT_ENDS[word] for word in OBJECT_HEADS - {"TYPE"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,10 +239,10 @@ def region_at(lexed: Lexed, index: int) -> Region:
             region = "variables"
         elif kind in ("END_STRUCT", "END_UNION"):
             region = "type"
-        elif kind in POU_HEADS or kind in _CHILD_HEADS:
+        elif kind in OBJECT_HEADS:
             outer.append("code")
             region = "head"
-        elif kind in _OBJECT_ENDS:
+        elif kind in _OBJECT_CLOSED:
             if outer:
                 outer.pop()
             region = "code" if outer else "outside"

@@ -9,27 +9,32 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from tappet.iec.words import KEYWORDS, SECTIONS
-from tappet.lang.lexer import END, ID, INT, NUMBER, STRING, Lexed, Trivia, lex
-from tappet.lang.parser_variables import ACCESS, BEHIND_NAME
+from tappet.iec.words import (
+    ACCESS_SPECIFIERS,
+    ACCESSORS,
+    CONSTANTS,
+    INSTANCES,
+    KEYWORDS,
+    OBJECT_HEADS,
+    OPERATORS,
+    SECTION_FLAGS,
+    SECTIONS,
+    STATEMENT_ENDS,
+    STRING_TYPES,
+    STRUCTURE_ENDS,
+)
+from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, STRING, Lexed, Trivia, lex
+from tappet.lang.parser_variables import BEHIND_NAME
 from tappet.lang.services.documents import Place
 from tappet.lang.services.instruction_list import format_rows, holds_rows
 from tappet.lang.services.results import Edit
 from tappet.lang.source import Span
 from tappet.lang.types import ELEMENTARY
 
-_TYPE_NAMES = frozenset(ELEMENTARY) | {"STRING", "WSTRING"}
-_INDENTING = frozenset(["IF", "CASE", "FOR", "WHILE", "REPEAT", "__TRY", "STRUCT", "UNION"]) | SECTIONS
-_CLOSED_BY = {
-    "END_IF": "IF",
-    "END_CASE": "CASE",
-    "END_FOR": "FOR",
-    "END_WHILE": "WHILE",
-    "END_REPEAT": "REPEAT",
-    "__ENDTRY": "__TRY",
-    "END_STRUCT": "STRUCT",
-    "END_UNION": "UNION",
-}
+_TYPE_NAMES = frozenset(ELEMENTARY) | set(STRING_TYPES)
+_ENDS_INSIDE = STRUCTURE_ENDS | STATEMENT_ENDS
+_INDENTING = SECTIONS | set(_ENDS_INSIDE)
+_CLOSED_BY = {end: word for word, end in _ENDS_INSIDE.items()}
 _BRANCH = {
     "ELSE": ("IF", "CASE"),
     "ELSIF": ("IF",),
@@ -42,29 +47,14 @@ _LAST_BRANCH = "CASE ELSE"
 _BEGINS_STATEMENT = frozenset([";", "THEN", "ELSE", "DO", "REPEAT", "END_VAR", "__TRY", "__FINALLY"]) | set(
     _CLOSED_BY
 )
-_HEADS = frozenset(
-    [
-        "PROGRAM",
-        "FUNCTION",
-        "FUNCTION_BLOCK",
-        "METHOD",
-        "ACTION",
-        "TRANSITION",
-        "PROPERTY",
-        "INTERFACE",
-        "TYPE",
-    ]
-)
-_FLAGS = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"])
 _NO_BLANK_BEFORE = frozenset([";", ",", ")", "]", ".", "^", ".."])
 _NO_BLANK_AFTER = frozenset(["(", "[", ".", ".."])
-_BINARY = frozenset([":=", "?=", "=>", "=", "<>", "<", ">", "<=", ">=", "+", "-", "*", "/", "**", "&"])
+_BINARY = frozenset(OPERATORS) - {";", ",", "(", ")", "[", "]", "^", ".", "..", ":"}
 _TIGHT = _BINARY - {":=", "?=", "=>"}
 """Operators that a style may write without blanks."""
-_OPERAND_END = frozenset(
-    [ID, INT, NUMBER, STRING, "address", ")", "]", "^", "TRUE", "FALSE", "THIS", "SUPER"]
-)
-_LABEL_PARTS = frozenset([ID, INT, NUMBER, STRING, ".", ",", "..", "-", "+", "*", "(", ")", "TRUE", "FALSE"])
+_VALUES = frozenset([ID, INT, NUMBER, STRING, *CONSTANTS])
+_OPERAND_END = _VALUES | {ADDRESS, ")", "]", "^", *INSTANCES}
+_LABEL_PARTS = _VALUES | {".", ",", "..", "-", "+", "*", "(", ")"}
 
 
 Case = Literal["upper", "lower", "keep"]
@@ -205,7 +195,7 @@ class _Formatter:
                 if stack[depth] in _BRANCH[kind]:
                     return depth
             return level
-        if kind in _HEADS or kind in ("END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TYPE"):
+        if kind in OBJECT_HEADS or kind in ("END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TYPE"):
             return 0
         if self.is_label(piece) and stack[-1] == "label":
             return level - 1
@@ -264,7 +254,7 @@ class _Formatter:
             stack[-1] = _LAST_BRANCH
         elif kind in _INDENTING:
             stack.append(kind)
-        elif kind in _HEADS:
+        elif kind in OBJECT_HEADS:
             self.close_to(None)
             self.depth = 0
         self.at_start = self.starts(piece)
@@ -276,7 +266,7 @@ class _Formatter:
             return False
         if kind in _BEGINS_STATEMENT or kind in SECTIONS or kind in ("STRUCT", "UNION"):
             return True
-        if kind in _FLAGS or self.is_access(piece.index):
+        if kind in SECTION_FLAGS or self.is_access(piece.index):
             return bool(stack) and stack[-1] in SECTIONS
         if kind == "OF":
             return bool(stack) and stack[-1] == "CASE"
@@ -284,7 +274,7 @@ class _Formatter:
             return bool(stack) and stack[-1] == "label"
         kinds = self.lexed.kinds
         following = kinds[piece.index + 1]
-        if following in SECTIONS or following in _HEADS:
+        if following in SECTIONS or following in OBJECT_HEADS:
             return True
         return not stack and self.lexed.lines[piece.index + 1] != piece.line and self.in_head(piece.index)
 
@@ -293,8 +283,8 @@ class _Formatter:
         before, after = self.lexed.kinds[index - 1], self.lexed.kinds[index + 1]
         return (
             index > 0
-            and self.lexed.texts[index].upper() in ACCESS
-            and (before in SECTIONS or before in _FLAGS)
+            and self.lexed.texts[index].upper() in ACCESS_SPECIFIERS
+            and (before in SECTIONS or before in SECTION_FLAGS)
             and after not in BEHIND_NAME
         )
 
@@ -305,7 +295,7 @@ class _Formatter:
         while index and lexed.lines[index - 1] == line:
             index -= 1
         kind, word = lexed.kinds[index], lexed.texts[index].upper()
-        return kind in _HEADS or kind.startswith("END_") or word in ("GET", "SET")
+        return kind in OBJECT_HEADS or kind.startswith("END_") or word in ACCESSORS
 
     def close_to(self, opener: str | None) -> None:
         """Leave constructs up to and with the innermost `opener`; None: all of them."""

@@ -4,20 +4,12 @@ from __future__ import annotations
 
 from typing import Final
 
-OBJECT_KEYWORDS: Final = (
-    "PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "METHOD", "PROPERTY", "ACTION", "INTERFACE", "TYPE",
-    "VAR_GLOBAL", "VAR_CONFIG",
-)  # fmt: skip
-DECLARATION_KEYWORDS: Final = (
-    "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_STAT", "VAR_EXTERNAL", "VAR_INST",
-)  # fmt: skip
-FLAGS: Final = ("CONSTANT", "RETAIN", "PERSISTENT")
-ACCESS: Final = ("PUBLIC", "PROTECTED", "PRIVATE", "INTERNAL")
-STATEMENT_KEYWORDS: Final = (
-    "IF", "THEN", "ELSIF", "ELSE", "END_IF", "CASE", "OF", "END_CASE", "FOR", "TO", "BY", "DO", "END_FOR",
-    "WHILE", "END_WHILE", "REPEAT", "UNTIL", "END_REPEAT", "EXIT", "CONTINUE", "RETURN", "JMP",
-)  # fmt: skip
-EXPRESSION_KEYWORDS: Final = ("AND", "OR", "XOR", "NOT", "MOD", "AND_THEN", "OR_ELSE", "TRUE", "FALSE")
+from tappet.iec.words import CONSTANTS, GLOBAL_SECTIONS, OBJECT_HEADS, SECTIONS, WORD_OPERATORS
+
+OBJECT_KEYWORDS: Final = (*sorted(OBJECT_HEADS - {"TRANSITION"}), *sorted(GLOBAL_SECTIONS - {"VAR_ACCESS"}))
+"""What begins a text; transitions are parts of charts, and access paths have no effect."""
+DECLARATION_KEYWORDS: Final = tuple(sorted(SECTIONS - GLOBAL_SECTIONS))
+EXPRESSION_KEYWORDS: Final = (*WORD_OPERATORS, *CONSTANTS)
 STATEMENT_SNIPPETS: Final = (
     ("IF ... END_IF", "IF ${1:condition} THEN\n    $0\nEND_IF", "branch"),
     (
