@@ -18,6 +18,7 @@ OTHERS = [
     "{attribute 'vision'}\nFUNCTION fun1 : INT\nEND_FUNCTION",
     "FUNCTION_BLOCK FB_x\nACTION Act END_ACTION\nEND_FUNCTION_BLOCK",
     "INTERFACE I_x END_INTERFACE",
+    "VAR_GLOBAL g_clock : LTOD; g_bit : BIT; END_VAR",
 ]
 
 
@@ -64,6 +65,11 @@ def body(code: str, **options: object) -> str:
         ("hastype (variable: g_real, ANY_NUM)", True),
         ("hastype (variable: g_real, ANY_INT)", False),
         ("hastype (variable: g_text, STRING)", True),
+        ("hastype (variable: g_clock, LTIME_OF_DAY)", True),
+        ("hastype (variable: g_clock, ANY_DATE)", True),
+        ("hastype (variable: g_clock, ANY_MAGNITUDE)", False),
+        ("hastype (variable: g_bit, BIT)", True),
+        ("hastype (variable: g_bit, BOOL)", False),
         ("hastype (variable: g_text, T_Text)", True),
         ("hastype (variable: x, ANY_MAGNITUDE)", True),
         ("hastype (variable: x, ANY_BIT)", False),

@@ -232,6 +232,7 @@ def test_flags_and_end_inside_a_block() -> None:
     assert [item.label for item in complete(project.workspace, "P", project.position)] == [
         "CONSTANT",
         "INTERNAL",
+        "NON_RETAIN",
         "PERSISTENT",
         "PRIVATE",
         "PROTECTED",
