@@ -1,4 +1,4 @@
-"""What a machine must survive: a killed soft PLC, an endless loop, a server that starts anew."""
+"""What a machine must survive: a killed soft PLC, an endless loop, a server that starts again."""
 
 from __future__ import annotations
 

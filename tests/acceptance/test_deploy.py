@@ -105,7 +105,7 @@ def test_deploy_builds_loads_and_starts(plc: SoftPlc, file: Path) -> None:
     assert done.returncode == 0, done.stderr
     answer = json.loads(done.stdout)
     assert (answer["ok"], answer["application"], answer["state"]) == (True, "counter", "stop")
-    assert asyncio.run(plc.value("Main.n")) == 0, "a download begins anew"
+    assert asyncio.run(plc.value("Main.n")) == 0, "a download begins again"
 
 
 def test_a_program_with_errors_is_not_deployed(plc: SoftPlc, file: Path) -> None:

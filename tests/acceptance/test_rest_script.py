@@ -263,7 +263,7 @@ def test_statistics_of_the_task(script: Script) -> None:
     configured = script.read_object(task["name"])["data"]
     assert configured["interval"] == f"T#{task['interval_us'] / 1000:.0f}ms"
     script.post(f"{RUNTIME}/tasks/{task['name']}/reset", status=204)
-    until(lambda: script.get(f"{RUNTIME}/tasks")[0]["iec_cycles"] < 50, "the next cycle begins anew")
+    until(lambda: script.get(f"{RUNTIME}/tasks")[0]["iec_cycles"] < 50, "the next cycle begins again")
     unknown = script.post(f"{RUNTIME}/tasks/Nobody/reset", status=404)
     assert task["name"] in unknown["detail"]
 

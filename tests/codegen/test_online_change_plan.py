@@ -1,4 +1,4 @@
-"""Online changes: what stays in place, what moves, what starts anew, and pointers that follow."""
+"""Online changes: what stays in place, what moves, what starts again, and pointers that follow."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 A constant has its declared value after each edit, in memory as well.
 
-Bodies that see an edited declaration are made anew; a name in both programs means the same variable.
+Bodies that see an edited declaration are made again; a name in both programs means the same variable.
 """
 
 from __future__ import annotations

@@ -195,7 +195,7 @@ def new_profile(browser: Browser, language: str = "en", theme: str = "light") ->
 def start_page(profile: BrowserContext, server: Server) -> Iterator[Page]:
     """The start page as a new user sees it, everything as delivered, logged in by a one-time link.
 
-    One page serves all tests of a profile: the workbench is compiled once, no process is started anew.
+    One page serves all tests of a profile: the workbench is compiled once, no process is started again.
     """
     profile.clear_cookies()
     profile.request.get(server.fresh_link())

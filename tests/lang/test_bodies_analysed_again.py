@@ -1,4 +1,4 @@
-"""A body that is analysed again, because something that it names has changed, starts anew."""
+"""A body that is analysed again, because something that it names has changed, starts again."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def test_divider_and_interval() -> None:
 
 
 def test_recording_goes_on_after_a_reset() -> None:
-    """The virtual clock begins anew, cycle numbers do not."""
+    """The virtual clock begins again, cycle numbers do not."""
     with LocalRuntime(build(TEXT)) as runtime:
         trace = runtime.trace(["PLC_PRG.a"], min_interval_ns=20 * MS)
         runtime.run(cycles=5)

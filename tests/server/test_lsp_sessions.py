@@ -232,7 +232,7 @@ WORDS = (
 
 @pytest.mark.parametrize("seed", range(6))
 async def test_random_edits_of_several_sessions_are_those_of_a_fresh_analysis(seed: int) -> None:
-    """After edits, openings and closings, messages and outlines are those of the texts analysed anew."""
+    """After edits, openings and closings, messages and outlines are those of the texts analysed again."""
     rng = random.Random(seed)
     project = Stored(**PROJECT)
     documents = [BODY, HEAD, MOTOR, uri("FB_Motor", "implementation"), uri("E_Mode", "declaration")]

@@ -182,7 +182,7 @@ def _then(case: dict[str, Any], application: LoadedApplication) -> LoadedApplica
 
 
 def start_again(application: LoadedApplication, command: str) -> None:
-    """Reset (warm, cold, origin), download or reboot: all begins anew but what keeps its value."""
+    """Reset (warm, cold, origin), download or reboot: all begins again but what keeps its value."""
     package = application.package
     before = bytes(application.image[: package.image_size])
     keep = [(r.offset, r.size) for r in package.persistent] if command != "origin" else []
