@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from lsp_client import Client
 
+from tappet.lang.services.workspace import Workspace
 from tappet.project import edit, folder
 from tappet.project.new_project import new_project
 from tappet.server.lsp.folder_programs import FolderPrograms, canonical_uri, file_uri
@@ -64,6 +65,13 @@ def test_plain_folder(tmp_path: Path) -> None:
     assert (
         next(t for t in programs({})[0].texts if t.source.uri.endswith("a.st")).source.text == "(* gr\xfcn *)"
     )
+
+
+def test_libraries_of_a_folder_find_what_they_need(tmp_path: Path) -> None:
+    write(tmp_path, {"p.st": "PROGRAM P\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM"})
+    (snapshot,) = Workspace(FolderPrograms(tmp_path)).snapshots()
+    assert len(snapshot.program.texts) > 100
+    assert snapshot.diagnostics == []
 
 
 async def test_project_folder(tmp_path: Path) -> None:

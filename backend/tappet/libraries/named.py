@@ -69,9 +69,11 @@ class Index:
 _kept: OrderedDict[str, Index] = OrderedDict()
 
 
-def named_texts(libraries: Sequence[Source], own: Iterable[Source]) -> list[Source]:
+def named_texts(
+    libraries: Sequence[Source], own: Iterable[Source], index: Index | None = None
+) -> list[Source]:
     """The texts of `libraries` that a program of the texts `own` can reach, in their order."""
-    index = index_of(libraries)
+    index = index or index_of(libraries)
     if index.everything:
         return list(libraries)
     declared: dict[str, list[int]] = {}
@@ -98,22 +100,41 @@ def named_texts(libraries: Sequence[Source], own: Iterable[Source]) -> list[Sour
 def index_of(libraries: Sequence[Source]) -> Index:
     """The index of these texts: kept in memory, read from the cache, or made."""
     key = _key(libraries)
+    return _at_hand(key, len(libraries)) or _make(key, libraries)
+
+
+def known_index(libraries: Sequence[Source]) -> Index | None:
+    """The index of these texts if it need not be made."""
+    return _at_hand(_key(libraries), len(libraries))
+
+
+def _at_hand(key: str, texts: int) -> Index | None:
     found = _kept.get(key)
     if found is None:
         folder = cache_folder("libraries")
         try:
             content = (folder / key).read_bytes() if folder is not None else b""
         except OSError:
-            content = b""
-        found = Index.from_bytes(content, len(libraries))
-        if found is None:
-            found = _made(libraries)
-            if folder is not None:
-                store(folder / key, found.to_bytes())
-        _kept[key] = found
-        while len(_kept) > KEPT:
-            _kept.popitem(last=False)
+            return None
+        found = Index.from_bytes(content, texts)
+        if found is not None:
+            _keep(key, found)
     return found
+
+
+def _make(key: str, libraries: Sequence[Source]) -> Index:
+    found = _made(libraries)
+    folder = cache_folder("libraries")
+    if folder is not None:
+        store(folder / key, found.to_bytes())
+    _keep(key, found)
+    return found
+
+
+def _keep(key: str, index: Index) -> None:
+    _kept[key] = index
+    while len(_kept) > KEPT:
+        _kept.popitem(last=False)
 
 
 def _key(libraries: Sequence[Source]) -> str:

@@ -92,6 +92,7 @@ def designation(text: str, version: str = NEWEST) -> Designation:
     return Designation(match["name"], written if version == NEWEST else version, match["company"])
 
 
+@lru_cache(maxsize=512)
 def version_key(version: str) -> tuple[tuple[int, str], ...]:
     """Sorts versions by their numbers: 3.10 is newer than 3.9."""
     return tuple((int(part), "") if part.isdigit() else (-1, part) for part in version.split("."))

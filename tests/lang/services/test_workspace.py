@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import pytest
 from marked_texts import Project, split_object
 
-from tappet.lang.services.documents import Position, Program, whole_file
+from tappet.lang.services.documents import Position, Program, library_text, whole_file
 from tappet.lang.services.hover import hover
 from tappet.lang.services.navigation import definition, references
 from tappet.lang.services.reports import reports
 from tappet.lang.services.results import ServiceError
-from tappet.lang.services.workspace import Workspace
-from tappet.lang.source import Source, Span
+from tappet.lang.services.workspace import Snapshot, Workspace
+from tappet.lang.source import Scope, Source, Span
 
 
 def test_unsaved_text_counts_until_it_is_closed() -> None:
@@ -92,3 +94,80 @@ def test_places_and_comments_follow_an_edit_that_changes_no_declaration() -> Non
     assert explained is not None
     assert explained.text.startswith("new")
     assert [r.place.span.line for r in references(snapshot, "Q", Position(2, 7))] == [4, 6, 2]
+
+
+class FakeIndex:
+    """Says that a program reaches the library texts whose names it holds."""
+
+    def __init__(self) -> None:
+        self.made: list[list[str]] = []
+
+    def reached(self, libraries: Sequence[Source], own: Sequence[Source]) -> list[Source]:
+        return [source for source in libraries if any(source.uri in text.text for text in own)]
+
+    def make(self, libraries: Sequence[Source]) -> None:
+        self.made.append([source.uri for source in libraries])
+
+
+class Libraries:
+    """A program on a library that no other test has analysed."""
+
+    def __init__(self, name: str, text: str) -> None:
+        self.texts = {"P": text}
+        self.library = [
+            library_text(Source(f"{name}_{n}", block, scope=Scope.LIBRARY, library=name, namespace=name))
+            for n in ("Near", "Far")
+            for block in [f"FUNCTION_BLOCK {name}_{n}\nVAR_OUTPUT q : BOOL; END_VAR\nEND_FUNCTION_BLOCK"]
+        ]
+        self.index = FakeIndex()
+        self.workspace = Workspace(self.programs, self.index)
+
+    def programs(self, unsaved: Mapping[str, str]) -> list[Program]:
+        own = [whole_file(k, Source(k, v)) for k, v in {**self.texts, **unsaved}.items()]
+        return [Program("App", [*own, *self.library])]
+
+    def first(self) -> tuple[Snapshot, list[str]]:
+        """The first snapshot and the messages in it."""
+        (snapshot,) = self.workspace.first_snapshots(())
+        return snapshot, [report.message for report in reports(snapshot).get("P", [])]
+
+
+def test_first_messages_come_before_the_libraries_that_a_program_does_not_reach() -> None:
+    project = Libraries("Ahead", "PROGRAM P\nVAR a : Ahead_Near; b : Ahead_Fat; END_VAR\na();\nEND_PROGRAM")
+    first, messages = project.first()
+    assert first.is_waiting
+    assert not first.shows("tappet-library:/Ahead_Far")
+    assert [m for m in messages if "Ahead_Fat" in m] == ["Unknown type: 'Ahead_Fat'"]
+    assert project.first()[0] is first
+    project.workspace.prepare()
+    assert project.index.made == []
+    assert project.workspace.resume(1.0)
+    whole, messages = project.first()
+    assert not whole.is_waiting
+    assert whole.shows("tappet-library:/Ahead_Far")
+    assert any("Ahead_Far" in (r.advice or "") for r in reports(whole)["P"])
+    project.workspace.prepare()
+    assert project.index.made == [["Ahead_Near", "Ahead_Far"]]
+
+
+def test_a_request_sees_all_texts_of_libraries() -> None:
+    project = Libraries("Asked", "PROGRAM P\nVAR a : Asked_Near; END_VAR\na();\nEND_PROGRAM")
+    assert project.first()[0].is_waiting
+    assert not project.workspace.snapshot("P").is_waiting
+    assert project.workspace.snapshot("tappet-library:/Asked_Far").shows("P")
+
+
+def test_an_edit_before_the_libraries_are_analysed_may_reach_another_text() -> None:
+    project = Libraries("Edited", "PROGRAM P\nVAR a : Edited_Near; END_VAR\na();\nEND_PROGRAM")
+    assert project.first()[1] == []
+    project.workspace.open("P", "PROGRAM P\nVAR a : Edited_Far; END_VAR\na();\nx;\nEND_PROGRAM")
+    first, messages = project.first()
+    assert first.is_waiting
+    assert first.shows("tappet-library:/Edited_Far")
+    assert not first.shows("tappet-library:/Edited_Near")
+    assert [m for m in messages if "Edited" in m] == []
+    assert any("'x'" in m for m in messages)
+    assert project.workspace.resume(1.0)
+    assert project.first()[1] == messages
+    project.workspace.open("P", "PROGRAM P\nVAR a : Edited_Near; END_VAR\na();\nEND_PROGRAM")
+    assert not project.first()[0].is_waiting  # the libraries are analysed: nothing is left out any more

@@ -142,14 +142,24 @@ def read_program(
     return [chosen.results.get(source) or next(results) for source in sources], chosen
 
 
+def are_analysed(libraries: Sequence[Source], options: AnalysisOptions) -> bool:
+    """Whether an analysis with these libraries finds them analysed."""
+    with _Kept.lock:
+        return not libraries or _key(tuple(libraries), options, Influence()) in _Kept.by_content
+
+
+def _key(sources: tuple[Source, ...], options: AnalysisOptions, influence: Influence) -> object:
+    limits = tuple(sorted(options.area_limits.items()))
+    return sources, options.system, options.byte_addressing, limits, influence
+
+
 def _snapshot(
     sources: tuple[Source, ...], options: AnalysisOptions, influence: Influence
 ) -> LibrarySnapshot | None:
     """The snapshot of these texts; None when they depend on more of the application."""
     if not sources:
         return None
-    limits = tuple(sorted(options.area_limits.items()))
-    key = (sources, options.system, options.byte_addressing, limits, influence)
+    key = _key(sources, options, influence)
     with _Kept.lock:
         if key in _Kept.by_content:
             _Kept.by_content.move_to_end(key)

@@ -7,24 +7,35 @@ analysis knows; every service works on one. One thread at a time may use a works
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 from tappet.lang import ast
 from tappet.lang.analysis import Analysis, AnalysisOptions, analyse, prepare, resume
-from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
+from tappet.lang.analysis.libraries import LibrarySnapshot, are_analysed, own_results, read_program
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed, lex
 from tappet.lang.parser import ParseResult
 from tappet.lang.services.documents import Place, Position, Program, Programs, Text
 from tappet.lang.services.results import ServiceError
-from tappet.lang.source import Source, Span
+from tappet.lang.source import Scope, Source, Span
 from tappet.lang.symbols import InterfaceSymbol, PouSymbol
 
 SLOW_S = 0.15
 """From here on, an analysis is too slow to be repeated at every key; completion then uses the last one."""
+
+
+class LibraryIndex(Protocol):
+    """Knows which texts of libraries a program can reach."""
+
+    def reached(self, libraries: Sequence[Source], own: Sequence[Source]) -> Collection[Source] | None:
+        """Those texts; None when that is not known, or it is all of them."""
+
+    def make(self, libraries: Sequence[Source]) -> None:
+        """These libraries are analysed: find out what is to be known of them the next time."""
 
 
 class View:
@@ -69,12 +80,15 @@ class Snapshot:
         results: list[ParseResult],
         analysis: Analysis,
         libraries: LibrarySnapshot | None,
+        is_reduced: bool = False,
     ) -> None:
         self.program = program
         self.results = results
         self.analysis = analysis
         self.libraries = libraries
         """Those of the program, shared with other programs; None: they are analysed with it."""
+        self.is_reduced = is_reduced
+        """Library texts that the program does not reach are left out: messages cannot propose their names."""
         self.published: dict[str, Any] = {}
         """The messages of texts as they were shown last, by uri; goes from snapshot to snapshot."""
         self.derived: dict[str, Any] = {}
@@ -121,8 +135,8 @@ class Snapshot:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether texts are left for later: messages of others than the first ones may be old."""
-        return self.analysis.is_waiting
+        """Whether something is left for later: bodies, or texts of libraries."""
+        return self.analysis.is_waiting or self.is_reduced
 
     @cached_property
     def diagnostics(self) -> list[Diagnostic]:
@@ -152,8 +166,9 @@ class Snapshot:
 class Workspace:
     """The programs of a project and the documents open in an editor."""
 
-    def __init__(self, programs: Programs) -> None:
+    def __init__(self, programs: Programs, index: LibraryIndex | None = None) -> None:
         self._programs = programs
+        self._index = index
         self._unsaved: dict[str, str] = {}
         self._parsed: dict[str, dict[Source, ParseResult]] = {}
         self._snapshots: dict[str, Snapshot] = {}
@@ -215,8 +230,8 @@ class Workspace:
         return [self._analyse(program) for program in self.programs()]
 
     def first_snapshots(self, documents: Collection[str]) -> list[Snapshot]:
-        """Analyses of all programs that may leave other texts than these for later
-        (`Snapshot.is_waiting`)."""
+        """Analyses of all programs that may leave other texts than these for later, and those of libraries
+        that they do not reach (`Snapshot.is_waiting`)."""
         return [self._analyse(program, documents) for program in self.programs()]
 
     def in_texts_of(self, documents: Collection[str]) -> set[str]:
@@ -230,13 +245,19 @@ class Workspace:
         return found
 
     def resume(self, seconds: float) -> bool:
-        """Work on what `first_snapshots` has left, for so long; whether nothing is left."""
+        """Work on what `first_snapshots` has left, for so long; whether nothing is left. Libraries that were
+        left out are analysed in one go."""
+        if any(snapshot.is_reduced for snapshot in self._snapshots.values()):
+            self.snapshots()
         return all(resume(snapshot.analysis, seconds) for snapshot in self._snapshots.values())
 
     def prepare(self) -> None:
-        """Do what the first edit of declarations would have to do for every text."""
+        """Do what the first edit of declarations would have to do for every text, and what makes the first
+        messages of the next process quick."""
         for snapshot in self._snapshots.values():
             prepare(snapshot.analysis)
+            if self._index is not None and snapshot.libraries is not None and not snapshot.is_reduced:
+                self._index.make(_libraries_of(snapshot.program))
 
     def quick_view(self, document: str, position: Position) -> View:
         """What stands at a position now, with symbols of the last analysis if a new one would take long."""
@@ -275,7 +296,10 @@ class Workspace:
             return last
         started = time.perf_counter()
         settings = AnalysisOptions(static=program.static)
-        if last is not None and fresh:
+        whole = program
+        if documents is not None and not fresh:
+            program = self._reduced(program, settings)
+        if last is not None and fresh and not last.is_reduced:
             results, libraries = last.results, last.libraries
         else:
             sources = [text.source for text in program.texts]
@@ -288,13 +312,30 @@ class Workspace:
         own = [result.unit for result in own_results(results, libraries)]
         analysis = analyse(own, settings, previous, first, libraries)
         self.whole_analyses += not analysis.continued
-        snapshot = Snapshot(program, results, analysis, libraries)
+        snapshot = Snapshot(program, results, analysis, libraries, is_reduced=program is not whole)
         if last is not None:
             snapshot.published = last.published
         self._snapshots[program.name] = snapshot
         self._analysed[program.name] = self.generation
         self._seconds[program.name] = time.perf_counter() - started
         return snapshot
+
+    def _reduced(self, program: Program, settings: AnalysisOptions) -> Program:
+        """A program with the library texts that it reaches, while its libraries are not analysed."""
+        libraries = _libraries_of(program)
+        if self._index is None or are_analysed(libraries, settings):
+            return program
+        own = [text.source for text in program.texts if text.source.scope is not Scope.LIBRARY]
+        reached = self._index.reached(libraries, own)
+        if reached is None:
+            return program
+        kept = set(reached)
+        texts = [t for t in program.texts if t.source.scope is not Scope.LIBRARY or t.source in kept]
+        return replace(program, texts=texts) if len(texts) < len(program.texts) else program
+
+
+def _libraries_of(program: Program) -> list[Source]:
+    return [text.source for text in program.texts if text.source.scope is Scope.LIBRARY]
 
 
 def _sources_of(program: Program, documents: Collection[str]) -> frozenset[str]:

@@ -16,6 +16,7 @@ from tappet.lang.coding_settings import NO_RULES, StaticAnalysis, static_analysi
 from tappet.lang.services.documents import Program, Segment, SourceMap, Text, library_text, whole_file
 from tappet.lang.source import Scope, Source, split_lines
 from tappet.project.errors import FolderFormatError
+from tappet.project.library_reference import LibraryReference
 from tappet.project.project_file import INDEX_FILE
 
 MAX_FILES = 20_000
@@ -62,9 +63,8 @@ class FolderPrograms:
         if not groups:
             groups = {self.root.name or "Folder": shared}
             shared = []
-        standard = [
-            library_text(source) for name in libraries.names() for source in libraries.load(name).sources
-        ]
+        found, _ = libraries.resolve(LibraryReference(name) for name in libraries.names())
+        standard = [library_text(source) for library in found for source in library.sources]
         programs = []
         for name, paths in groups.items():
             texts = [*self._texts(files, paths, Scope.APPLICATION), *self._texts(files, shared, Scope.POUS)]

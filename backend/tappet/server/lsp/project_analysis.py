@@ -25,6 +25,7 @@ from tappet.lang.services.reports import reports
 from tappet.lang.services.results import Report
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.server.lsp.publication import Published
+from tappet.server.lsp.reached_libraries import ReachedLibraries
 from tappet.server.lsp.shared_texts import SharedTexts, Stored, nothing_stored
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ class ProjectAnalysis:
         thread: Executor | None = None,
     ) -> None:
         """`thread` does one piece of work after the other; this ends it, too."""
-        self.workspace = Workspace(programs)
+        self.workspace = Workspace(programs, ReachedLibraries())
         self.texts = SharedTexts(stored)
         self.thread = thread or ThreadPoolExecutor(max_workers=1, thread_name_prefix="analysis")
         """Does everything that reads or changes the workspace."""
@@ -198,15 +199,16 @@ class ProjectAnalysis:
             await session.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params, params["uri"])
 
     def _first_messages(self) -> list[Message]:
-        """What to publish first: everything, or, where an edit concerns many texts, that of the edited
-        ones."""
+        """What to publish first: everything that can be said without the texts of libraries that no program
+        reaches, or, where an edit concerns many texts, that of the edited ones."""
         if not any(session.is_initialized for session in self._sessions):
             return []
         edited, self._edited_since = self.workspace.in_texts_of(self._edited_since), set()
         with deep_recursion():
             snapshots = self.workspace.first_snapshots(edited)
             self._left = any(snapshot.is_waiting for snapshot in snapshots)
-            return self._new_messages(snapshots, edited if self._left else None)
+            bodies_wait = any(snapshot.analysis.is_waiting for snapshot in snapshots)
+            return self._new_messages(snapshots, edited if bodies_wait else None)
 
     def _go_on(self) -> bool:
         """Work for a while on what has been left for later; whether nothing is left."""
