@@ -77,6 +77,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.lang.diagnostic_pages
 	$(BIN)/python -m tappet.iec.typescript
 	$(BIN)/python tests/iec/iec_texts.py
+	$(BIN)/python tests/project/placement_answers.py
 
 $(VENV)/.ready: requirements.lock pyproject.toml
 	@test -d $(VENV) || $(PYTHON) -m venv $(VENV)

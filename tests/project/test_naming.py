@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tappet.iec.words import RESERVED
 from tappet.project.errors import InvalidNameError
-from tappet.project.naming import KEYWORDS, check_free_name, check_identifier, name_key, unique_name
+from tappet.project.naming import check_free_name, check_identifier, name_key, unique_name
 
 
 @pytest.mark.parametrize("name", ["PLC_PRG", "_x", "a1", "LD", "S", "A_BCD", "FB_Motor"])
@@ -56,7 +57,7 @@ def test_unique_names_count_on() -> None:
 
 
 @given(
-    st.sampled_from(sorted(KEYWORDS)) | st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,210}", fullmatch=True),
+    st.sampled_from(sorted(RESERVED)) | st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,210}", fullmatch=True),
     st.data(),
 )
 def test_unique_name_is_free(name: str, data: st.DataObject) -> None:

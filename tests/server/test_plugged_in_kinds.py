@@ -67,7 +67,7 @@ def content(project: Project) -> list[tuple[Any, ...]]:
 
 def test_over_rest_from_the_rules_to_references_that_follow(admin: TestClient, toy: list[str]) -> None:
     rules = {rule["kind"]: rule for rule in admin.get(f"{API}/placement").json()}
-    assert rules["machine_note"]["parents"] == ["application"]
+    assert rules["machine_note"]["places"] == ["application.*", "application.*/"]
     assert rules["piece_counter"]["proposal"] == "Counter"
     project = f"{API}/projects/{admin.post(f'{API}/projects', json={'name': 'Boxes'}).json()['id']}"
     tree = {item["kind"]: item["id"] for item in admin.get(f"{project}/objects").json()}

@@ -272,7 +272,7 @@ def test_large_archives_are_taken(admin: TestClient, press: str) -> None:
 
 def test_placement_is_the_table(admin: TestClient) -> None:
     rules = {rule["kind"]: rule for rule in admin.get(f"{API}/placement").json()}
-    assert rules["task"]["parents"] == ["task_configuration"]
+    assert rules["task"]["places"] == ["task_configuration.*"]
     assert rules["pou"]["subkinds"] == ["program", "function_block", "function"]
     assert rules["library_manager"]["names"] == ["Library Manager"]
 

@@ -93,6 +93,7 @@ def module() -> str:
             ),
             _list("OPERATOR_KEYWORDS", "Operators that are words.", words.WORD_OPERATORS),
             _list("CONSTANT_KEYWORDS", "Values that are words.", [*words.CONSTANTS, words.NULL]),
+            _list("RESERVED", "Words that cannot name an object.", sorted(words.RESERVED)),
             _list("NUMERIC_TYPES", "Types whose literals are numbers, or TRUE and FALSE.", numeric),
             _list(
                 "ELEMENTARY_TYPES", "Types without parts, by all their names.",

@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Iterable
 from functools import lru_cache
 
+from tappet.iec.words import RESERVED
 from tappet.project.errors import InvalidNameError
 
 MAX_NAME = 200
@@ -15,21 +16,6 @@ MAX_NAME = 200
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 _COUNTED = re.compile(r"(?P<stem>.*?)_(?P<count>[1-9]\d{0,8})", re.DOTALL)
 _SEPARATORS = frozenset("./\\")
-
-_KEYWORD_TABLE = """
-    ABS ABSTRACT ACOS ACTION ADD ADR AND AND_THEN ARRAY ASIN AT ATAN BITADR BOOL BY BYTE CASE CONSTANT
-    CONTINUE COS DATE DATE_AND_TIME DINT DIV DO DT DWORD ELSE ELSIF END_ACTION END_CASE END_FOR
-    END_FUNCTION END_FUNCTION_BLOCK END_IF END_INTERFACE END_METHOD END_PROGRAM END_PROPERTY END_REPEAT
-    END_STRUCT END_TYPE END_UNION END_VAR END_WHILE EXIT EXP EXPT EXTENDS FALSE FINAL FOR FUNCTION
-    FUNCTION_BLOCK IF IMPLEMENTS INDEXOF INT INTERFACE INTERNAL LDATE LDT LINT LN LOG LREAL LTIME LTOD
-    LWORD MAX METHOD MIN MOD MOVE MUL MUX NOT OF OR OR_ELSE PARAMS PERSISTENT POINTER PRIVATE PROGRAM
-    PROPERTY PROTECTED PUBLIC READ_ONLY READ_WRITE REAL REFERENCE REPEAT RETAIN RETURN ROL ROR SEL SHL
-    SHR SIN SINT SIZEOF SQRT STRING STRUCT SUB SUPER TAN THEN THIS TIME TIME_OF_DAY TO TOD TRUE TRUNC
-    TRUNC_INT TYPE UDINT UINT ULINT UNION UNTIL USINT VAR VAR_ACCESS VAR_CONFIG VAR_EXTERNAL VAR_GLOBAL
-    VAR_INPUT VAR_INST VAR_IN_OUT VAR_OUTPUT VAR_STAT VAR_TEMP WHILE WORD WSTRING XOR
-"""
-KEYWORDS = frozenset(_KEYWORD_TABLE.split())
-"""Words that cannot name an object (LDEC section 9). Operators of IL alone (LD, ST, S, R, JMP ...) may."""
 
 
 def normal_name(name: str) -> str:
@@ -59,7 +45,7 @@ def check_identifier(name: str) -> None:
         raise InvalidNameError(
             f"'{name}' has two consecutive underscores; identifiers may have only single ones"
         )
-    if name.upper() in KEYWORDS:
+    if name.upper() in RESERVED:
         raise InvalidNameError(f"'{name}' is a keyword of the language and cannot name an object")
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Generic, Literal, TypeVar, cast
 
 from tappet.iec.sections import rename_header
@@ -27,6 +28,10 @@ DEVICES_VIEW = "devices_view"
 """Stands among the parents of a kind for the root of the Devices view."""
 POUS_VIEW = "pous_view"
 """Stands among the parents of a kind for the root of the POUs view."""
+ANY_SUBKIND = "*"
+"""In the name of a place: whatever the parent's declaration says."""
+IN_FOLDER = "/"
+"""At the end of the name of a place: in a folder there."""
 CODE_PLACES = ("application", POUS_VIEW)
 """Where code of an application, or of all applications, may be."""
 
@@ -46,6 +51,23 @@ class Placement:
     """May stand in a folder of such a parent."""
     once: bool = False
     """At most one below one parent, its folders included."""
+
+    @cached_property
+    def places(self) -> frozenset[str]:
+        """The same as a table: `pou.program`, `application.*`, and `application.*/` for a folder in one."""
+        subkinds = ("", *self.parent_subkinds) if self.parent_subkinds else (ANY_SUBKIND,)
+        endings = ("", IN_FOLDER) if self.in_folders else ("",)
+        return frozenset(
+            f"{parent}.{subkind}{ending}"
+            for parent in self.parents
+            for subkind in subkinds
+            for ending in endings
+        )
+
+    def accepts(self, parent: str, subkind: str | None, in_folder: bool) -> bool:
+        """Whether objects may be below a parent, or in a folder below it: a look into the table."""
+        ending = IN_FOLDER if in_folder else ""
+        return any(f"{parent}.{one}{ending}" in self.places for one in (subkind or "", ANY_SUBKIND))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -29,15 +29,18 @@ class PlacementRule(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     kind: str
-    parents: tuple[str, ...] = Field(description="Kinds of parent; devices_view and pous_view are the roots.")
-    parent_subkinds: tuple[str, ...] = Field(
-        default=(), description="Where the parent is a POU: which ones; empty means any."
+    places: tuple[str, ...] = Field(
+        description="Where objects may be: kind of the parent, a dot, what its declaration says (empty where "
+        "it says nothing, * for anything), / for a folder in it; the roots are devices_view and pous_view."
     )
-    in_folders: bool = Field(default=True, description="May stand in a folder of such a parent.")
     once: bool = Field(default=False, description="At most one below one parent, its folders included.")
     naming: NameStyle = Field(default="identifier", description="Identifier, free text, or one of `names`.")
     names: tuple[str, ...] = Field(default=(), description="The possible names where naming is fixed.")
     proposal: str = Field(default="", description="Name that the dialog proposes.")
+    first: str = Field(default="", description="The same for the first object of the kind in an application.")
+    unique: Literal["scope", "place"] = Field(
+        default="scope", description="Names differ at one owner with its folders, or among siblings only."
+    )
     subkinds: tuple[str, ...] = Field(default=(), description="Templates to choose from for a new object.")
     languages: tuple[str, ...] = Field(
         default=(), description="Languages to choose from for the body of a new object; the first is usual."
@@ -52,13 +55,13 @@ def placement_rules() -> list[PlacementRule]:
 def _rule_of(kind: ObjectKind[Any]) -> PlacementRule:
     return PlacementRule(
         kind=kind.name,
-        parents=kind.placement.parents,
-        parent_subkinds=kind.placement.parent_subkinds,
-        in_folders=kind.placement.in_folders,
+        places=tuple(sorted(kind.placement.places)),
         once=kind.placement.once,
         naming=kind.naming.style,
         names=kind.naming.names,
         proposal=kind.naming.proposal,
+        first=kind.naming.first,
+        unique=kind.naming.unique,
         subkinds=tuple(kind.templates),
         languages=offered() if kind.written else (),
     )
@@ -132,18 +135,12 @@ def refusal(kind: ObjectKind[Any], site: Site, *, present: str | None = None) ->
 
     `present` is the id of an object that is there already or is being moved, which does not count as another.
     """
-    rule, owner = kind.placement, site.owner
+    owner = site.owner
     place = site.view_or_kind(kind.name)
-    if place not in rule.parents:
-        parents = " or ".join(words_of(parent) for parent in rule.parents)
-        return f"A {kind.words} cannot be below {_place_name(owner, place)}; it belongs below {parents}"
-    subkind = owner.subkind if owner is not None and rule.parent_subkinds else None
-    if owner is not None and subkind is not None and subkind not in rule.parent_subkinds:
-        allowed = " and ".join(words_of(subkind) for subkind in rule.parent_subkinds)
-        return f"A {words_of(subkind)} such as '{owner.name}' has no {kind.words}; {allowed} objects may"
-    if not rule.in_folders and site.parent is not None and site.parent.kind == FOLDER:
-        return f"A {kind.words} cannot be in a folder; put it at {_place_name(owner, place)}"
-    if rule.once:
+    in_folder = site.parent is not None and site.parent.kind == FOLDER
+    if not kind.placement.accepts(place, owner.subkind if owner is not None else None, in_folder):
+        return _why_not(kind, owner, place)
+    if kind.placement.once:
         for item in site.scope:
             if item.kind == kind.name and item.id != present:
                 return (
@@ -151,6 +148,20 @@ def refusal(kind: ObjectKind[Any], site: Site, *, present: str | None = None) ->
                     "only one is possible"
                 )
     return None
+
+
+def _why_not(kind: ObjectKind[Any], owner: ProjectObject | None, place: str) -> str:
+    """Why a place that the table does not hold is none for a kind."""
+    rule = kind.placement
+    if place not in rule.parents:
+        parents = " or ".join(words_of(parent) for parent in rule.parents)
+        return f"A {kind.words} cannot be below {_place_name(owner, place)}; it belongs below {parents}"
+    if owner is not None and owner.subkind is not None and not rule.accepts(place, owner.subkind, False):
+        allowed = " and ".join(words_of(subkind) for subkind in rule.parent_subkinds)
+        return (
+            f"A {words_of(owner.subkind)} such as '{owner.name}' has no {kind.words}; {allowed} objects may"
+        )
+    return f"A {kind.words} cannot be in a folder; put it at {_place_name(owner, place)}"
 
 
 def check_place(site: Site, kind: str, *, present: str | None = None) -> None:

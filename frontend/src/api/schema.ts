@@ -3585,11 +3585,11 @@ export interface components {
          */
         PlacementRule: {
             /**
-             * In Folders
-             * @description May stand in a folder of such a parent.
-             * @default true
+             * First
+             * @description The same for the first object of the kind in an application.
+             * @default
              */
-            in_folders: boolean;
+            first: string;
             /** Kind */
             kind: string;
             /**
@@ -3618,16 +3618,10 @@ export interface components {
              */
             once: boolean;
             /**
-             * Parent Subkinds
-             * @description Where the parent is a POU: which ones; empty means any.
-             * @default []
+             * Places
+             * @description Where objects may be: kind of the parent, a dot, what its declaration says (empty where it says nothing, * for anything), / for a folder in it; the roots are devices_view and pous_view.
              */
-            parent_subkinds: string[];
-            /**
-             * Parents
-             * @description Kinds of parent; devices_view and pous_view are the roots.
-             */
-            parents: string[];
+            places: string[];
             /**
              * Proposal
              * @description Name that the dialog proposes.
@@ -3640,6 +3634,13 @@ export interface components {
              * @default []
              */
             subkinds: string[];
+            /**
+             * Unique
+             * @description Names differ at one owner with its folders, or among siblings only.
+             * @default scope
+             * @enum {string}
+             */
+            unique: "scope" | "place";
         };
         /**
          * PlcLogicObject

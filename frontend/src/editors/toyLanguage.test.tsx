@@ -31,8 +31,8 @@ const links: ObjectSummary = {
   id: 'Links', kind: 'action', subkind: null, name: 'Links', parent_id: null, index: 0, revision: 1,
 }; // prettier-ignore
 const rule: PlacementRule = {
-  kind: 'pou', parents: ['pous_view'], parent_subkinds: [], in_folders: true, once: false,
-  naming: 'identifier', names: [], proposal: 'POU', subkinds: ['program'], languages: ['ST', 'CHAIN'],
+  kind: 'pou', places: ['pous_view.*'], once: false,
+  naming: 'identifier', names: [], proposal: 'POU', first: '', unique: 'scope', subkinds: ['program'], languages: ['ST', 'CHAIN'],
 }; // prettier-ignore
 const chain = { name: 'CHAIN', title: 'Chain of elements' } as BodyLanguage;
 

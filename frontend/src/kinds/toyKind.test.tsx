@@ -22,8 +22,8 @@ const object = (id: string, kind: string, subkind: string | null = null): Object
 const belt = object('Belt', 'conveyor', 'belt');
 const robot = object('Robot', 'robot');
 const rule: PlacementRule = {
-  kind: 'conveyor', parents: ['pous_view'], parent_subkinds: [], in_folders: true, once: false,
-  naming: 'identifier', names: [], proposal: 'Conveyor', subkinds: ['belt'], languages: [],
+  kind: 'conveyor', places: ['pous_view.*'], once: false,
+  naming: 'identifier', names: [], proposal: 'Conveyor', first: '', unique: 'scope', subkinds: ['belt'], languages: [],
 }; // prettier-ignore
 
 let unregister: () => void;

@@ -84,8 +84,6 @@ export interface ObjectKindDescriptor {
   add?: {
     /** Chosen when Add Object opens. */
     first?: boolean;
-    /** Name of the first one in an application. */
-    firstName?: string;
     /** The server creates further objects below it. */
     bringsChildren?: boolean;
     optionsOf?: (subkind: string | undefined) => readonly AddOption[];

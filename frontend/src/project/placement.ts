@@ -1,11 +1,12 @@
 /**
- * Which kind of object may be where, and how it may be named: the rules of `/placement`, applied as the server does,
- * so that menus offer and drags accept only what will work. The server has the last word. Pure functions.
+ * Which kind of object may be where, and how it may be named: what the server's table (`/placement`) says of a place, so
+ * that menus offer and drags accept at once only what will work. The server has the last word. Pure functions.
  */
 import type { ObjectSummary, PlacementRule } from '@/api/types';
 import type { TextKey } from '@/i18n';
-import { firstKind, hasRole, kindOf } from './kinds';
-import { childrenOf, freeName, isWithin, type Forest, type TreeView } from './tree';
+import { RESERVED } from '@/iec/grammar';
+import { firstKind, hasRole } from './kinds';
+import { childrenOf, freeName, isWithin, rootsOf, type Forest, type TreeView } from './tree';
 
 /** The nearest object at or above the parent that is no folder; undefined for the root of a view. */
 export function ownerOf(forest: Forest, parentId: string | null): ObjectSummary | undefined {
@@ -21,26 +22,24 @@ function scopeOf(forest: Forest, ownerId: string | null): ObjectSummary[] {
   );
 }
 
-/** Whether an object of the kind may be below the parent. `present` is there already and does not count as another. */
-function mayPlace(
-  rule: PlacementRule,
-  forest: Forest,
-  parentId: string | null,
-  view: TreeView,
-  present?: string,
-): boolean {
+/** The names under which the table lists a place. */
+function placesOf(forest: Forest, parentId: string | null, view: TreeView): string[] {
   const owner = ownerOf(forest, parentId);
-  const place = owner ? owner.kind : parentId === null && view === 'devices' ? 'devices_view' : 'pous_view';
-  if (!rule.parents.includes(place)) return false;
-  if (rule.parent_subkinds.length && owner?.subkind && !rule.parent_subkinds.includes(owner.subkind)) {
-    return false;
-  }
-  const direct = parentId ? forest.byId.get(parentId) : undefined;
-  if (!rule.in_folders && hasRole(direct, 'folder')) return false;
+  const parent = owner?.kind ?? (parentId === null && view === 'devices' ? 'devices_view' : 'pous_view');
+  const ending = hasRole(forest.byId.get(parentId ?? ''), 'folder') ? '/' : '';
+  return [owner?.subkind ?? '', '*'].map((subkind) => `${parent}.${subkind}${ending}`);
+}
+
+/** Whether one more of the kind has room. `present` is there already and does not count. */
+function hasRoom(rule: PlacementRule, forest: Forest, parentId: string | null, present?: string): boolean {
   if (rule.naming === 'fixed' && freeFixedNames(rule, forest, parentId, present).length === 0) return false;
-  return (
-    !rule.once || !scopeOf(forest, owner?.id ?? null).some((item) => item.kind === rule.kind && item.id !== present)
-  );
+  const scope = rule.once ? scopeOf(forest, ownerOf(forest, parentId)?.id ?? null) : [];
+  return !scope.some((item) => item.kind === rule.kind && item.id !== present);
+}
+
+function mayPlace(rule: PlacementRule, forest: Forest, parentId: string | null, view: TreeView, present?: string) {
+  const listed = placesOf(forest, parentId, view).some((place) => rule.places.includes(place));
+  return listed && hasRoom(rule, forest, parentId, present);
 }
 
 /** Kinds that Add Object offers here, in the order of the rules, folders last. */
@@ -75,47 +74,47 @@ export function firstChoice(kinds: readonly PlacementRule[], asked?: string): Pl
   return of(asked) ?? of(firstKind()?.kind) ?? kinds[0]!;
 }
 
-/** The name that the dialog proposes: PLC_PRG for the first POU of an application, otherwise the rule's, made unique. */
+/** The name that the dialog proposes, made unique; the first of its kind in an application may have its own. */
 export function proposedName(rule: PlacementRule, forest: Forest, parentId: string | null): string {
   if (rule.naming === 'fixed') return freeFixedNames(rule, forest, parentId)[0] ?? rule.names[0] ?? '';
   const owner = ownerOf(forest, parentId);
   const scope = scopeOf(forest, owner?.id ?? null);
-  const isFirst = hasRole(owner, 'application') && !scope.some((item) => item.kind === rule.kind);
-  const firstName = isFirst ? kindOf(rule.kind)?.add?.firstName : undefined;
+  const isFirst = owner !== undefined && !scope.some((item) => item.kind === rule.kind);
   return freeName(
     scope.map((item) => item.name),
-    firstName ?? (rule.proposal || rule.kind),
+    (isFirst && rule.first) || rule.proposal || rule.kind,
   );
 }
 
 const IDENTIFIER = /^[A-Za-z_][A-Za-z0-9_]*$/;
+const WORDS: ReadonlySet<string> = new Set(RESERVED);
 
 /** What is wrong with a name, as the key of a text; null when it will do. `own` is the object that has the name. */
 export function nameFault(
-  rule: PlacementRule | undefined,
+  rules: readonly PlacementRule[],
+  kind: string,
   forest: Forest,
   parentId: string | null,
   name: string,
   own?: string,
 ): { key: TextKey; values: { name: string } } | null {
+  const ruleOf = (one: string) => rules.find((rule) => rule.kind === one);
   const fault = (key: TextKey) => ({ key, values: { name } });
   if (name === '') return fault('name.empty');
-  if (rule?.naming === 'identifier') {
+  if (ruleOf(kind)?.naming === 'identifier') {
     if (!IDENTIFIER.test(name)) return fault('name.identifier');
     if (name.includes('__')) return fault('name.underscores');
+    if (WORDS.has(name.toUpperCase())) return fault('name.reserved');
   } else if (name !== name.trim()) return fault('name.blanks');
   else if (/[./\\]/.test(name)) return fault('name.separators');
-  const isDevice = rule !== undefined && hasRole(rule, 'device');
-  const owner = ownerOf(forest, parentId);
+  const inCode = (one: string) => ruleOf(one)?.unique !== 'place';
   const siblings =
-    rule !== undefined && hasRole(rule, 'folder') ? childrenOf(forest, parentId) : scopeOf(forest, owner?.id ?? null);
-  const taken = siblings.some(
-    (item) =>
-      item.id !== own &&
-      item.name.toUpperCase() === name.toUpperCase() &&
-      (item.parent_id === parentId || !hasRole(item, 'folder')) &&
-      (parentId !== null || hasRole(item, 'device') === isDevice),
-  );
+    parentId === null
+      ? rootsOf(forest, hasRole({ kind }, 'device') ? 'devices' : 'pous')
+      : childrenOf(forest, parentId);
+  const scope = inCode(kind) ? scopeOf(forest, ownerOf(forest, parentId)?.id ?? null) : [];
+  const others = [...siblings, ...scope.filter((item) => inCode(item.kind))];
+  const taken = others.some((item) => item.id !== own && item.name.toUpperCase() === name.toUpperCase());
   return taken ? fault('name.taken') : null;
 }
 

@@ -46,7 +46,6 @@ const descriptor: ObjectKindDescriptor = {
   compiled: true,
   add: {
     first: true,
-    firstName: 'PLC_PRG',
     optionsOf: (subkind) => {
       if (subkind === 'function_block') return ['extends', 'implements'];
       return subkind === 'function' ? ['returns'] : [];

@@ -56,7 +56,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
   const [busy, setBusy] = useState(false);
   const nameInput = useRef<HTMLInputElement>(null);
   const fixed = fixedNames(rule, forest, parentId);
-  const fault = nameFault(rule, forest, parentId, name);
+  const fault = nameFault(rules, rule.kind, forest, parentId, name);
   const owner = ownerOf(forest, parentId);
 
   const languageTitle = (name: string) =>

@@ -182,8 +182,7 @@ export function ObjectTree({
   };
 
   const faultOf = (object: ObjectSummary) => (name: string) => {
-    const rule = rules.find((candidate) => candidate.kind === object.kind);
-    const fault = nameFault(rule, forest, object.parent_id, name, object.id);
+    const fault = nameFault(rules, object.kind, forest, object.parent_id, name, object.id);
     return fault && t(fault.key, fault.values);
   };
 
