@@ -6,20 +6,8 @@ from collections.abc import Callable
 
 from tappet.iec.sections import subkind_of
 from tappet.project.data import DeclarationData
-from tappet.project.model import Project, ProjectObject
-from tappet.project.object_kind import (
-    CODE_PLACES,
-    Codesys,
-    Compiled,
-    IecText,
-    Naming,
-    ObjectKind,
-    Placement,
-    Plcopen,
-    TwinCat,
-    with_header_name,
-)
-from tappet.project.source_text import SourceWriter
+from tappet.project.declared_kind import declared_kind
+from tappet.project.object_kind import CODE_PLACES, Codesys, Naming, ObjectKind, Placement, Plcopen, TwinCat
 
 
 class DutData(DeclarationData):
@@ -44,34 +32,32 @@ def _template(text: str) -> Callable[[str], DutData]:
     return lambda name: DutData(declaration=text.format(name=name))
 
 
-def _source(project: Project, item: ProjectObject, writer: SourceWriter) -> None:
-    writer.part(item.id, "declaration", item.data_as(DutData).declaration)
-
-
-DUT = ObjectKind(
-    name="dut",
-    words="DUT",
-    description="A data unit type: structure, enumeration, alias, union, subrange.",
-    data=DutData,
-    placement=Placement(parents=CODE_PLACES),
-    naming=Naming(proposal="DUT"),
-    order=70,
-    templates={subkind: _template(text) for subkind, text in _TEXTS.items()},
-    compiled=Compiled(source=_source, in_library=True),
-    renamed=with_header_name,
-    folder=IecText(declared_as=tuple(_TEXTS)),
-    reported=True,
-    plcopen=Plcopen(
-        tags=("dataType", "union"),
-        read=lambda reader, element: reader.data_type(element),
-        write=lambda writer, item: writer.data_type(item),
-        container="dataTypes",
-        data="datatype",
+DUT = declared_kind(
+    ObjectKind(
+        name="dut",
+        words="DUT",
+        description="A data unit type: structure, enumeration, alias, union, subrange.",
+        data=DutData,
+        placement=Placement(parents=CODE_PLACES),
+        naming=Naming(proposal="DUT"),
+        order=70,
+        templates={subkind: _template(text) for subkind, text in _TEXTS.items()},
+        plcopen=Plcopen(
+            tags=("dataType", "union"),
+            read=lambda reader, element: reader.data_type(element),
+            write=lambda writer, item: writer.data_type(item),
+            container="dataTypes",
+            data="datatype",
+        ),
+        twincat=TwinCat(
+            tag="DUT",
+            other_tags=("EnumerationTextList",),
+            not_read={
+                "XmlArchive": "it became an enumeration; the texts that its text list shows are not read"
+            },
+        ),
+        codesys=Codesys(type_ids=("2db5746dd28444259f7f2663a34b0ebc",)),
     ),
-    twincat=TwinCat(
-        tag="DUT",
-        other_tags=("EnumerationTextList",),
-        not_read={"XmlArchive": "it became an enumeration; the texts that its text list shows are not read"},
-    ),
-    codesys=Codesys(type_ids=("2db5746dd28444259f7f2663a34b0ebc",)),
+    declared_as=tuple(_TEXTS),
+    in_library=True,
 )

@@ -7,19 +7,8 @@ from typing import Any
 
 from tappet.iec.parameter_list import PARAMETER_LIST, as_parameter_list, is_parameter_list
 from tappet.project.data import DeclarationData
-from tappet.project.model import Project, ProjectObject
-from tappet.project.object_kind import (
-    CODE_PLACES,
-    Codesys,
-    Compiled,
-    IecText,
-    Naming,
-    ObjectKind,
-    Placement,
-    Plcopen,
-    TwinCat,
-)
-from tappet.project.source_text import SourceWriter
+from tappet.project.declared_kind import declared_kind
+from tappet.project.object_kind import CODE_PLACES, Codesys, Naming, ObjectKind, Placement, Plcopen, TwinCat
 
 
 class GvlData(DeclarationData):
@@ -40,11 +29,6 @@ def _parameter_list(name: str) -> GvlData:
     return GvlData(declaration=f"{{attribute 'qualified_only'}}\n{PARAMETER_LIST}\n{sections}")
 
 
-def _source(project: Project, item: ProjectObject, writer: SourceWriter) -> None:
-    writer.name = item.name
-    writer.part(item.id, "declaration", item.data_as(GvlData).declaration)
-
-
 def _mark(flag: Callable[[Any], str]) -> Callable[[Any, Any], None]:
     """Reads the flag that says that a list is one of parameters, which the text does not say."""
 
@@ -55,27 +39,29 @@ def _mark(flag: Callable[[Any], str]) -> Callable[[Any, Any], None]:
     return read
 
 
-GVL = ObjectKind(
-    name="gvl",
-    words="GVL",
-    description="A global variable list, or the parameter list of a library.",
-    data=GvlData,
-    placement=Placement(parents=CODE_PLACES),
-    naming=Naming(proposal="GVL", from_imports="adapted"),
-    order=80,
-    templates={"variable_list": _variable_list, "parameter_list": _parameter_list},
-    compiled=Compiled(source=_source, in_library=True),
-    folder=IecText(declared_as=("gvl",)),
-    reported=True,
-    plcopen=Plcopen(
-        tags=("globalVars",),
-        read=lambda reader, element: reader.variable_list(element),
-        write=lambda writer, item: writer.variable_list(item),
-        data="globalvars",
+GVL = declared_kind(
+    ObjectKind(
+        name="gvl",
+        words="GVL",
+        description="A global variable list, or the parameter list of a library.",
+        data=GvlData,
+        placement=Placement(parents=CODE_PLACES),
+        naming=Naming(proposal="GVL", from_imports="adapted"),
+        order=80,
+        templates={"variable_list": _variable_list, "parameter_list": _parameter_list},
+        plcopen=Plcopen(
+            tags=("globalVars",),
+            read=lambda reader, element: reader.variable_list(element),
+            write=lambda writer, item: writer.variable_list(item),
+            data="globalvars",
+        ),
+        twincat=TwinCat(tag="GVL", read=_mark(lambda element: element.item.get("ParameterList"))),
+        codesys=Codesys(
+            type_ids=("ffbfa93ab94d45fca329229860183b1d",),
+            read=lambda reader, entry, draft: _mark(lambda one: one.value("IsParameterList"))(entry, draft),
+        ),
     ),
-    twincat=TwinCat(tag="GVL", read=_mark(lambda element: element.item.get("ParameterList"))),
-    codesys=Codesys(
-        type_ids=("ffbfa93ab94d45fca329229860183b1d",),
-        read=lambda reader, entry, draft: _mark(lambda one: one.value("IsParameterList"))(entry, draft),
-    ),
+    declared_as=("gvl",),
+    names_itself=False,
+    in_library=True,
 )

@@ -7,18 +7,8 @@ from typing import Any
 
 from tappet.iec.tokens import words
 from tappet.project.data import DeclarationData
-from tappet.project.model import Project, ProjectObject
-from tappet.project.object_kind import (
-    Codesys,
-    Compiled,
-    IecText,
-    Merging,
-    Naming,
-    ObjectKind,
-    Placement,
-    Plcopen,
-)
-from tappet.project.source_text import SourceWriter
+from tappet.project.declared_kind import declared_kind
+from tappet.project.object_kind import Codesys, Merging, Naming, ObjectKind, Placement, Plcopen
 
 
 class PersistentData(DeclarationData):
@@ -35,30 +25,27 @@ def _claims(text: str) -> bool:
     return False
 
 
-def _source(project: Project, item: ProjectObject, writer: SourceWriter) -> None:
-    writer.name = item.name
-    writer.part(item.id, "declaration", item.data_as(PersistentData).declaration)
-
-
 def _joined(old: PersistentData, new: Mapping[str, Any]) -> dict[str, Any]:
     return {"declaration": "\n".join([old.declaration.rstrip("\n"), new.get("declaration", "")])}
 
 
-PERSISTENT = ObjectKind(
-    name="persistent",
-    words="persistent",
-    description="The list of persistent variables of an application.",
-    data=PersistentData,
-    placement=Placement(parents=("application",), once=True),
-    naming=Naming(proposal="PersistentVars", from_imports="adapted"),
-    order=90,
-    new=lambda name: PersistentData(declaration="VAR_GLOBAL PERSISTENT RETAIN\nEND_VAR"),
-    compiled=Compiled(source=_source, in_library=False),
-    folder=IecText(declared_as=("gvl",), claims=_claims),
-    merging=Merging(
-        join=_joined, note="its variables stand in the persistent list '{name}', which was there already"
+PERSISTENT = declared_kind(
+    ObjectKind(
+        name="persistent",
+        words="persistent",
+        description="The list of persistent variables of an application.",
+        data=PersistentData,
+        placement=Placement(parents=("application",), once=True),
+        naming=Naming(proposal="PersistentVars", from_imports="adapted"),
+        order=90,
+        new=lambda name: PersistentData(declaration="VAR_GLOBAL PERSISTENT RETAIN\nEND_VAR"),
+        merging=Merging(
+            join=_joined, note="its variables stand in the persistent list '{name}', which was there already"
+        ),
+        plcopen=Plcopen(write=lambda writer, item: writer.variable_list(item), data="globalvars"),
+        codesys=Codesys(type_ids=("261bd6e6249c4232bb6f84c2fbeef430",)),
     ),
-    reported=True,
-    plcopen=Plcopen(write=lambda writer, item: writer.variable_list(item), data="globalvars"),
-    codesys=Codesys(type_ids=("261bd6e6249c4232bb6f84c2fbeef430",)),
+    declared_as=("gvl",),
+    claims=_claims,
+    names_itself=False,
 )

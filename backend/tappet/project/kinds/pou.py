@@ -4,20 +4,8 @@ from __future__ import annotations
 
 from tappet.iec.sections import end_keyword, subkind_of
 from tappet.project.data import BodyData
-from tappet.project.model import Project, ProjectObject
-from tappet.project.object_kind import (
-    CODE_PLACES,
-    Codesys,
-    Compiled,
-    IecText,
-    Naming,
-    ObjectKind,
-    Placement,
-    Plcopen,
-    TwinCat,
-    with_header_name,
-)
-from tappet.project.source_text import SourceWriter
+from tappet.project.declared_kind import declared_kind
+from tappet.project.object_kind import CODE_PLACES, Codesys, Naming, ObjectKind, Placement, Plcopen, TwinCat
 
 
 class PouData(BodyData):
@@ -50,31 +38,28 @@ def _function(name: str) -> PouData:
     return PouData(declaration=f"FUNCTION {name} : BOOL\nVAR_INPUT\nEND_VAR\nVAR\nEND_VAR")
 
 
-def _source(project: Project, item: ProjectObject, writer: SourceWriter) -> None:
-    writer.declared_body(item, item.data_as(PouData))
-
-
-POU = ObjectKind(
-    name="pou",
-    words="POU",
-    description="A program, function block or function.",
-    data=PouData,
-    placement=Placement(parents=CODE_PLACES),
-    naming=Naming(proposal="POU", first="PLC_PRG"),
-    order=50,
-    templates={"program": _program, "function_block": _function_block, "function": _function},
-    written=True,
-    compiled=Compiled(source=_source, members="beside", in_library=True),
-    renamed=with_header_name,
-    folder=IecText(implementation=True, end=_end, declared_as=("program", "function_block", "function")),
-    reported=True,
-    plcopen=Plcopen(
-        tags=("pou",),
-        read=lambda reader, element: reader.pou(element),
-        write=lambda writer, item: writer.pou(item),
-        container="pous",
-        data="pou",
+POU = declared_kind(
+    ObjectKind(
+        name="pou",
+        words="POU",
+        description="A program, function block or function.",
+        data=PouData,
+        placement=Placement(parents=CODE_PLACES),
+        naming=Naming(proposal="POU", first="PLC_PRG"),
+        order=50,
+        templates={"program": _program, "function_block": _function_block, "function": _function},
+        plcopen=Plcopen(
+            tags=("pou",),
+            read=lambda reader, element: reader.pou(element),
+            write=lambda writer, item: writer.pou(item),
+            container="pous",
+            data="pou",
+        ),
+        twincat=TwinCat(tag="POU"),
+        codesys=Codesys(type_ids=("6f9dac998de14efc846568ac443b7d08",)),
     ),
-    twincat=TwinCat(tag="POU"),
-    codesys=Codesys(type_ids=("6f9dac998de14efc846568ac443b7d08",)),
+    declared_as=("program", "function_block", "function"),
+    end=_end,
+    members="beside",
+    in_library=True,
 )

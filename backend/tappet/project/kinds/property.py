@@ -4,20 +4,10 @@ from __future__ import annotations
 
 from tappet.iec.sections import end_keyword
 from tappet.project.data import DeclarationData
+from tappet.project.declared_kind import declared_kind
 from tappet.project.kinds.accessor import AccessorData
 from tappet.project.model import Project, ProjectObject
-from tappet.project.object_kind import (
-    Child,
-    Codesys,
-    Compiled,
-    IecText,
-    Naming,
-    ObjectKind,
-    Placement,
-    Plcopen,
-    TwinCat,
-    with_header_name,
-)
+from tappet.project.object_kind import Child, Codesys, Naming, ObjectKind, Placement, Plcopen, TwinCat
 from tappet.project.source_text import SourceWriter
 
 
@@ -41,21 +31,22 @@ def _source(project: Project, item: ProjectObject, writer: SourceWriter) -> None
     writer.keyword(end_keyword(declaration))
 
 
-PROPERTY = ObjectKind(
-    name="property",
-    words="property",
-    description="A property; its accessors are its children.",
-    data=PropertyData,
-    placement=Placement(parents=("pou", "interface"), parent_subkinds=("program", "function_block")),
-    naming=Naming(proposal="Prop"),
-    order=110,
-    new=lambda name: PropertyData(declaration=f"PROPERTY {name} : BOOL"),
-    children=(Child("accessor", "Get"), Child("accessor", "Set")),
-    compiled=Compiled(source=_source),
-    renamed=with_header_name,
-    folder=IecText(end=lambda name, declaration: "END_PROPERTY", declared_as=("property",)),
-    reported=True,
-    plcopen=Plcopen(write=lambda writer, item: writer.property(item), data="property", member=True),
-    twincat=TwinCat(tag="Property", member=True, read=lambda element, draft: element.accessors(draft)),
-    codesys=Codesys(type_ids=("5a3b8626d3e94f3798b566420063d91e",)),
+PROPERTY = declared_kind(
+    ObjectKind(
+        name="property",
+        words="property",
+        description="A property; its accessors are its children.",
+        data=PropertyData,
+        placement=Placement(parents=("pou", "interface"), parent_subkinds=("program", "function_block")),
+        naming=Naming(proposal="Prop"),
+        order=110,
+        new=lambda name: PropertyData(declaration=f"PROPERTY {name} : BOOL"),
+        children=(Child("accessor", "Get"), Child("accessor", "Set")),
+        plcopen=Plcopen(write=lambda writer, item: writer.property(item), data="property", member=True),
+        twincat=TwinCat(tag="Property", member=True, read=lambda element, draft: element.accessors(draft)),
+        codesys=Codesys(type_ids=("5a3b8626d3e94f3798b566420063d91e",)),
+    ),
+    declared_as=("property",),
+    end="END_PROPERTY",
+    source=_source,
 )
