@@ -24,6 +24,7 @@ from lsprotocol import types as lsp
 
 from tappet.bench import build as build_bench
 from tappet.bench import editor_sessions
+from tappet.bench.editor_sessions import replaced
 from tappet.bench.report import Report, Row
 from tappet.lang.source import Source
 from tappet.project.model import Project, new_id
@@ -224,24 +225,15 @@ class Editor:
     async def edit(self, edit: Edit) -> list[Seconds]:
         """Times from a change of the text to the messages on it, and to those that come last."""
         old, new = (edit.good, edit.bad) if edit.good in self.text else (edit.bad, edit.good)
-        start = self.text.index(old)
-        line = self.text.count("\n", 0, start)
-        column = start - (self.text.rfind("\n", 0, start) + 1)
-        self.text = self.text.replace(old, new, 1)
         self.version += 1
-        span = {
-            "start": {"line": line, "character": column},
-            "end": {"line": line, "character": column + len(old)},
-        }
-        params = {
-            "textDocument": {"uri": self.document, "version": self.version},
-            "contentChanges": [{"range": span, "text": new}],
-        }
+        self.text, change = replaced(self.text, old, new)
+        document = {"uri": self.document, "version": self.version}
+        params = {"textDocument": document, "contentChanges": [change]}
         started, worked = time.perf_counter(), time.process_time()
         await self.notify(lsp.TEXT_DOCUMENT_DID_CHANGE, params)
         times = []
-        for document in self.published:
-            await self.messages(document)
+        for published in self.published:
+            await self.messages(published)
             times.append(Seconds(time.perf_counter() - started, time.process_time() - worked))
         return times
 

@@ -61,6 +61,18 @@ class Memory:
         return cls(pss, uss)
 
 
+def replaced(text: str, old: str, new: str) -> tuple[str, dict[str, Any]]:
+    """`text` with `new` in place of the first `old`, and the change as the protocol tells it."""
+    start = text.index(old)
+    line = text.count("\n", 0, start)
+    column = units(text[text.rfind("\n", 0, start) + 1 : start], 1 << 20)
+    span = {
+        "start": {"line": line, "character": column},
+        "end": {"line": line, "character": column + len(old)},
+    }
+    return text.replace(old, new, 1), {"range": span, "text": new}
+
+
 @dataclass(slots=True)
 class Browser:
     """A client that reads what is published of one document."""
@@ -94,19 +106,10 @@ class Browser:
     async def edit(self) -> None:
         """Make the mistake, or take it back."""
         old, new = (GOOD, BAD) if GOOD in self.text else (BAD, GOOD)
-        start = self.text.index(old)
-        line = self.text.count("\n", 0, start)
-        column = units(self.text[self.text.rfind("\n", 0, start) + 1 : start], 1 << 20)
-        self.text = self.text.replace(old, new, 1)
         self.version += 1
-        span = {
-            "start": {"line": line, "character": column},
-            "end": {"line": line, "character": column + len(old)},
-        }
-        params = {
-            "textDocument": {"uri": self.document, "version": self.version},
-            "contentChanges": [{"range": span, "text": new}],
-        }
+        self.text, change = replaced(self.text, old, new)
+        document = {"uri": self.document, "version": self.version}
+        params = {"textDocument": document, "contentChanges": [change]}
         await self._say({"method": "textDocument/didChange", "params": params})
 
     async def _say(self, message: dict[str, Any]) -> None:

@@ -48,6 +48,16 @@ class ArgumentParser(argparse.ArgumentParser):
         """`--application`."""
         self.add_argument("--application", metavar="NAME", help=help)
 
+    def cycle_limit_option(self, seconds: float, counts_as: str) -> None:
+        """`--cycle-limit`; `counts_as` says what a longer cycle is taken for."""
+        self.add_argument(
+            "--cycle-limit",
+            type=decimal(0.01),
+            default=seconds,
+            metavar="S",
+            help=f"seconds after which a cycle counts as {counts_as} (default: %(default)s)",
+        )
+
     def programs(self) -> None:
         """PATH...: a project folder or plain texts."""
         self.add_argument(

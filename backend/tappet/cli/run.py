@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tappet.cli.arguments import ArgumentParser, decimal, integer
+from tappet.cli.arguments import ArgumentParser, integer
 from tappet.cli.errors import UsageError, complain
 from tappet.cli.output import show_json
 
@@ -46,13 +46,7 @@ def run_arguments(parser: ArgumentParser) -> None:
     )
     parser.path_option("--trace", metavar="FILE", help="CSV of the printed values, a row a cycle")
     parser.add_argument("--stats", action="store_true", help="cycles and execution times of each task")
-    parser.add_argument(
-        "--cycle-limit",
-        type=decimal(0.01),
-        default=3.0,
-        metavar="S",
-        help="seconds after which a cycle counts as stuck (default: %(default)s)",
-    )
+    parser.cycle_limit_option(3.0, "stuck")
     parser.application_option("which application of the project")
     parser.format_option()
 

@@ -6,7 +6,7 @@ import sys
 from argparse import Namespace
 from typing import TYPE_CHECKING
 
-from tappet.cli.arguments import ArgumentParser, decimal, integer
+from tappet.cli.arguments import ArgumentParser, integer
 from tappet.cli.errors import UsageError, complain
 from tappet.cli.output import show_json
 
@@ -30,13 +30,7 @@ def run_unit_tests_arguments(parser: ArgumentParser) -> None:
         metavar="T",
         help="time of the PLC for all tests, such as 30s or 1h (default: %(default)s)",
     )
-    parser.add_argument(
-        "--cycle-limit",
-        type=decimal(0.01),
-        default=2.0,
-        metavar="S",
-        help="seconds after which a cycle counts as endless (default: %(default)s)",
-    )
+    parser.cycle_limit_option(2.0, "endless")
     parser.add_argument(
         "--memory-limit",
         type=integer(16),

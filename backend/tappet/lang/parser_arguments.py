@@ -158,16 +158,21 @@ class ArgumentParser(Core, ABC):
         self.i = start + 1
         if self.depth >= MAX_NESTING:
             return self.too_deep()
+        elements = self._elements("]")
+        return ast.ArrayInit(span=self.span_from(start), elements=elements)
+
+    def _elements(self, end: str) -> list[ast.Expr]:
+        """Elements of an array up to `end`, which is taken."""
         self.depth += 1
         elements: list[ast.Expr] = []
-        if self.kinds[self.i] != "]":
+        if self.kinds[self.i] != end:
             elements.append(self.array_element())
             while self.kinds[self.i] == ",":
                 self.i += 1
                 elements.append(self.array_element())
         self.depth -= 1
-        self.take("]")
-        return ast.ArrayInit(span=self.span_from(start), elements=elements)
+        self.take(end)
+        return elements
 
     def initial_value_of(self, type_ref: ast.TypeRef) -> ast.Expr:
         """The initial value of a variable. CoDeSys 2.3 writes arrays without brackets: `1, 2, 4(0)`; only the
@@ -195,14 +200,6 @@ class ArgumentParser(Core, ABC):
             self.i += 1
             if self.depth >= MAX_NESTING:
                 return self.too_deep()
-            self.depth += 1
-            values: list[ast.Expr] = []
-            if self.kinds[self.i] != ")":
-                values.append(self.array_element())
-                while self.kinds[self.i] == ",":
-                    self.i += 1
-                    values.append(self.array_element())
-            self.depth -= 1
-            self.take(")")
+            values = self._elements(")")
             return ast.Repeat(span=self.span_from(start), count=count, values=values)
         return self.initial_value()

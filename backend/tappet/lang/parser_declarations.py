@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import PurePosixPath
-from typing import Final
+from typing import Final, TypeVar
 
 from tappet.iec.words import (
     ACCESS_SPECIFIERS,
@@ -22,12 +23,15 @@ from tappet.lang.languages.reader import TextReader
 from tappet.lang.lexer import END, ID
 from tappet.lang.parser_core import BODY_END, Opener
 from tappet.lang.parser_type_blocks import TypeBlockParser
-from tappet.lang.source import NOWHERE, Span
+from tappet.lang.source import NOWHERE
 
 _BEHIND_VARIABLE: Final = frozenset([":=", "(", ".", "[", "^"])
 """What follows a name that begins a statement."""
 _HOLDERS: Final = frozenset(["PROGRAM", "FUNCTION_BLOCK"])
 _TYPED: Final = frozenset(["FUNCTION", "METHOD"])
+
+
+_Head = TypeVar("_Head", ast.Pou, ast.Property, ast.Interface)
 
 
 class Parser(TypeBlockParser):
@@ -144,21 +148,8 @@ class Parser(TypeBlockParser):
         """A POU, method, action or transition; stands at the keyword `kind`."""
         start = self.i
         opener = (kind, self.lines[start])
-        self.i = start + 1
-        access, modifiers = self._access()
-        name, name_span = self.name(kind.lower().replace("_", " "))
-        pou = ast.Pou(
-            span=self.span_at(start),
-            name=name,
-            name_span=name_span,
-            source=self.source,
-            attributes=self.attributes_before(start),
-            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
-            kind=kind,
-            access=access,
-            modifiers=modifiers,
-            owner=owner if isinstance(owner, ast.Pou) else None,
-        )
+        pou = self._head(ast.Pou, kind.lower().replace("_", " "), kind=kind)
+        pou.owner = owner if isinstance(owner, ast.Pou) else None
         while self.kinds[self.i] == "VAR_GENERIC":  # CODESYS writes it before EXTENDS
             self._section(pou)
         self._heritage(pou)
@@ -193,6 +184,26 @@ class Parser(TypeBlockParser):
         if self.kinds[i] is not ID or self.lines[i] != self.lines[i - 1]:
             return False
         return self.kinds[i + 1] in SECTIONS or self.lines[i + 1] != self.lines[i]
+
+    def _head(self, make: Callable[..., _Head], what: str, **own: object) -> _Head:
+        """The node of a declaration whose keyword stands here, up to its name; `own` is for `make` alone."""
+        start = self.i
+        self.i = start + 1
+        access, modifiers = self._access()
+        name, name_span = self.name(what)
+        node = make(
+            span=self.span_at(start),
+            name=name,
+            name_span=name_span,
+            source=self.source,
+            attributes=self.attributes_before(start),
+            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
+            access=access,
+            **own,
+        )
+        if isinstance(node, ast.Pou | ast.Property):
+            node.modifiers = modifiers
+        return node
 
     def _access(self) -> tuple[str, set[str]]:
         """Words before a name such as PRIVATE or ABSTRACT; such a word may also be the name itself."""
@@ -337,20 +348,7 @@ class Parser(TypeBlockParser):
         """PROPERTY name : type GET ... END_GET SET ... END_SET END_PROPERTY."""
         start = self.i
         opener = ("PROPERTY", self.lines[start])
-        self.i = start + 1
-        access, modifiers = self._access()
-        name, name_span = self.name("property")
-        node = ast.Property(
-            span=self.span_at(start),
-            name=name,
-            name_span=name_span,
-            source=self.source,
-            attributes=self.attributes_before(start),
-            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
-            type_ref=None,
-            access=access,
-            modifiers=modifiers,
-        )
+        node = self._head(ast.Property, "property", type_ref=None)
         if self.take(":", "':' and a type", "Write 'PROPERTY name : type'."):
             node.type_ref = self.type_reference()
         if self.kinds[self.i] == ";":
@@ -359,9 +357,9 @@ class Parser(TypeBlockParser):
         while True:
             word = self.word()
             if word == "GET" and node.getter is None:
-                node.getter = self._accessor("GET", name, name_span)
+                node.getter = self._accessor("GET", node)
             elif word == "SET" and node.setter is None:
-                node.setter = self._accessor("SET", name, name_span)
+                node.setter = self._accessor("SET", node)
             elif self.kinds[self.i] in SECTIONS:
                 hint = "Declare it in the GET or SET that uses it."
                 self.error("E0114", what="A variable", where="a PROPERTY outside GET and SET", hint=hint)
@@ -376,14 +374,16 @@ class Parser(TypeBlockParser):
         node.span = self.span_from(start)
         return node
 
-    def _accessor(self, word: str, name: str, name_span: Span) -> ast.Accessor:
+    def _accessor(self, word: str, of: ast.Property) -> ast.Accessor:
         """GET or SET of a property, which is read like a method."""
         start = self.i
         opener = (word, self.lines[start])
         self.i = start + 1
         while self.word() in ACCESS_SPECIFIERS and self.kinds[self.i + 1] not in _BEHIND_VARIABLE:
             self.i += 1  # the property says who may use it
-        method = ast.Pou(span=NOWHERE, name=name, name_span=name_span, source=self.source, kind="METHOD")
+        method = ast.Pou(
+            span=NOWHERE, name=of.name, name_span=of.name_span, source=self.source, kind="METHOD"
+        )
         while self.kinds[self.i] in SECTIONS:
             method.blocks.append(self.variable_block())
         bare = self.word() in ("GET", "SET") and self.kinds[self.i + 1] not in _BEHIND_VARIABLE
@@ -400,18 +400,7 @@ class Parser(TypeBlockParser):
         """INTERFACE name EXTENDS a, b with the heads of methods and properties."""
         start = self.i
         opener = ("INTERFACE", self.lines[start])
-        self.i = start + 1
-        access, _ = self._access()
-        name, name_span = self.name("interface")
-        node = ast.Interface(
-            span=self.span_at(start),
-            name=name,
-            name_span=name_span,
-            access=access,
-            source=self.source,
-            attributes=self.attributes_before(start),
-            comment=self.comment_above(start) or self.comment_of(self.i - 1, self.i - 1),
-        )
+        node = self._head(ast.Interface, "interface")
         if self.word() == "EXTENDS":
             self.i += 1
             bases = [self.qualified_name("interface")]

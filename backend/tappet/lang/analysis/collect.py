@@ -12,6 +12,7 @@ from tappet.lang.analysis.collect_members import (
     collect_head,
     collect_property,
     collect_property_head,
+    declared_pou,
 )
 from tappet.lang.analysis.collect_variables import (
     add_variable,
@@ -27,12 +28,11 @@ from tappet.lang.analysis.scope import Level, describe
 from tappet.lang.any_type import ANY_TYPES, TYPE_CLASS_SYMBOL
 from tappet.lang.attributes import attribute
 from tappet.lang.exceptions import EXCEPTION_CODE_SYMBOL
-from tappet.lang.source import Source
+from tappet.lang.source import Source, Span
 from tappet.lang.symbols import (
     GvlSymbol,
     InterfaceSymbol,
     NamespaceSymbol,
-    PouSymbol,
     Storage,
     Symbol,
     TypeSymbol,
@@ -105,18 +105,7 @@ def _declare(session: Session, level: Level, symbol: Symbol, declaration: ast.De
 
 
 def _pou(session: Session, found: Collected, pou: ast.Pou, source: Source, level: Level) -> None:
-    symbol = PouSymbol(
-        pou.name,
-        source,
-        pou.name_span,
-        pou.comment,
-        pou.access,
-        pou=pou,
-        kind=pou.kind,
-        qualified_name=pou.name,
-    )
-    symbol = session.stand_for(symbol, source.uri)
-    pou.symbol = symbol
+    symbol = declared_pou(session, pou, source)
     if pou.kind in ("PROGRAM", "FUNCTION_BLOCK"):
         instance = t.FunctionBlock(pou.name, program=pou.kind == "PROGRAM", pou=pou)
         symbol.instance = session.stand_for(instance, source.uri)
@@ -131,12 +120,15 @@ def _pou(session: Session, found: Collected, pou: ast.Pou, source: Source, level
         collect_property(session, found, symbol, property_, source)
 
 
+def _named(declaration: ast.Declaration, source: Source) -> tuple[str, Source, Span, str, str]:
+    """What every symbol says of its declaration."""
+    return declaration.name, source, declaration.name_span, declaration.comment, declaration.access
+
+
 def _interface(
     session: Session, found: Collected, declaration: ast.Interface, source: Source, level: Level
 ) -> None:
-    named = declaration.name, source, declaration.name_span, declaration.comment, declaration.access
-    symbol = InterfaceSymbol(*named)
-    symbol = session.stand_for(symbol, source.uri)
+    symbol = session.stand_for(InterfaceSymbol(*_named(declaration, source)), source.uri)
     symbol.type = session.stand_for(t.Interface(declaration.name, pou=declaration), source.uri)
     declaration.symbol = symbol
     _declare(session, level, symbol, declaration)
@@ -150,9 +142,7 @@ def _interface(
 def _type(
     session: Session, found: Collected, declaration: ast.TypeDecl, source: Source, level: Level
 ) -> None:
-    named = declaration.name, source, declaration.name_span, declaration.comment, declaration.access
-    symbol = TypeSymbol(*named)
-    symbol = session.stand_for(symbol, source.uri)
+    symbol = session.stand_for(TypeSymbol(*_named(declaration, source)), source.uri)
     _declare(session, level, symbol, declaration)
     found.types.append((symbol, declaration, source))
     declaration.type = None

@@ -30,8 +30,12 @@ def attach(session: Session, found: Collected, child: ast.Pou | ast.Property, so
         session.report("E0429", source.uri, child.name_span, what=f"{what} '{child.name}'")
 
 
-def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast.Pou, source: Source) -> None:
-    """A method, action or transition of a program or block."""
+def declared_pou(
+    session: Session, pou: ast.Pou, source: Source, owner: PouSymbol | InterfaceSymbol | None = None
+) -> PouSymbol:
+    """The symbol of a POU, or of what belongs to a program, block or interface."""
+    block = owner if isinstance(owner, PouSymbol) else None
+    within = block.qualified_name if block else owner.name if owner is not None else ""
     symbol = PouSymbol(
         pou.name,
         source,
@@ -39,13 +43,19 @@ def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast
         pou.comment,
         pou.access,
         pou=pou,
-        kind=pou.kind,
-        qualified_name=f"{owner.qualified_name}.{pou.name}",
-        instance=owner.instance,
-        owner=owner,
+        kind="METHOD" if isinstance(owner, InterfaceSymbol) else pou.kind,
+        qualified_name=f"{within}.{pou.name}" if within else pou.name,
+        instance=block.instance if block else None,
+        owner=block,
     )
-    symbol = session.stand_for(symbol, source.uri, owner.qualified_name)
+    symbol = session.stand_for(symbol, source.uri, within)
     pou.symbol = symbol
+    return symbol
+
+
+def collect_child(session: Session, found: Collected, owner: PouSymbol, pou: ast.Pou, source: Source) -> None:
+    """A method, action or transition of a program or block."""
+    symbol = declared_pou(session, pou, source, owner)
     check_name(session, pou.name, source, pou.name_span)
     table = owner.methods if pou.kind == "METHOD" else owner.actions
     if not is_free(session, found, owner, pou.kind.lower(), pou.name, source, pou.name_span):
@@ -85,19 +95,7 @@ def _add_accessors(
         if accessor is None:
             continue
         pou = accessor_pou(property_, accessor, prefix, block.pou if block else None, source)
-        head = PouSymbol(
-            pou.name,
-            source,
-            property_.name_span,
-            access=pou.access,
-            pou=pou,
-            kind="METHOD",
-            qualified_name=f"{block.qualified_name if block else owner.name}.{pou.name}",
-            instance=block.instance if block else None,
-            owner=block,
-        )
-        head = session.stand_for(head, source.uri, block.qualified_name if block else owner.name)
-        pou.symbol = head
+        head = declared_pou(session, pou, source, owner)
         found.own[id(head)] = collect_variables(session, found, head, accessor.blocks, source)
         _add_accessor_value(session, found.own[id(head)], head, property_, source)
         if block is None:
@@ -160,18 +158,7 @@ def collect_head(
     session: Session, found: Collected, owner: InterfaceSymbol, pou: ast.Pou, source: Source
 ) -> None:
     """A method of an interface."""
-    symbol = PouSymbol(
-        pou.name,
-        source,
-        pou.name_span,
-        pou.comment,
-        pou.access,
-        pou=pou,
-        kind="METHOD",
-        qualified_name=f"{owner.name}.{pou.name}",
-    )
-    symbol = session.stand_for(symbol, source.uri, owner.name)
-    pou.symbol = symbol
+    symbol = declared_pou(session, pou, source, owner)
     old = member_named(owner, pou.name.upper())
     if old is not None:
         report_twice(session, "method", pou.name, source, pou.name_span, old)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from itertools import repeat
 
 from tappet.lang import ast
@@ -72,15 +73,20 @@ def _find(session: Session, source: Source, name: str, span: Span) -> Symbol | N
 def _link_interface(
     session: Session, interface: InterfaceSymbol, declaration: ast.Interface, source: Source
 ) -> None:
-    interface.bases = []
-    for name, span in zip(
-        declaration.extends, declaration.extends_spans or repeat(declaration.name_span), strict=False
-    ):
-        base = _find(session, source, name, span)
-        if isinstance(base, InterfaceSymbol):
-            interface.bases.append(base)
+    spans = declaration.extends_spans or repeat(declaration.name_span)
+    interface.bases = list(_interfaces(session, source, declaration.extends, spans))
+
+
+def _interfaces(
+    session: Session, source: Source, names: Iterable[str], spans: Iterable[Span]
+) -> Iterator[InterfaceSymbol]:
+    """The interfaces of these names; what is none is reported."""
+    for name, span in zip(names, spans, strict=False):
+        found = _find(session, source, name, span)
+        if isinstance(found, InterfaceSymbol):
+            yield found
         else:
-            hint = _wrong_interface(session, source, name, base)
+            hint = _wrong_interface(session, source, name, found)
             session.report("E0217", source.uri, span, name=name, hint=hint)
 
 
@@ -112,13 +118,8 @@ def _link_pou(session: Session, pou: PouSymbol) -> None:
         else:
             what = pou.kind.lower().replace("_", " ")
             session.report("E0417", source.uri, node.name_span, name=pou.name, base=base.name, what=what)
-    for name, span in zip(node.implements, node.implements_spans or repeat(node.name_span), strict=False):
-        interface = _find(session, source, name, span)
-        if isinstance(interface, InterfaceSymbol):
-            pou.interfaces.append(interface)
-        else:
-            hint = _wrong_interface(session, source, name, interface)
-            session.report("E0217", source.uri, span, name=name, hint=hint)
+    spans = node.implements_spans or repeat(node.name_span)
+    pou.interfaces += _interfaces(session, source, node.implements, spans)
 
 
 def _wrong_interface(session: Session, source: Source, name: str, found: Symbol | None) -> str:

@@ -140,14 +140,20 @@ def _varinfo(b: Body, e: ast.Call, name: str) -> None:
 
 def _ref(b: Body, e: ast.Call, name: str) -> None:
     """`REF(x)` of IEC 61131-3: what a REF_TO is assigned."""
+    operand = _variable_argument(b, e, name)
+    if operand is not None and is_place(operand):
+        mark_written(b, operand)
+        finish(e, "ADR", [None], t.Pointer(operand.type, ref_to=True))
+
+
+def _variable_argument(b: Body, e: ast.Call, name: str) -> ast.Expr | None:
+    """The only argument of a call, evaluated; what is no variable is reported."""
     operand = _only_argument(b, e, name)
     if operand is None or value(b, operand) is None:
-        return
+        return None
     if not is_place(operand):
         b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
-        return
-    mark_written(b, operand)
-    finish(e, "ADR", [None], t.Pointer(operand.type, ref_to=True))
+    return operand
 
 
 def _adrinst(b: Body, e: ast.Call, name: str) -> None:
@@ -372,12 +378,9 @@ def _fixed(parameters: tuple[Elementary, ...], result: Elementary | None) -> Res
 
 
 def _load(b: Body, e: ast.Call, name: str) -> None:
-    operand = _only_argument(b, e, name)
-    if operand is None or value(b, operand) is None:
-        return
-    if not is_place(operand):
-        b.report("E0323", operand.span, op=name, what="a variable", given="an expression")
-    finish(e, name, [None], operand.type)
+    operand = _variable_argument(b, e, name)
+    if operand is not None:
+        finish(e, name, [None], operand.type)
 
 
 def _store(b: Body, e: ast.Call, name: str) -> None:

@@ -167,6 +167,17 @@ def _arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
         _warn(b, e, left, right, meeting)
 
 
+def _scale(b: Body, e: ast.Binary, time: ast.Expr, type_: Elementary, factor: ast.Expr) -> None:
+    """A time of this type multiplied with or divided by a number."""
+    is_real = getattr(factor.type, "kind", None) is Kind.REAL
+    if factor.untyped and not retype(factor, t.LREAL if is_real else t.DINT):
+        _incompatible(b, e, e.left, e.right)
+        return
+    e.type = type_
+    e.untyped = False
+    time.untyped = False
+
+
 def _special_arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None:
     """Times, dates and pointers."""
     lt, rt = t.value_type(left.type), t.value_type(right.type)  # type: ignore[arg-type]
@@ -186,22 +197,10 @@ def _special_arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr)
                 e.untyped = left.untyped and right.untyped
                 return
         elif times == (True, False) and op in "*/" and (rt.is_integer or rt.kind is Kind.REAL):
-            if right.untyped and not retype(right, t.LREAL if rt.kind is Kind.REAL else t.DINT):
-                _incompatible(b, e, left, right)
-                return
-            e.type = lt
-            e.untyped = False
-            if left.untyped:
-                left.untyped = False
+            _scale(b, e, left, lt, right)
             return
         elif times == (False, True) and op == "*" and (lt.is_integer or lt.kind is Kind.REAL):
-            if left.untyped and not retype(left, t.LREAL if lt.kind is Kind.REAL else t.DINT):
-                _incompatible(b, e, left, right)
-                return
-            e.type = rt
-            e.untyped = False
-            if right.untyped:
-                right.untyped = False
+            _scale(b, e, right, rt, left)
             return
         elif lt.kind is Kind.DATE and rt.kind is Kind.TIME and op in "+-" and lt not in _DAYS:
             if right.untyped:

@@ -24,7 +24,7 @@ from tappet.lang.symbols import (
 
 _PINS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT")
 _MAX_LINES = 40
-_POU_KINDS = {
+POU_KINDS = {
     "PROGRAM": ItemKind.PROGRAM,
     "FUNCTION": ItemKind.FUNCTION,
     "FUNCTION_BLOCK": ItemKind.FUNCTION_BLOCK,
@@ -32,12 +32,13 @@ _POU_KINDS = {
     "ACTION": ItemKind.ACTION,
     "TRANSITION": ItemKind.ACTION,
 }
+"""By the keyword of a POU."""
 
 
 def kind_of(symbol: Symbol) -> ItemKind:
     """What a symbol is."""
     if isinstance(symbol, PouSymbol):
-        return _POU_KINDS.get(symbol.kind, ItemKind.FUNCTION)
+        return POU_KINDS.get(symbol.kind, ItemKind.FUNCTION)
     if isinstance(symbol, VarSymbol):
         if "CONSTANT" in symbol.flags:
             return ItemKind.CONSTANT

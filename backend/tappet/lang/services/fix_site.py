@@ -132,6 +132,14 @@ class Site:
         """Put lines (with their line ends) before a line, also before one that is in no document."""
         return insert_before_line(self.view.text, self.lines, line, text)
 
+    def conversion(self, function: str) -> CodeAction:
+        """Wraps what the message is about into a function of conversion."""
+        span = self.span
+        opening = self.insert(span.line, span.column, f"{function}(")
+        closing = self.insert(span.end_line, span.end_column, ")")
+        title = f"Convert with {function}"
+        return self.action("convert", title, opening, closing, preferred=True, function=function)
+
     def action(
         self,
         key: str,

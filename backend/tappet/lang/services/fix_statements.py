@@ -106,12 +106,7 @@ def explicit_conversion(site: Site) -> Iterator[CodeAction]:
     node = _at(site, ast.Expr)
     if node is None or carried_type(node) != node.type or site.facts["target"] == "BIT":
         return
-    function = f"TO_{site.facts['target']}"
-    span = site.span
-    opening = site.insert(span.line, span.column, f"{function}(")
-    closing = site.insert(span.end_line, span.end_column, ")")
-    title = f"Convert with {function}"
-    yield site.action("convert", title, opening, closing, preferred=True, function=function)
+    yield site.conversion(f"TO_{site.facts['target']}")
 
 
 def condition_itself(site: Site) -> Iterator[CodeAction]:

@@ -56,11 +56,7 @@ def conversion(site: Site) -> Iterator[CodeAction]:
     function = site.facts.get("function", "")
     if not function:
         return
-    span = site.span
-    opening = site.insert(span.line, span.column, f"{function}(")
-    closing = site.insert(span.end_line, span.end_column, ")")
-    title = f"Convert with {function}"
-    yield site.action("convert", title, opening, closing, preferred=True, function=function)
+    yield site.conversion(function)
 
 
 def condition(site: Site) -> Iterator[CodeAction]:

@@ -5,20 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from tappet.lang import ast
-from tappet.lang.services.describe import slice_of
+from tappet.lang.services.describe import POU_KINDS, slice_of
 from tappet.lang.services.documents import Position, Text
 from tappet.lang.services.results import ItemKind, Outline
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import Span
-
-_KINDS = {
-    "PROGRAM": ItemKind.PROGRAM,
-    "FUNCTION": ItemKind.FUNCTION,
-    "FUNCTION_BLOCK": ItemKind.FUNCTION_BLOCK,
-    "METHOD": ItemKind.METHOD,
-    "ACTION": ItemKind.ACTION,
-    "TRANSITION": ItemKind.ACTION,
-}
 
 
 def outline(snapshot: Snapshot, document: str) -> list[Outline]:
@@ -89,7 +80,7 @@ class _Maker:
             below += self.pou(child)
         for item in node.properties:
             below += self.property(item)
-        kind = _KINDS.get(node.kind, ItemKind.FUNCTION)
+        kind = POU_KINDS.get(node.kind, ItemKind.FUNCTION)
         return self.entry(node.name, kind, detail, node.span, node.name_span, below)
 
     def property(self, node: ast.Property) -> list[Outline]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from tappet.project.store import records
 from tappet.server.projects.shapes import ProjectSummary, Revision
 
@@ -25,24 +27,32 @@ def project_summary(info: records.ProjectInfo) -> ProjectSummary:
 
 def object_revision(found: records.ObjectRevision) -> Revision:
     """A state of an object."""
-    return Revision(
-        revision=found.revision,
-        at=found.at,
-        author=found.author,
-        comment=found.comment,
-        autosave=found.autosave,
-        action=found.action,
+    return _revision(
+        found,
+        found.deleted,
         project_revision=found.project_revision,
         object_id=found.object_id,
         object_name=found.name,
-        change="deleted" if found.deleted else _CHANGES.get(found.action, "updated"),
     )
 
 
 def project_revision(found: records.ProjectRevision) -> Revision:
     """A change of a project."""
     object_id, name = found.objects[0] if len(found.objects) == 1 else (None, None)
-    deleted = found.action == "delete"
+    return _revision(
+        found,
+        found.action == "delete",
+        project_revision=found.revision,
+        object_id=object_id,
+        object_name=name,
+        object_count=len(found.objects),
+    )
+
+
+def _revision(
+    found: records.ObjectRevision | records.ProjectRevision, deleted: bool, **about: Any
+) -> Revision:
+    """A revision of either, with what only one of them says."""
     return Revision(
         revision=found.revision,
         at=found.at,
@@ -50,9 +60,6 @@ def project_revision(found: records.ProjectRevision) -> Revision:
         comment=found.comment,
         autosave=found.autosave,
         action=found.action,
-        project_revision=found.revision,
-        object_id=object_id,
-        object_name=name,
-        object_count=len(found.objects),
         change="deleted" if deleted else _CHANGES.get(found.action, "updated"),
+        **about,
     )
