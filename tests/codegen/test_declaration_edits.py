@@ -8,11 +8,11 @@ from contextlib import contextmanager
 
 import core_text
 import pytest
-from edited_application import changed_over
+from edited_application import changed_over, faults
 from edited_declarations import CHOICES, EDITS, OPTIONS, VALUES, build
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from linked_application import ApplicationFault, LoadedApplication, loaded
+from linked_application import LoadedApplication, loaded
 
 from tappet.codegen import compile_pool
 from tappet.codegen.build import BuildSession, build_application
@@ -126,13 +126,7 @@ def test_every_edit_gives_the_code_data_and_symbols_of_a_whole_build(
 
 
 def values(application: LoadedApplication, cycles: int = 3) -> list[object]:
-    found: list[object] = []
-    for _ in range(cycles):
-        try:
-            application.cycle()
-        except ApplicationFault as fault:
-            found.append((fault.code, fault.args_abc))
-    return found + [application.read(name) for name in VALUES]
+    return faults(application, cycles) + [application.read(name) for name in VALUES]
 
 
 @pytest.mark.usefixtures("small_modules")

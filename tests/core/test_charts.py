@@ -137,21 +137,26 @@ ACTION X1: log := log * 10 + 5; END_ACTION""",
     assert seen == ["1", "1", "1234", "12344", "1234451"]
 
 
-def test_alternative_branch() -> None:
-    """language_sfc EX-04; LSFC-16, LSFC-17: from left to right, those further right are not evaluated."""
-    run = Run(
-        chart(
-            """
+BRANCH = """
 INITIAL_STEP S: END_STEP
 STEP A: END_STEP
 STEP B: END_STEP
 STEP C: END_STEP
+TRANSITION FROM A TO S := {back}; END_TRANSITION
+TRANSITION FROM B TO S := {back}; END_TRANSITION
+TRANSITION FROM C TO S := {back}; END_TRANSITION"""
+"""Three steps beside each other, and the ways back from them."""
+
+
+def test_alternative_branch() -> None:
+    """language_sfc EX-04; LSFC-16, LSFC-17: from left to right, those further right are not evaluated."""
+    run = Run(
+        chart(
+            BRANCH.format(back="FALSE")
+            + """
 TRANSITION FROM S TO A := Asked(1, FALSE); END_TRANSITION
 TRANSITION FROM S TO B := Asked(2, TRUE); END_TRANSITION
-TRANSITION FROM S TO C := Asked(4, TRUE); END_TRANSITION
-TRANSITION FROM A TO S := FALSE; END_TRANSITION
-TRANSITION FROM B TO S := FALSE; END_TRANSITION
-TRANSITION FROM C TO S := FALSE; END_TRANSITION"""
+TRANSITION FROM S TO C := Asked(4, TRUE); END_TRANSITION"""
         ),
         "VAR_GLOBAL questions : INT; END_VAR",
         "FUNCTION Asked : BOOL VAR_INPUT bit : INT; answer : BOOL; END_VAR\n"
@@ -166,17 +171,11 @@ def test_priority_goes_before_the_order() -> None:
     """LSFC-17: PRIORITY decides, the lowest number first; transitions without one follow."""
     run = Run(
         chart(
-            """
-INITIAL_STEP S: END_STEP
-STEP A: END_STEP
-STEP B: END_STEP
-STEP C: END_STEP
+            BRANCH.format(back="TRUE")
+            + """
 TRANSITION FROM S TO A := TRUE; END_TRANSITION
 TRANSITION (PRIORITY := 2) FROM S TO B := TRUE; END_TRANSITION
-TRANSITION named (PRIORITY := 1) FROM S TO C := TRUE; END_TRANSITION
-TRANSITION FROM A TO S := TRUE; END_TRANSITION
-TRANSITION FROM B TO S := TRUE; END_TRANSITION
-TRANSITION FROM C TO S := TRUE; END_TRANSITION"""
+TRANSITION named (PRIORITY := 1) FROM S TO C := TRUE; END_TRANSITION"""
         )
     )
     run.call(2)

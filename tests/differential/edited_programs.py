@@ -14,27 +14,10 @@ from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
 
+import typed_tree as tree
 from bytes_in_memory import View
 from reference import Machine
 from reference_values import copied, line, overwrite, stored
-from typed_tree import (
-    INTEGERS,
-    Array,
-    Assign,
-    BitMember,
-    Block,
-    Enum,
-    Interface,
-    Name,
-    Pointer,
-    Program,
-    Scalar,
-    Struct,
-    Text,
-    Type,
-    Variable,
-    base_of,
-)
 
 from programs import ProgramMaker, initialisable
 
@@ -56,26 +39,26 @@ class EditMaker(ProgramMaker):
         self.constants = Constants(self)
         self.renewed: dict[Any, Any] = {}
 
-    def program(self) -> Program:
+    def program(self) -> tree.Program:
         """A program with constants."""
         return self.constants.put_into(super().program())
 
-    def edited(self, old: Program) -> Program:
+    def edited(self, old: tree.Program) -> tree.Program:
         """The program after one edit."""
         with self.constants.left_out(old.blocks):
             made = self._edited_program(old)
         return self.constants.put_into(made)
 
-    def _edited_program(self, old: Program) -> Program:
+    def _edited_program(self, old: tree.Program) -> tree.Program:
         level = self.r.choice(LEVELS)
         self.renewed = {}
         if level == "everything":
             self.types = []
-            shared = [t for u in old.types if isinstance(u, Struct) and u.union for _, t in u.members]
+            shared = [t for u in old.types if isinstance(u, tree.Struct) and u.union for _, t in u.members]
             for made in old.types:  # which of two changed members of a union stays is not settled
                 self.renewed[made] = made if made in shared else self._edited_type(made)
                 self.types.append(self.renewed[made])
-            self.arrays = [Array(self.renew(a.element), a.bounds) for a in self.arrays]
+            self.arrays = [tree.Array(self.renew(a.element), a.bounds) for a in self.arrays]
             self.globals = self._edited(old.globals, "gv")
             self.functions = []
             for _ in range(self.r.randint(0, 2)):
@@ -84,13 +67,13 @@ class EditMaker(ProgramMaker):
             self._edit_blocks(old.blocks, level == "everything")
         return self.around(self._edited(old.variables, "p", level != "bodies"))
 
-    def _edit_blocks(self, old: list[Block], all_of_them: bool) -> None:
+    def _edit_blocks(self, old: list[tree.Block], all_of_them: bool) -> None:
         """Blocks from the first edited one on are new ones: the later ones may use it."""
         first = 0 if all_of_them or not old else self.r.randrange(len(old))
         self.blocks = old[:first]
         self.interfaces = [i for b in self.blocks for i in b.interfaces]
         for block in old[first:]:
-            made = Block(block.name, self.renewed.get(block.base, block.base))
+            made = tree.Block(block.name, self.renewed.get(block.base, block.base))
             edit = self.chance(60)
             for part in ("inputs", "outputs", "locals", "statics"):
                 of = {"inputs": "i", "outputs": "o", "locals": "s", "statics": "st"}[part]
@@ -101,7 +84,7 @@ class EditMaker(ProgramMaker):
             self.bodies(made)
             self.blocks.append(made)
 
-    def _edited(self, old: list[Variable], prefix: str, edit: bool = True) -> list[Variable]:
+    def _edited(self, old: list[tree.Variable], prefix: str, edit: bool = True) -> list[tree.Variable]:
         """Some removed, some with another type, some new, some moved."""
         found = []
         for v in old:
@@ -109,9 +92,9 @@ class EditMaker(ProgramMaker):
                 continue
             if edit and self.chance(10):
                 continue
-            if edit and self.chance(10) and isinstance(v.type, Scalar):
-                other = self.r.choice([t for t in INTEGERS if t != v.type])
-                found.append(Variable(v.name, other, self.plain.literal_value(other)))
+            if edit and self.chance(10) and isinstance(v.type, tree.Scalar):
+                other = self.r.choice([t for t in tree.INTEGERS if t != v.type])
+                found.append(tree.Variable(v.name, other, self.plain.literal_value(other)))
                 continue
             found.append(self._again(v))
         for _ in range(self.r.choice((0, 1, 2)) if edit else 0):
@@ -120,24 +103,24 @@ class EditMaker(ProgramMaker):
             self.r.shuffle(found)
         return found or [self.variable(prefix)]
 
-    def _again(self, v: Variable) -> Variable:
+    def _again(self, v: tree.Variable) -> tree.Variable:
         """A variable with the edited form of its type."""
         type_ = self.renew(v.type)
-        if isinstance(type_, Block):
+        if isinstance(type_, tree.Block):
             return replace(self.instance(type_), name=v.name)
         if type_ == v.type:
             return v
-        return Variable(v.name, type_, self.initial(self.plain, type_) if initialisable(type_) else None)
+        return tree.Variable(v.name, type_, self.initial(self.plain, type_) if initialisable(type_) else None)
 
-    def renew(self, type_: Type) -> Type:
+    def renew(self, type_: tree.Type) -> tree.Type:
         """The edited form of a type."""
-        if isinstance(type_, Array):
-            return Array(self.renew(type_.element), type_.bounds)
+        if isinstance(type_, tree.Array):
+            return tree.Array(self.renew(type_.element), type_.bounds)
         return self.renewed.get(type_, type_)  # type: ignore[no-any-return]
 
-    def _edited_type(self, old: Enum | Struct) -> Enum | Struct:
+    def _edited_type(self, old: tree.Enum | tree.Struct) -> tree.Enum | tree.Struct:
         """The same name with other members."""
-        if isinstance(old, Enum):
+        if isinstance(old, tree.Enum):
             if self.chance(50):
                 return old
             return replace(old, members=(*old.members, (self.fresh("v"), old.members[-1][1] + 1)))
@@ -148,7 +131,7 @@ class EditMaker(ProgramMaker):
         if self.chance(60):
             if len(members) > 1 and self.chance(40):
                 members.pop(self.r.randrange(len(members)))
-            numbers = (*INTEGERS, BitMember()) if not old.union else INTEGERS
+            numbers = (*tree.INTEGERS, tree.BitMember()) if not old.union else tree.INTEGERS
             members.insert(self.r.randint(0, len(members)), (self.fresh("m"), self.r.choice(numbers)))
             if self.chance(20):
                 self.r.shuffle(members)
@@ -164,14 +147,14 @@ class Constants:
 
     def __init__(self, maker: EditMaker) -> None:
         self.maker = maker
-        self.known: dict[str, list[tuple[Variable, Variable]]] = {}
+        self.known: dict[str, list[tuple[tree.Variable, tree.Variable]]] = {}
         """Constants with the variables they are copied to, by the name of their owner."""
         self.added: set[int] = set()
         """The copies, by id(), in bodies that stay."""
-        self.kept: list[Assign] = []
+        self.kept: list[tree.Assign] = []
 
     @contextmanager
-    def left_out(self, blocks: list[Block]) -> Iterator[None]:
+    def left_out(self, blocks: list[tree.Block]) -> Iterator[None]:
         """Blocks without their constants: code that is made meanwhile does not see them."""
         kept = [(block, block.locals) for block in blocks]
         for block in blocks:
@@ -182,7 +165,7 @@ class Constants:
             for block, variables in kept:
                 block.locals = variables
 
-    def put_into(self, made: Program) -> Program:
+    def put_into(self, made: tree.Program) -> tree.Program:
         """The program with its constants; half of the edits leave them as they are."""
         edit = self.maker.chance(50)
         for block in made.blocks:
@@ -199,15 +182,18 @@ class Constants:
             body=[*self._copies([*in_list, *own_ones]), *made.body],
         )
 
-    def _copies(self, found: list[tuple[Variable, Variable]]) -> list[Assign]:
+    def _copies(self, found: list[tuple[tree.Variable, tree.Variable]]) -> list[tree.Assign]:
         made = [
-            Assign(Name(b.type, base_of(b.type), False, b.name), Name(a.type, base_of(a.type), False, a.name))
+            tree.Assign(
+                tree.Name(b.type, tree.base_of(b.type), False, b.name),
+                tree.Name(a.type, tree.base_of(a.type), False, a.name),
+            )
             for a, b in found
         ]
         self.kept += made
         return made
 
-    def _next(self, owner: str, edit: bool) -> list[tuple[Variable, Variable]]:
+    def _next(self, owner: str, edit: bool) -> list[tuple[tree.Variable, tree.Variable]]:
         m, found = self.maker, []
         for constant, copy in self.known.get(owner, []):
             type_ = m.renew(constant.type)
@@ -219,17 +205,17 @@ class Constants:
         for _ in range(m.r.choice((0, 0, 1, 2)) if edit or owner not in self.known else 0):
             type_ = m.type()
             if initialisable(type_):
-                constant = Variable(m.fresh("kc"), type_, m.initial(m.plain, type_), constant=True)
-                found.append((constant, Variable(m.fresh("kv"), type_)))
+                constant = tree.Variable(m.fresh("kc"), type_, m.initial(m.plain, type_), constant=True)
+                found.append((constant, tree.Variable(m.fresh("kv"), type_)))
         self.known[owner] = found
         return found
 
 
-def _without_constants(variables: list[Variable]) -> list[Variable]:
+def _without_constants(variables: list[tree.Variable]) -> list[tree.Variable]:
     return [v for v in variables if not v.name.startswith(("kc", "kv"))]
 
 
-def changed_over(old: Machine, program: Program) -> Machine:
+def changed_over(old: Machine, program: tree.Program) -> Machine:
     """The machine of a program after an online change: what kept name and type has its value (LDEC-47)."""
     new = Machine(program)
     keep = _Keeping(old, new)
@@ -255,7 +241,7 @@ class _Keeping:
     old: Machine
     new: Machine
 
-    def _of_methods(self, block: Block, value: Any, place: Any) -> None:
+    def _of_methods(self, block: tree.Block, value: Any, place: Any) -> None:
         """VAR_INST of methods that are still there."""
         if id(value) in self.old.kept:
             names = {v.name for b in line(block) for m in b.methods for v in m.kept}
@@ -263,33 +249,35 @@ class _Keeping:
             self.new.kept[id(place)] = place, {n: x for n, x in kept.items() if n in names}
 
     def all(
-        self, old: list[Variable], before: dict[str, Any], new: list[Variable], now: dict[str, Any]
+        self, old: list[tree.Variable], before: dict[str, Any], new: list[tree.Variable], now: dict[str, Any]
     ) -> None:
         types = {v.name: v.type for v in old}
         for v in new:
             if v.name in types and v.name in before and not v.constant:
                 self.one(types[v.name], before[v.name], v.type, now, v.name)
 
-    def one(self, old: Type, value: Any, new: Type, holder: Any, key: Any) -> None:
+    def one(self, old: tree.Type, value: Any, new: tree.Type, holder: Any, key: Any) -> None:
         """One variable, element or member."""
-        if isinstance(new, Block) and isinstance(old, Block):
+        if isinstance(new, tree.Block) and isinstance(old, tree.Block):
             if new.name == old.name:
                 self._of_methods(new, value, holder[key])
                 self.all(old.members, value, new.members, holder[key])
-        elif isinstance(new, Struct) and isinstance(old, Struct):
+        elif isinstance(new, tree.Struct) and isinstance(old, tree.Struct):
             if new.name == old.name:
                 self.members(old, value, new, holder[key])
-        elif isinstance(new, Array) and isinstance(old, Array):
+        elif isinstance(new, tree.Array) and isinstance(old, tree.Array):
             self.elements(old, value, new, holder[key])
-        elif isinstance(new, Text) and isinstance(old, Text):
+        elif isinstance(new, tree.Text) and isinstance(old, tree.Text):
             if new.wide == old.wide:
                 holder[key] = stored(value, new)
-        elif isinstance(new, Pointer | Interface):
+        elif isinstance(new, tree.Pointer | tree.Interface):
             return
-        elif new == old or (isinstance(new, Enum) and isinstance(old, Enum) and new.name == old.name):
+        elif new == old or (
+            isinstance(new, tree.Enum) and isinstance(old, tree.Enum) and new.name == old.name
+        ):
             holder[key] = value
 
-    def members(self, old: Struct, value: Any, new: Struct, place: Any) -> None:
+    def members(self, old: tree.Struct, value: Any, new: tree.Struct, place: Any) -> None:
         if old == new:
             overwrite(place, copied(value))
             return
@@ -305,11 +293,11 @@ class _Keeping:
             elif name in types:
                 self.one(types[name], value[name], type_, place, name)
 
-    def elements(self, old: Array, value: Any, new: Array, place: Any) -> None:
+    def elements(self, old: tree.Array, value: Any, new: tree.Array, place: Any) -> None:
         if old.bounds != new.bounds:
             return
         for i in range(len(place) if isinstance(place, list) else len(place.keys())):
             rest = new.bounds[1:]
-            before = Array(old.element, rest) if rest else old.element
-            after = Array(new.element, rest) if rest else new.element
+            before = tree.Array(old.element, rest) if rest else old.element
+            after = tree.Array(new.element, rest) if rest else new.element
             self.one(before, value[i], after, place, i)

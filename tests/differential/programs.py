@@ -9,32 +9,6 @@ import typed_tree as tree
 from expressions import CLOCKS, Maker
 from guarded_statements import GuardedStatements
 from statements import Body
-from typed_tree import (
-    BOOL,
-    DINT,
-    INT,
-    INTEGERS,
-    NUMBERS,
-    REALS,
-    SINT,
-    UINT,
-    USINT,
-    Array,
-    Block,
-    Enum,
-    Function,
-    Interface,
-    Name,
-    Pointer,
-    Program,
-    Scalar,
-    Struct,
-    Subrange,
-    Text,
-    Type,
-    Variable,
-    base_of,
-)
 from typing_rules import assignable
 
 
@@ -45,76 +19,76 @@ class ProgramMaker(GuardedStatements):
         super().__init__(r)
         self.texts = texts
         self.size = size
-        self.types: list[Enum | Struct] = []
-        self.arrays: list[Array] = []
-        self.functions: list[Function] = []
-        self.blocks: list[Block] = []
-        self.interfaces: list[Interface] = []
-        self.globals: list[Variable] = []
+        self.types: list[tree.Enum | tree.Struct] = []
+        self.arrays: list[tree.Array] = []
+        self.functions: list[tree.Function] = []
+        self.blocks: list[tree.Block] = []
+        self.interfaces: list[tree.Interface] = []
+        self.globals: list[tree.Variable] = []
         self.plain = Maker(r, texts=texts)
         self.bits: list[tuple[str, int]] = []
         self.checks = self.chance(25)
 
     # -- declarations -------------------------------------------------------------------------------
 
-    def scalar(self) -> Scalar:
+    def scalar(self) -> tree.Scalar:
         choice = self.r.randrange(100)
         if choice < 60:
-            return self.r.choice(INTEGERS)
+            return self.r.choice(tree.INTEGERS)
         if choice < 75:
-            return self.r.choice(REALS)
-        return BOOL if choice < 88 else self.r.choice(CLOCKS)
+            return self.r.choice(tree.REALS)
+        return tree.BOOL if choice < 88 else self.r.choice(CLOCKS)
 
-    def simple(self) -> Type:
+    def simple(self) -> tree.Type:
         choice = self.r.randrange(100)
-        enums = [t for t in self.types if isinstance(t, Enum)]
+        enums = [t for t in self.types if isinstance(t, tree.Enum)]
         if choice < 8 and enums:
             return self.r.choice(enums)
         if choice < 16:
-            base = self.r.choice((INT, DINT, USINT, UINT, SINT))
+            base = self.r.choice((tree.INT, tree.DINT, tree.USINT, tree.UINT, tree.SINT))
             low = self.r.choice([0, 1, 5, -10 if base.low < 0 else 2])
-            return Subrange(base, low, low + self.r.choice([1, 10, 100]), self.checks)
+            return tree.Subrange(base, low, low + self.r.choice([1, 10, 100]), self.checks)
         if choice < 26 and self.texts:
-            return Text(self.r.choice([3, 5, 12, 20]), self.chance(30))
+            return tree.Text(self.r.choice([3, 5, 12, 20]), self.chance(30))
         return self.scalar()
 
-    def type(self, depth: int = 2) -> Type:
+    def type(self, depth: int = 2) -> tree.Type:
         choice = self.r.randrange(100)
-        structs = [t for t in self.types if isinstance(t, Struct)]
+        structs = [t for t in self.types if isinstance(t, tree.Struct)]
         if choice < 15 and depth:
             if self.arrays and self.chance(40):
                 return self.moved(self.r.choice(self.arrays))
             bounds = tuple(self.bound() for _ in range(1 if self.chance(70) else 2))
-            self.arrays.append(Array(self.type(depth - 1), bounds))
+            self.arrays.append(tree.Array(self.type(depth - 1), bounds))
             return self.arrays[-1]
         if choice < 25 and structs and depth:
             return self.r.choice(structs)
         return self.simple()
 
-    def moved(self, known: Array) -> Array:
+    def moved(self, known: tree.Array) -> tree.Array:
         """An array type with the elements of another one, and perhaps other bounds."""
         shifts = [self.r.choice((0, 1, -3, 7)) for _ in known.bounds]
         bounds = ((low + s, high + s) for (low, high), s in zip(known.bounds, shifts, strict=True))
-        return Array(known.element, tuple(bounds))
+        return tree.Array(known.element, tuple(bounds))
 
     def bound(self) -> tuple[int, int]:
         low = self.r.choice([0, 0, 1, -2, 5])
         return low, low + self.r.randint(0, 4)
 
-    def variable(self, prefix: str, type_: Type | None = None) -> Variable:
+    def variable(self, prefix: str, type_: tree.Type | None = None) -> tree.Variable:
         type_ = type_ or self.type()
         maker = Maker(self.r)
-        simple = not isinstance(type_, Block | Pointer | Interface) and initialisable(type_)
+        simple = not isinstance(type_, tree.Block | tree.Pointer | tree.Interface) and initialisable(type_)
         initial = self.initial(maker, type_) if simple and self.chance(75) else None
-        return Variable(self.fresh(prefix), type_, initial)
+        return tree.Variable(self.fresh(prefix), type_, initial)
 
-    def initial(self, maker: Maker, type_: Type) -> Any:
+    def initial(self, maker: Maker, type_: tree.Type) -> Any:
         """An initial value; arrays and structures may leave parts open."""
-        if isinstance(type_, Struct):
+        if isinstance(type_, tree.Struct):
             fitting = [(n, t) for n, t in type_.members if initialisable(t)]
             given = [m for m in fitting if self.chance(70)] or fitting[:1]
             return {n: self.initial(maker, t) for n, t in given}
-        if not isinstance(type_, Array):
+        if not isinstance(type_, tree.Array):
             return maker.literal_value(type_)
         size = 1
         for low, high in type_.bounds:
@@ -131,73 +105,77 @@ class ProgramMaker(GuardedStatements):
             for _ in range(self.r.randint(2, 4)):
                 number += self.r.choice([1, 1, 2, 10])
                 members.append((self.fresh("v"), number))
-            self.types.append(Enum(name, self.r.choice((INT, INT, DINT, USINT)), tuple(members)))
+            self.types.append(
+                tree.Enum(name, self.r.choice((tree.INT, tree.INT, tree.DINT, tree.USINT)), tuple(members))
+            )
         for _ in range(self.r.randint(0, 2)):
             members_ = tuple((self.fresh("m"), self.type(1)) for _ in range(self.r.randint(1, 4)))
-            self.types.append(self.packed(Struct(self.fresh("S_"), members_)))
+            self.types.append(self.packed(tree.Struct(self.fresh("S_"), members_)))
             if self.chance(50):
                 self.types.append(self.derived(self.types[-1]))
             if self.chance(50):
                 self.types.append(self.union())
 
-    def derived(self, base: Enum | Struct) -> Struct:
+    def derived(self, base: tree.Enum | tree.Struct) -> tree.Struct:
         """A structure that extends another one."""
-        assert isinstance(base, Struct)
+        assert isinstance(base, tree.Struct)
         own = tuple((self.fresh("m"), self.type(1)) for _ in range(self.r.randint(1, 3)))
-        return Struct(self.fresh("S_"), base.members + own, base=base)
+        return tree.Struct(self.fresh("S_"), base.members + own, base=base)
 
-    def given(self) -> Type:
+    def given(self) -> tree.Type:
         """Type of an input or a result: arrays and structures, too, are handed over by value."""
         return self.type(1) if self.chance(25) else self.simple()
 
-    def function(self, block: Block | None = None, overrides: Function | None = None) -> Function:
+    def function(
+        self, block: tree.Block | None = None, overrides: tree.Function | None = None
+    ) -> tree.Function:
         if overrides is not None:
-            made = Function(overrides.name, overrides.result, overrides.inputs, overrides.in_outs)
+            made = tree.Function(overrides.name, overrides.result, overrides.inputs, overrides.in_outs)
             made.outputs = overrides.outputs
             made.rank = overrides.rank
         else:
-            made = Function(self.fresh("M" if block else "F"), self.given())
-            made.inputs = [Variable(self.fresh("a"), self.given()) for _ in range(self.r.randint(0, 3))]
+            made = tree.Function(self.fresh("M" if block else "F"), self.given())
+            made.inputs = [tree.Variable(self.fresh("a"), self.given()) for _ in range(self.r.randint(0, 3))]
             made.in_outs = [
-                Variable(self.fresh("io"), self.open_array() if self.chance(30) else self.type(1))
+                tree.Variable(self.fresh("io"), self.open_array() if self.chance(30) else self.type(1))
                 for _ in range(self.r.randint(0, 2))
             ]
             made.outputs = [
-                Variable(self.fresh("o"), self.given()) for _ in range(self.r.choice((0, 0, 1, 2)))
+                tree.Variable(self.fresh("o"), self.given()) for _ in range(self.r.choice((0, 0, 1, 2)))
             ]
             made.rank = self.number
         made.locals = [self.variable("l") for _ in range(self.r.randint(0, 3))]
         made.statics = [self.variable("st") for _ in range(self.r.choice((0, 0, 1, 2)))]
         if block is not None:
             made.kept = [self.variable("vi") for _ in range(self.r.choice((0, 0, 1)))]
-        result = Variable(made.name, made.result)
+        result = tree.Variable(made.name, made.result)
         seen = [*made.inputs, *made.in_outs, *made.outputs, *made.locals, *made.statics, *made.kept, result]
         maker = Maker(self.r, [*seen, *self.globals], texts=self.texts, bits=self.bits)
         if block is not None:
             known = block.all_properties.values()
             maker.properties = [p for p in known if p.pure and p.rank < made.rank]
-            hidden = Pointer | Interface  # whether they lead somewhere by now is not known
+            hidden = tree.Pointer | tree.Interface  # whether they lead somewhere by now is not known
             maker.variables += [v for v in block.members if not isinstance(v.type, hidden)]
         body = Body(
             maker, made.locals, list(self.functions), True, 0, block, made.rank, overrides, self.applied
         )
         made.body = [*self.pointers(body), *self.statements(body, self.r.randint(1, 4), 2)]
-        own = Name(made.result, base_of(made.result), False, made.name)
+        own = tree.Name(made.result, tree.base_of(made.result), False, made.name)
         made.body.append(tree.Assign(own, self.value(body, made.result, 2)))
         return made
 
-    def property(self, block: Block, overrides: tree.Property | None = None) -> tree.Property:
+    def property(self, block: tree.Block, overrides: tree.Property | None = None) -> tree.Property:
         """A property; what it overrides keeps its type and whether Get has effects."""
         if overrides is not None:
             name, type_, pure, rank = overrides.name, overrides.type, overrides.pure, overrides.rank
         else:
             name, type_, pure = self.fresh("Q"), self.given(), self.chance(60)
             rank = self.number
-        value = Variable(name, type_)
-        getter, setter = Function(name, type_), Function(name, type_, [value])
+        value = tree.Variable(name, type_)
+        getter, setter = tree.Function(name, type_), tree.Function(name, type_, [value])
         for made in (getter, setter):
             made.rank = rank
-            shown = [v for v in block.members if not isinstance(v.type, Pointer | Interface)]
+            shown = [v for v in block.members if not isinstance(v.type, tree.Pointer | tree.Interface)]
             own = [p for p in block.all_properties.values() if p.pure and p.rank < rank]
             maker = Maker(self.r, [value, *shown, *self.globals], texts=self.texts, properties=own)
             effects = None if pure and made is getter else self.applied
@@ -208,16 +186,16 @@ class ProgramMaker(GuardedStatements):
                 targets = maker.places(lambda t: assignable(type_, t), writable=True)
                 if targets:
                     place = maker.filled(self.r.choice(targets), 1)
-                    made.body.append(tree.Assign(place, Name(type_, base_of(type_), False, name)))
+                    made.body.append(tree.Assign(place, tree.Name(type_, tree.base_of(type_), False, name)))
                 continue
             if not pure:
                 made.locals.append(self.variable("l"))
                 maker.variables += made.locals
                 made.body = self.statements(body, self.r.randint(1, 3), 1)
-            result = Name(type_, base_of(type_), False, name)
+            result = tree.Name(type_, tree.base_of(type_), False, name)
             made.body.append(tree.Assign(result, self.value(body, type_, 2)))
             if overrides is not None and self.chance(30):
-                base = tree.Get(type_, base_of(type_), False, None, name, "SUPER", overrides)
+                base = tree.Get(type_, tree.base_of(type_), False, None, name, "SUPER", overrides)
                 made.body.append(tree.Assign(result, base))
         return tree.Property(name, type_, getter, setter, pure)
 
@@ -230,11 +208,11 @@ class ProgramMaker(GuardedStatements):
                 continue
             target = self.r.choice(places).type
             kind = self.r.randrange(3)
-            pointer = Variable(self.fresh("ptr"), Pointer(target, kind == 0, kind == 1))
+            pointer = tree.Variable(self.fresh("ptr"), tree.Pointer(target, kind == 0, kind == 1))
             bound += self.lead(b, pointer)
         return bound
 
-    def lead(self, b: Body, pointer: Variable) -> list[Any]:
+    def lead(self, b: Body, pointer: tree.Variable) -> list[Any]:
         """Declares a pointer; nothing is done through it before it leads somewhere."""
         first = self.bind(b, pointer)
         if first is None:
@@ -244,16 +222,18 @@ class ProgramMaker(GuardedStatements):
             b.maker.variables.append(pointer)
         return [first]
 
-    def to_block(self, block: Block) -> Pointer:
+    def to_block(self, block: tree.Block) -> tree.Pointer:
         kind = self.r.randrange(3)
-        return Pointer(block, kind == 0, kind == 1)
+        return tree.Pointer(block, kind == 0, kind == 1)
 
-    def pointed_at(self, type_: Type) -> bool:
-        return not isinstance(type_, Block | Pointer | Interface | tree.BitMember | tree.OpenArray)
+    def pointed_at(self, type_: tree.Type) -> bool:
+        return not isinstance(
+            type_, tree.Block | tree.Pointer | tree.Interface | tree.BitMember | tree.OpenArray
+        )
 
-    def block(self) -> Block:
+    def block(self) -> tree.Block:
         base = self.r.choice(self.blocks) if self.blocks and self.chance(50) else None
-        made = Block(self.fresh("FB_"), base)
+        made = tree.Block(self.fresh("FB_"), base)
         made.inputs = [self.variable("i", self.given()) for _ in range(self.r.randint(1, 3))]
         made.outputs = [self.variable("o", self.simple()) for _ in range(self.r.randint(1, 2))]
         made.locals = [self.variable("s") for _ in range(self.r.randint(1, 3))]
@@ -265,7 +245,7 @@ class ProgramMaker(GuardedStatements):
         self.bodies(made)
         return made
 
-    def bodies(self, made: Block) -> None:
+    def bodies(self, made: tree.Block) -> None:
         """Methods, properties, interfaces and body of a block that has its variables."""
         base = made.base
         inherited = list(base.all_methods.values()) if base else []
@@ -283,9 +263,9 @@ class ProgramMaker(GuardedStatements):
         if methods + properties and self.chance(50):
             some = self.r.sample(methods, self.r.randint(min(1, len(methods)), len(methods)))
             known = self.r.sample(properties, self.r.randint(min(1, len(properties)), len(properties)))
-            self.interfaces.append(Interface(self.fresh("I_"), some, known))
+            self.interfaces.append(tree.Interface(self.fresh("I_"), some, known))
             made.interfaces.append(self.interfaces[-1])
-        seen = [*(v for v in made.members if not isinstance(v.type, Pointer)), *made.all_statics]
+        seen = [*(v for v in made.members if not isinstance(v.type, tree.Pointer)), *made.all_statics]
         maker = Maker(self.r, [*seen, *self.globals], texts=self.texts, bits=self.bits)
         maker.properties = [p for p in made.all_properties.values() if p.pure]
         body = Body(maker, made.locals, list(self.functions), returns=True, owner=made, effects=self.applied)
@@ -293,7 +273,7 @@ class ProgramMaker(GuardedStatements):
         if base is not None and self.chance(60):
             made.body.insert(self.r.randint(0, len(made.body)), tree.CallBase(base))
 
-    def program(self) -> Program:
+    def program(self) -> tree.Program:
         self.declare_types()
         self.bits = [(self.fresh("nBit"), self.r.randrange(16)) for _ in range(self.r.choice((0, 0, 2)))]
         self.globals = [self.variable("gv") for _ in range(self.r.choice((0, 1, 3)))]
@@ -302,24 +282,24 @@ class ProgramMaker(GuardedStatements):
         for _ in range(self.r.randint(0, 3)):
             self.blocks.append(self.block())
         variables = [self.variable("p") for _ in range(self.r.randint(3, 8))]
-        variables += [self.variable("n", t) for t in self.r.sample(NUMBERS, 3)]
+        variables += [self.variable("n", t) for t in self.r.sample(tree.NUMBERS, 3)]
         variables += [self.instance(b) for b in self.blocks]
         return self.around(variables)
 
-    def around(self, variables: list[Variable]) -> Program:
+    def around(self, variables: list[tree.Variable]) -> tree.Program:
         """The program that has these variables, and all that was declared before."""
         maker = Maker(self.r, [*variables, *self.globals], texts=self.texts, bits=self.bits)
         body = Body(maker, variables, self.functions, effects=self.applied)
         first = self.pointers(body)
         for block in self.blocks:
             if self.chance(40):
-                first += self.lead(body, Variable(self.fresh("pfb"), self.to_block(block)))
+                first += self.lead(body, tree.Variable(self.fresh("pfb"), self.to_block(block)))
         for interface in self.interfaces:
-            first += self.lead(body, Variable(self.fresh("itf"), interface))
+            first += self.lead(body, tree.Variable(self.fresh("itf"), interface))
         statements = [*first, *self.statements(body, self.r.randint(2, self.size), 3)]
         statements = [*self.sizes(body), *statements]
         cycles = self.r.randint(1, 3)
-        return Program(
+        return tree.Program(
             self.types,
             self.functions,
             self.blocks,
@@ -332,18 +312,18 @@ class ProgramMaker(GuardedStatements):
             self.checks,
         )
 
-    def instance(self, block: Block) -> Variable:
+    def instance(self, block: tree.Block) -> tree.Variable:
         """A variable that is an instance, with what FB_Init needs and perhaps values of its inputs."""
         known = block.all_inputs  # what a list leaves open in an array that has values is not settled
-        given = [v for v in known if not isinstance(v.type, Array | Struct) and self.chance(60)]
+        given = [v for v in known if not isinstance(v.type, tree.Array | tree.Struct) and self.chance(60)]
         values = {v.name: self.initial(self.plain, v.type) for v in given} if self.chance(40) else {}
-        return Variable(self.fresh("fb"), block, values or None, self.arguments(block))
+        return tree.Variable(self.fresh("fb"), block, values or None, self.arguments(block))
 
 
-def initialisable(type_: Type) -> bool:
+def initialisable(type_: tree.Type) -> bool:
     """Whether an initial value can be written: not of a UNION."""
-    if isinstance(type_, Array):
+    if isinstance(type_, tree.Array):
         return initialisable(type_.element)
-    return not isinstance(type_, Struct) or (
+    return not isinstance(type_, tree.Struct) or (
         not type_.union and any(initialisable(t) for _, t in type_.members)
     )

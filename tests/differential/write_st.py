@@ -7,20 +7,6 @@ import itertools
 from typing import Any
 
 import typed_tree as tree
-from typed_tree import (
-    Array,
-    Block,
-    Enum,
-    Function,
-    Literal,
-    Program,
-    Scalar,
-    Struct,
-    Text,
-    Type,
-    Variable,
-    base_of,
-)
 
 CHECKS = """FUNCTION CheckBounds : DINT
 VAR_INPUT index, lower, upper : DINT; END_VAR
@@ -54,22 +40,22 @@ END_FUNCTION
 """What a program that checks for itself brings: it limits, and divides by 1 instead of 0."""
 
 
-def literal(type_: Type, value: Any, untyped: bool = False) -> str:
+def literal(type_: tree.Type, value: Any, untyped: bool = False) -> str:
     """A literal, also an initial value of an array or structure; equal elements are counted."""
-    if isinstance(type_, Struct | Block):
+    if isinstance(type_, tree.Struct | tree.Block):
         members = (
-            dict(type_.members) if isinstance(type_, Struct) else {v.name: v.type for v in type_.members}
+            dict(type_.members) if isinstance(type_, tree.Struct) else {v.name: v.type for v in type_.members}
         )
         return f"({', '.join(f'{name} := {literal(members[name], v)}' for name, v in value.items())})"
-    if isinstance(type_, Array):
+    if isinstance(type_, tree.Array):
         texts = [literal(type_.element, v) for v in value]
         runs = [(text, len(list(run))) for text, run in itertools.groupby(texts)]
         return f"[{', '.join(text if count == 1 else f'{count}({text})' for text, count in runs)}]"
-    if isinstance(type_, Enum):
+    if isinstance(type_, tree.Enum):
         names = {number: name for name, number in type_.members}
         return f"{type_.name}.{names[value]}"
-    base = base_of(type_)
-    if isinstance(base, Text):
+    base = tree.base_of(type_)
+    if isinstance(base, tree.Text):
         return f'"{value}"' if base.wide else f"'{value}'"
     if base == tree.BOOL:
         return "TRUE" if value else "FALSE"
@@ -83,7 +69,7 @@ def literal(type_: Type, value: Any, untyped: bool = False) -> str:
     return str(value) if untyped else f"{base.name}#{value}"
 
 
-def _clock(type_: Scalar, value: int) -> str:
+def _clock(type_: tree.Scalar, value: int) -> str:
     if type_.kind == "time":
         return f"T#{value}ms" if type_ == tree.TIME else f"LTIME#{value}ns"
     moment = datetime.datetime(1970, 1, 1) + datetime.timedelta(microseconds=value * type_.unit_ns // 1000)
@@ -98,7 +84,7 @@ def _clock(type_: Scalar, value: int) -> str:
 
 def expression(e: Any) -> str:
     """An expression, with parentheses around every operation."""
-    if isinstance(e, Literal):
+    if isinstance(e, tree.Literal):
         return literal(e.type, e.value, e.untyped)
     if isinstance(e, tree.Name):
         return e.name
@@ -218,7 +204,7 @@ def _new(s: tree.New, indent: str) -> list[str]:
     target = s.pointer.type
     assert isinstance(target, tree.Pointer)
     made = target.target.name
-    if isinstance(target.target, Block):
+    if isinstance(target.target, tree.Block):
         made += _arguments(target.target, s.arguments)
     return [
         f"{indent}{s.pointer.name} := __NEW({made});",
@@ -227,7 +213,7 @@ def _new(s: tree.New, indent: str) -> list[str]:
     ]
 
 
-def _arguments(block: Block, given: tuple[Any, ...] | None) -> str:
+def _arguments(block: tree.Block, given: tuple[Any, ...] | None) -> str:
     """What FB_Init gets, by name."""
     if not given or block.maker is None:
         return ""
@@ -251,7 +237,7 @@ def _while(s: tree.While, indent: str) -> list[str]:
     return [head, f"{indent}WHILE {condition} AND_THEN {guard} < {s.limit} DO", *body, f"{indent}END_WHILE"]
 
 
-def _section(word: str, variables: list[Variable]) -> list[str]:
+def _section(word: str, variables: list[tree.Variable]) -> list[str]:
     constants = [v for v in variables if v.constant]
     return [
         *_block_of(word, [v for v in variables if not v.constant]),
@@ -259,18 +245,18 @@ def _section(word: str, variables: list[Variable]) -> list[str]:
     ]
 
 
-def _block_of(word: str, variables: list[Variable]) -> list[str]:
+def _block_of(word: str, variables: list[tree.Variable]) -> list[str]:
     if not variables:
         return []
     lines = [word]
     for v in variables:
         initial = "" if v.initial is None else f" := {literal(v.type, v.initial)}"
-        made = _arguments(v.type, v.arguments) if isinstance(v.type, Block) else ""
+        made = _arguments(v.type, v.arguments) if isinstance(v.type, tree.Block) else ""
         lines.append(f"    {v.name} : {v.type.name}{made}{initial};")
     return [*lines, "END_VAR"]
 
 
-def _head(f: Function, word: str) -> list[str]:
+def _head(f: tree.Function, word: str) -> list[str]:
     return [
         f"{word} {f.name} : {f.result.name}",
         *_section("VAR_INPUT", f.inputs),
@@ -279,7 +265,7 @@ def _head(f: Function, word: str) -> list[str]:
     ]
 
 
-def _function(f: Function, word: str) -> list[str]:
+def _function(f: tree.Function, word: str) -> list[str]:
     return [
         *_head(f, word),
         *_section("VAR", f.locals),
@@ -290,12 +276,12 @@ def _function(f: Function, word: str) -> list[str]:
     ]
 
 
-def _parents(b: Block) -> list[str]:
+def _parents(b: tree.Block) -> list[str]:
     found = [f"EXTENDS {b.base.name}"] if b.base else []
     return found + ([f"IMPLEMENTS {', '.join(i.name for i in b.interfaces)}"] if b.interfaces else [])
 
 
-def _block(b: Block) -> list[str]:
+def _block(b: tree.Block) -> list[str]:
     lines = [
         *(["{attribute 'enable_dynamic_creation'}"] if b.dynamic else []),
         " ".join([f"FUNCTION_BLOCK {b.name}", *_parents(b)]),
@@ -323,12 +309,12 @@ def _block(b: Block) -> list[str]:
     return [*lines, "END_FUNCTION_BLOCK"]
 
 
-def program(p: Program) -> str:
+def program(p: tree.Program) -> str:
     """The whole text; the program is PLC_PRG."""
     return "\n".join(objects(p).values()) + "\n"
 
 
-def objects(p: Program) -> dict[str, str]:
+def objects(p: tree.Program) -> dict[str, str]:
     """The text of each object by its name."""
     found: dict[str, list[str]] = {}
     for t in p.types:
@@ -350,8 +336,8 @@ def objects(p: Program) -> dict[str, str]:
     return {name: "\n".join(lines) for name, lines in found.items()}
 
 
-def _type(t: Enum | Struct) -> list[str]:
-    if isinstance(t, Enum):
+def _type(t: tree.Enum | tree.Struct) -> list[str]:
+    if isinstance(t, tree.Enum):
         members = ", ".join(f"{name} := {number}" for name, number in t.members)
         return [f"TYPE {t.name} : ({members}) {t.base.name}; END_TYPE"]
     own = t.members[len(t.base.members) :] if t.base is not None else t.members
@@ -372,16 +358,18 @@ def _interface(i: tree.Interface) -> list[str]:
     return [*lines, "END_INTERFACE"]
 
 
-def paths(variables: list[Variable], prefix: str) -> list[tuple[str, Type, list[Any]]]:
+def paths(variables: list[tree.Variable], prefix: str) -> list[tuple[str, tree.Type, list[Any]]]:
     """All simple variables: path, type, and the keys that lead to it in the reference."""
-    found: list[tuple[str, Type, list[Any]]] = []
+    found: list[tuple[str, tree.Type, list[Any]]] = []
     for v in variables:
         _paths(f"{prefix}{v.name}", v.type, [v.name], found)
     return found
 
 
-def _paths(path: str, type_: Type, keys: list[Any], found: list[tuple[str, Type, list[Any]]]) -> None:
-    if isinstance(type_, Array):
+def _paths(
+    path: str, type_: tree.Type, keys: list[Any], found: list[tuple[str, tree.Type, list[Any]]]
+) -> None:
+    if isinstance(type_, tree.Array):
         (low, high), rest = type_.bounds[0], type_.bounds[1:]
         if rest:
             (low2, high2) = rest[0]
@@ -391,10 +379,10 @@ def _paths(path: str, type_: Type, keys: list[Any], found: list[tuple[str, Type,
             return
         for i in range(low, high + 1):
             _paths(f"{path}[{i}]", type_.element, [*keys, i - low], found)
-    elif isinstance(type_, Struct):
+    elif isinstance(type_, tree.Struct):
         for name, member in type_.members:
             _paths(f"{path}.{name}", member, [*keys, name], found)
-    elif isinstance(type_, Block):
+    elif isinstance(type_, tree.Block):
         for v in type_.members:
             _paths(f"{path}.{v.name}", v.type, [*keys, v.name], found)
     elif not isinstance(type_, tree.Pointer | tree.Interface):

@@ -10,7 +10,9 @@ from pathlib import Path
 
 import psycopg
 import pytest
+from tests.project.project_paths import APP, stored_at
 
+from tappet.project.model import ProjectObject
 from tappet.project.store import Store
 
 
@@ -92,3 +94,15 @@ def store(database_url: str) -> Iterator[Store]:
     opened = Store(database_url)
     yield opened
     opened.close()
+
+
+@pytest.fixture
+def pid(store: Store) -> str:
+    """Id of a new project in the store."""
+    return store.create_project("Press", "ann").id
+
+
+@pytest.fixture
+def prg(store: Store, pid: str) -> ProjectObject:
+    """The program of that project."""
+    return stored_at(store, pid, f"{APP}/PLC_PRG")

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.project.project_paths import APP, at
 
 from tappet.project import edit
 from tappet.project.errors import (
@@ -22,14 +23,6 @@ from tappet.project.new_project import new_project
 from tappet.project.object_kind import ObjectKind
 from tappet.project.objects import make_object
 from tappet.project.placement import Site, check_project, check_spelling, proposed_name
-
-APP = "Tappet Soft PLC/PLC Logic/Application"
-
-
-def at(project: Project, path: str) -> ProjectObject:
-    item = project.find(path)
-    assert item is not None, path
-    return item
 
 
 def names(project: Project, parent: ProjectObject | None) -> list[str]:

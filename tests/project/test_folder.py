@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from project_strategies import TEXTS, projects
+from tests.project.project_paths import at
 
 from tappet.project import edit
 from tappet.project.errors import FolderFormatError
@@ -21,12 +22,6 @@ from tappet.project.object_kind import IecText
 from tappet.project.objects import make_object
 
 APP = "Devices/Tappet Soft PLC/PLC Logic/Application"
-
-
-def at(project: Project, path: str) -> ProjectObject:
-    item = project.find(path)
-    assert item is not None, path
-    return item
 
 
 def motor() -> Project:

@@ -3,6 +3,7 @@
 from dataclasses import asdict
 
 import pytest
+from tests.project.project_paths import APP, at
 
 from tappet.iec.places import BodyText, Place, Span
 from tappet.iec.source import Source
@@ -10,7 +11,7 @@ from tappet.iec.task import Watchdog
 from tappet.project import edit
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.library_reference import LibraryReference, ParameterValue
-from tappet.project.model import Project, ProjectObject
+from tappet.project.model import Project
 from tappet.project.new_project import new_project
 from tappet.project.sources import (
     application_sources,
@@ -19,14 +20,6 @@ from tappet.project.sources import (
     source_of,
     tasks,
 )
-
-APP = "Tappet Soft PLC/PLC Logic/Application"
-
-
-def at(project: Project, path: str) -> ProjectObject:
-    item = project.find(path)
-    assert item is not None, path
-    return item
 
 
 def machine() -> Project:

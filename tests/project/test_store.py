@@ -5,6 +5,8 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
+from tests.project.project_paths import APP
+from tests.project.project_paths import stored_at as at
 
 from tappet.project import edit
 from tappet.project.errors import (
@@ -20,14 +22,6 @@ from tappet.project.objects import make_object
 from tappet.project.store import StaleRevision, Store, saving
 from tappet.project.store.records import ChangeEvent, UnknownProjectError, UnknownRevisionError
 
-APP = "Tappet Soft PLC/PLC Logic/Application"
-
-
-def at(store: Store, project_id: str, path: str) -> ProjectObject:
-    item = store.load(project_id).find(path)
-    assert item is not None, path
-    return item
-
 
 def shape(project: Project) -> dict[str, object]:
     """What two projects are compared by when their revisions differ."""
@@ -36,16 +30,6 @@ def shape(project: Project) -> dict[str, object]:
 
 def text(declaration: str, implementation: str = "") -> dict[str, str]:
     return {"declaration": declaration, "implementation": implementation}
-
-
-@pytest.fixture
-def pid(store: Store) -> str:
-    return store.create_project("Press", "ann").id
-
-
-@pytest.fixture
-def prg(store: Store, pid: str) -> ProjectObject:
-    return at(store, pid, f"{APP}/PLC_PRG")
 
 
 def test_projects(store: Store) -> None:

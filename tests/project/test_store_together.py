@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from tests.project.test_store import APP, at, text
+from tests.project.project_paths import APP
+from tests.project.project_paths import stored_at as at
+from tests.project.test_store import text
 
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.model import ProjectObject
 from tappet.project.store import StaleRevision, Store
 from tappet.project.store.records import ObjectContent
-
-
-@pytest.fixture
-def pid(store: Store) -> str:
-    return store.create_project("Press", "ann").id
-
-
-@pytest.fixture
-def prg(store: Store, pid: str) -> ProjectObject:
-    return at(store, pid, f"{APP}/PLC_PRG")
 
 
 def test_several_objects_are_saved_as_one_change(store: Store, pid: str, prg: ProjectObject) -> None:
