@@ -41,6 +41,8 @@ def shape(found: list[Piece]) -> list[tuple[str, int]]:
 @example("²")
 @example("'$\n'a'")
 @example("//\r x")
+@example("/*\r")
+@example("(* a\r")
 @example("{attribute '}'}")
 @example("STRING#'a' INT#5 16#FF %IX0.1")
 @settings(max_examples=400)

@@ -7,11 +7,11 @@ right while somebody is typing.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
-from tappet.iec.tokens import NAME, NOT_CODE, TRIVIA, Word, extent, pieces, words
+from tappet.iec.tokens import NAME, NOT_CODE, TRIVIA, Kind, Word, extent, pieces, words
 from tappet.iec.words import ACCESSORS, GENERIC_SECTION, MODIFIERS, OBJECT_ENDS, SECTIONS
 
 _BEGINNINGS = {
@@ -136,7 +136,7 @@ def declaration_end(text: str) -> int:
             break
         else:
             end, last = word.end, word.text
-    return _end_of_commented_line(text, end) if end else 0
+    return commented_line_end(text, end) if end else 0
 
 
 def _end_of_section(text: str, position: int) -> int | None:
@@ -159,14 +159,14 @@ def _continues_header(text: str, end: int, last: str, word: Word) -> bool:
     )
 
 
-def _end_of_commented_line(text: str, end: int) -> int:
-    """End of the line of offset `end` if only blanks and comments follow there, else `end` itself."""
+def commented_line_end(text: str, end: int, kinds: Collection[Kind] = TRIVIA) -> int:
+    """End of the line of offset `end` if only blanks and pieces of these kinds follow there, else `end`."""
     position = end
     for kind, _, start, stop in pieces(text, end):
         line_break = text.find("\n", position, start)
         if line_break >= 0:
             return line_break
-        if kind not in TRIVIA:
+        if kind not in kinds:
             return end
         position = stop
     line_break = text.find("\n", position)

@@ -22,7 +22,7 @@ from tappet.iec.literals import (
     quoted_is_closed,
     quoted_over_lines,
 )
-from tappet.iec.trivia import block_comment_end
+from tappet.iec.trivia import block_comment_end, unnested
 
 IDENTIFIER: Final = r"[^\W\d]\w*+"
 ADDRESS_OR_PERCENT: Final = r"%[A-Za-z]*+(?:\*|\d++(?:\.\d++)*+)?+"
@@ -113,18 +113,21 @@ def kind_of(piece: str) -> Kind:
     return COMMENT if piece[:2] in ("(*", "//", "/*") else SIGN
 
 
-def extent(text: str, piece: str, start: int) -> int:
-    """Where a match of `TOKEN` really ends: comments nest, and a string may go on in the next line."""
+def extent(text: str, piece: str, start: int, *, nested: bool = True) -> int:
+    """Where a match of `TOKEN` really ends: comments nest, and a string may go on in the next line.
+
+    `nested` is False for dialects whose comments end at the first `*)`.
+    """
     if piece == "(*":
-        end = block_comment_end(text, start)
-        return len(text) if end is None else end
+        end = block_comment_end(text, start) if nested else text.find("*)", start + 2) + 2
+        return len(text) if end is None or end < start + 2 else end
     if piece[0] in _QUOTES and not quoted_is_closed(piece):
         return start + (len(quoted_over_lines(text, start)) or len(piece))
     return start + len(piece)
 
 
-def pieces(text: str, start: int = 0) -> Iterator[Piece]:
-    """Everything in a text from offset `start`, without blanks and line ends."""
+def pieces(text: str, start: int = 0, *, nested: bool = True) -> Iterator[Piece]:
+    """Everything in a text from offset `start`, without blanks and line ends; `nested` as in `extent`."""
     known: dict[str, str] = {"\n": NEWLINE}
     position = start
     size = len(text)
@@ -138,7 +141,7 @@ def pieces(text: str, start: int = 0) -> Iterator[Piece]:
                 kind = kind_of(piece)
                 if piece == "(*" or (kind is STRING and not quoted_is_closed(piece)):
                     begin = match.start(1)
-                    position = min(extent(text, piece, begin), size)
+                    position = min(extent(text, piece, begin, nested=nested), size)
                     yield Piece(kind, text[begin:position], begin, position)
                     break
                 if match.end() > size:  # an open comment, or the line end that was added
@@ -171,6 +174,28 @@ def code_of(text: str) -> str:
         kept.append(text[position : end if text[begin] == "{" else begin])
         position = end
     return " ".join([*kept, text[position:]])
+
+
+def blanked(text: str, *kinds: Kind) -> str:
+    """A text with blanks for pieces of these kinds; lines and offsets stay."""
+    kept: list[str] = []
+    position = 0
+    for kind, piece, start, end in pieces(text):
+        if kind in kinds:
+            kept += [text[position:start], *(char if char == "\n" else " " for char in piece)]
+            position = end
+    return "".join([*kept, text[position:]])
+
+
+def unnested_comments(text: str) -> str:
+    """A text of a dialect whose comments do not nest, with comments that begin no other inside."""
+    kept: list[str] = []
+    position = 0
+    for kind, piece, start, end in pieces(text, nested=False):
+        if kind is COMMENT:
+            kept += [text[position:start], unnested(piece)]
+            position = end
+    return "".join([*kept, text[position:]])
 
 
 def trivia(text: str, start: int, end: int) -> Iterator[Word]:

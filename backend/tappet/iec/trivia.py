@@ -39,7 +39,11 @@ def unnested(comment: str) -> str:
     """A comment of a dialect whose comments do not nest, as one that begins no other inside."""
     if not comment.startswith("(*"):
         return comment
-    return f"(*{comment[2:-2].replace('(*', '( *')}*)"
+    closed = comment.endswith("*)") and len(comment) > 3
+    inner = (comment[2:-2] if closed else comment[2:]).replace("(*", "( *")
+    if not closed:
+        return f"(*{inner}"
+    return f"(*{inner} *)" if inner.endswith("(") else f"(*{inner}*)"
 
 
 class Attribute(NamedTuple):

@@ -177,7 +177,7 @@ def lex(text: str, uri: str) -> Lexed:
                 lines.append(line)
                 columns.append(start - line_start)
                 continue
-            end, line, line_start = _special(out, text, uri, start, match.end(), line, line_start)
+            end, line, line_start = _special(out, text, last, uri, start, match.end(), line, line_start)
             if end != match.end():
                 position = end
                 break
@@ -229,9 +229,12 @@ def _classify(piece: str) -> str:
 
 
 def _special(
-    out: Lexed, text: str, uri: str, start: int, end: int, line: int, line_start: int
+    out: Lexed, text: str, last: int, uri: str, start: int, end: int, line: int, line_start: int
 ) -> tuple[int, int, int]:
-    """Take a comment, a pragma or a faulty piece; returns where to continue, and the line there."""
+    """Take a comment, a pragma or a faulty piece; returns where to continue, and the line there.
+
+    `last` is where the text as it was written ends.
+    """
     piece = text[start:end]
     column = start - line_start
     index = len(out.kinds)
@@ -239,7 +242,7 @@ def _special(
     closed = piece != "(*" or block_comment_end(text, start) is not None
     end = extent(text, piece, start)
     if kind in TRIVIA:
-        piece = text[start:end].removesuffix("\n") if end == len(text) else text[start:end]
+        piece = text[start : min(end, last)]
         end_line, end_start = line, line_start
         for mark in _LINE_END.finditer(piece):
             end_line += 1

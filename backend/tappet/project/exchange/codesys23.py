@@ -7,7 +7,9 @@ global variable list and where a declaration ends. Tasks, libraries and other pa
 from __future__ import annotations
 
 import re
+from itertools import chain, islice, repeat
 
+from tappet.iec.tokens import COMMENT, STRING, blanked, unnested_comments, words
 from tappet.project.exchange.codesys23_parts import without_parts
 from tappet.project.exchange.codesys23_persistent import LIST, move_persistent
 from tappet.project.exchange.codesys23_words import pointers_of, say_in_words_of_today
@@ -17,16 +19,14 @@ from tappet.project.exchange.split_text import split_text
 from tappet.project.exchange.standard_tasks import read_configurations
 
 _MARK = re.compile(r"\(\*\s*@(?P<key>[A-Z_]+)\s*:=\s*(?P<value>'(?:\$.|[^'\n])*'|[^*\n]*)(?P<rest>[^*]*)\*\)")
-_GRAPHICAL = re.compile(r"\s*_(LD|FBD|CFC|SFC)_BODY\b")
-_SFC_BODY = re.compile(r"\s*(?:_(?:INITIAL_STEP|SFC\w*|STEP)|INITIAL_STEP(?!\s+\w+\s*:))\b", re.IGNORECASE)
-"""A chart in a form of its own; steps as IEC 61131-3 writes them are text that compiles."""
+_DRAWN = {f"_{language}_BODY": language for language in ("LD", "FBD", "CFC", "SFC")}
+"""The language of a body, by its first word."""
 _IL_LINE = re.compile(
     r"\s*(?:\w+:\s*)?(?:LDN?|STN?|CALC?N?|JMPC?N?|ANDN?|ORN?|XORN?|S|R)\s+[\w.%^\[\]]+\s*(?:\(\*.*)?$",
     re.IGNORECASE,
 )
 _CONFIGURATION = "Variable_Configuration"
 """The name of the list of addresses in CoDeSys 2.3."""
-_COMMENTS = re.compile(r"\(\*|\*\)")
 
 
 def read_export(source: str, text: str, batch: Batch, report: ImportReport) -> None:
@@ -88,7 +88,7 @@ def _without_nesting(source: str, text: str, report: ImportReport) -> str:
         stop = flags[number + 1][0] if number + 1 < len(flags) else len(text)
         part = text[start:stop]
         if value.strip("'").lower() == "no":
-            flat = _flat(part)
+            flat = unnested_comments(part)
             if flat != part:
                 line = text.count("\n", 0, start) + 1
                 note = "comments do not nest in this object; '(*' inside a comment became '( *'"
@@ -98,29 +98,12 @@ def _without_nesting(source: str, text: str, report: ImportReport) -> str:
     return "".join(pieces)
 
 
-def _flat(text: str) -> str:
-    pieces: list[str] = []
-    position, inside = 0, False
-    for edge in _COMMENTS.finditer(text):
-        pieces.append(text[position : edge.start()])
-        opens = edge.group() == "(*"
-        pieces.append("( *" if opens and inside else edge.group())
-        inside = opens or inside
-        if not opens:
-            inside = False
-        position = edge.end()
-    return "".join([*pieces, text[position:]])
-
-
 def _report_language(draft: Draft, report: ImportReport) -> None:
     """Set the language of a body that is not ST."""
     text = draft.data.get("implementation")
     if not text:
         return
-    graphical = _GRAPHICAL.match(text)
-    language = graphical[1] if graphical else "SFC" if _SFC_BODY.match(text) else None
-    if language is None and _is_il(text):
-        language = "IL"
+    language = _language(text)
     if language is not None:
         draft.data["language"] = language
     if language not in (None, "IL"):
@@ -128,8 +111,23 @@ def _report_language(draft: Draft, report: ImportReport) -> None:
         report.add("kept", draft.source, note, name=draft.name, line=draft.line)
 
 
+def _language(text: str) -> str | None:
+    """The language of a body, None for ST.
+
+    Charts have a form of their own; steps as IEC 61131-3 writes them are text that compiles.
+    """
+    first, _, third = islice(chain((word.text for word in words(text)), repeat("")), 3)
+    if first in _DRAWN:
+        return _DRAWN[first]
+    if first in ("_INITIAL_STEP", "_STEP") or first.startswith("_SFC"):
+        return "SFC"
+    if first == "INITIAL_STEP" and third != ":":
+        return "SFC"
+    return "IL" if _is_il(text) else None
+
+
 def _is_il(text: str) -> bool:
     """Whether a body is instruction list: its first lines are, and none ends as a statement does."""
-    plain = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL)
+    plain = blanked(text, COMMENT, STRING)
     lines = [line for line in plain.split("\n") if line.strip()]
     return bool(lines) and any(_IL_LINE.match(line) for line in lines[:3]) and ";" not in plain

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 
-from tappet.iec.tokens import words
+from tappet.iec.tokens import NAME, Word, words
 from tappet.project.exchange.drafts import Batch, Draft, library_manager, task_configuration
 from tappet.project.exchange.libraries import reference
 from tappet.project.exchange.report import ImportReport
-from tappet.project.exchange.standard_tasks import task_draft
+from tappet.project.exchange.standard_tasks import read_tasks, task_draft
 
 _PART = re.compile(
     r"^[ \t]*(?P<head>PLC_CONFIGURATION|MACRO|_?ALARM_?CONFIG\w*|_?WORKSPACE|VISUALISATION|LIBRARY"
@@ -36,12 +37,6 @@ _CLOSING = {
     "VAR_GLOBAL": frozenset(["END_VAR"]),
 }
 """What closes an object, by what opens it."""
-_TASK = re.compile(
-    r"\bTASK\s+(?P<name>\w+)\s*\((?P<settings>[^()]*)\)\s*;?"
-    r"(?P<calls>.*?)(?=\bEND_TASK\b|\bTASK\s+\w+\s*\(|\bEND_RESOURCE\b|\Z)",
-    re.IGNORECASE | re.DOTALL,
-)
-_CALL = re.compile(r"[^\W\d]\w*(?=\s*(?:\(|,|;|$))")
 _SYSTEM_EVENT = re.compile(r"\{\s*event_task\s*:\s*'(?P<event>\w*)'\s*,\s*'[^']*'\s*,\s*'(?P<call>\w+)'")
 _LIBRARY = re.compile(r"LIBRARY\s*\n[ \t]*(?P<name>.+?\.lib)\b", re.IGNORECASE)
 _LIBRARY_POU = re.compile(r"^[ \t]*(\w+):[ \t]*\d+[ \t]*$", re.MULTILINE)
@@ -148,15 +143,24 @@ def _read_tasks(source: str, part: str, line: int, batch: Batch, report: ImportR
         at = line + part.count("\n", 0, event.start())
         note = f"the system event calls '{event['call']}'; call it from a task"
         report.add("refused", source, note, name=event["event"], line=at)
-    plain = re.sub(
-        r"\{[^}]*\}|\(\*.*?\*\)", lambda m: re.sub(r"[^\n]", " ", m.group()), part, flags=re.DOTALL
-    )
-    for match in _TASK.finditer(plain):
-        at = line + part.count("\n", 0, match.start())
-        calls = _CALL.findall(re.sub(r"\([^()]*\)", "()", match["calls"]))
-        draft = task_draft(source, at, match["name"], match["settings"], calls, report)
+    tasks = list(read_tasks(part))
+    for task in tasks:
+        at = line + part.count("\n", 0, task.start)
+        calls = list(_called(part, task.behind))
+        draft = task_draft(source, at, task.name, task.settings, calls, report)
         task_configuration(batch.loose).children.append(draft)
-    return _TASK.search(plain) is not None or plain.lstrip().upper().startswith("RESOURCE")
+    first = next(words(part), None)
+    return bool(tasks) or (first is not None and first.text == "RESOURCE")
+
+
+def _called(text: str, scan: Sequence[Word]) -> Iterator[str]:
+    """The programs that a task calls: `PLC_PRG();`, `A, B;`."""
+    depth = 0
+    for i, word in enumerate(scan):
+        depth += (word.text == "(") - (word.text == ")")
+        following = scan[i + 1].text if i + 1 < len(scan) else ";"
+        if depth == 0 and following in "(,;" and NAME.fullmatch(word.text):
+            yield text[word.start : word.end]
 
 
 def _read_library(source: str, part: str, line: int, batch: Batch, report: ImportReport) -> None:

@@ -5,18 +5,16 @@ What cannot be read is left out: the plain text stands beside the sections and i
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tappet.iec.sections import read_header
-from tappet.iec.tokens import NAME, Word, trivia, words
+from tappet.iec.tokens import COMMENT, NAME, Word, pieces, trivia, words
 from tappet.iec.trivia import attribute_of
 from tappet.iec.words import GENERIC_SECTION, MODIFIERS, SECTIONS
 
 _FLAGS = {"CONSTANT": "constant", "RETAIN": "retain", "NON_RETAIN": "nonretain", "PERSISTENT": "persistent"}
 _OPEN, _CLOSE = frozenset("(["), frozenset(")]")
-_NAMES = re.compile(r"\s*(?:[\w.]+\s*,\s*)*[\w.]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,14 +48,29 @@ def read_head(text: str) -> Head:
     behind = _without_generic_section([word for word in scan if word.start >= header.name_start])
     end = next((word.start for word in behind if word.text in SECTIONS), len(text))
     bases: dict[str, tuple[str, ...]] = {}
-    for word in behind:
+    for i, word in enumerate(behind):
         if word.start >= end or word.text == ":":
             break
         if word.text in ("EXTENDS", "IMPLEMENTS"):
-            match = _NAMES.match(text, word.end, end)
-            bases[word.text] = tuple(name.strip() for name in match.group().split(",")) if match else ()
+            bases[word.text] = tuple(_names(text, behind[i + 1 :]))
     modifiers = tuple(word.text for word in before if word.text in MODIFIERS)
     return Head(notes, modifiers, bases.get("EXTENDS", ()), bases.get("IMPLEMENTS", ()))
+
+
+def _names(text: str, scan: list[Word]) -> Iterator[str]:
+    """The names that a list begins with, parted by commas: `I_A, Lib.I_B`."""
+    name = ""
+    for word in scan:
+        is_name = NAME.fullmatch(word.text) is not None
+        if word.text == "," and name:
+            yield name
+            name = ""
+        elif (is_name and name[-1:] in ("", ".")) or (word.text == "." and name):
+            name += text[word.start : word.end]
+        else:
+            break
+    if name:
+        yield name
 
 
 def _without_generic_section(scan: list[Word]) -> list[Word]:
@@ -216,8 +229,12 @@ def assignment(part: list[Word], colon: int) -> int | None:
 def comment_behind(text: str, end: int) -> str:
     """The comment on the rest of a line, if nothing else is there."""
     line_end = text.find("\n", end)
-    rest = text[end : line_end if line_end >= 0 else len(text)].strip()
-    if rest.startswith("//"):
-        return rest.lstrip("/").strip()
-    match = re.fullmatch(r"\(\*(.*)\*\)", rest)
-    return match[1].strip() if match else ""
+    lines: list[str] = []
+    for kind, piece, start, stop in pieces(text, end):
+        if start > line_end >= 0:
+            break
+        if kind is not COMMENT:
+            return ""
+        lines += _comment_lines(piece)
+        line_end = max(line_end, text.find("\n", stop)) if line_end >= 0 else line_end
+    return "\n".join(lines)

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from tappet.iec.tokens import COMMENT, PRAGMA, SIGN, WORD, Piece, pieces
 from tappet.iec.trivia import unnested
 from tappet.project.exchange.drafts import Draft
 from tappet.project.exchange.plcopen_declarations import CODESYS
 from tappet.project.exchange.xml_tree import XHTML, Element
 from tappet.project.kinds.library_manager import LibraryReferenceData
 
-_TOKEN = re.compile(
-    r"(?P<skipped>\(\*.*?\*\)|//[^\n]*|'(?:\$.|[^'$])*'|\"(?:\$.|[^\"$])*\")"
-    r"|(?P<pragma>\{\{.*?\}\}|\{[^}]*\})"
-    r"|\b(?P<function>(?:TIME_TO_(?P<to>[LSDU]*INT|L?REAL)|(?P<from>[LSDU]*INT|L?REAL)_TO_TIME)"
-    r"|CONCAT)\b(?=\s*\()"
-    r"|(?P<open>\()|(?P<close>\))|(?P<comma>,)",
-    re.IGNORECASE | re.DOTALL,
-)
-
+_CONVERSION = re.compile(r"TIME_TO_(?P<to>[LSDU]*INT|L?REAL)|(?P<from>[LSDU]*INT|L?REAL)_TO_TIME", re.I)
+_C_CODE = re.compile(r"\{\{.*?\}\}|\{[^}]*\}", re.DOTALL)
+"""A pragma of matiec, which may go over lines."""
 
 COUNTERS = LibraryReferenceData(name="IEC_Counters")
 """The library with the counters that matiec knows without one."""
@@ -52,40 +48,39 @@ def rewritten(text: str) -> tuple[str, list[str]]:
     C code between braces becomes a comment: what it does is not in the program any more. A conversion
     between times and numbers counts seconds there and milliseconds here; comments do not nest there.
     """
-    bottom = _Part(None)
+    bottom = _Part("")
     parts = [bottom]
     position = pragmas = 0
     names: dict[str, None] = {}
-    for match in _TOKEN.finditer(text):
+    found = list(_pieces(text))
+    for i, (kind, piece, start, end) in enumerate(found):
         part = parts[-1]
-        part.pieces.append(text[position : match.start()])
-        position = match.end()
-        if match["skipped"]:
-            part.pieces.append(unnested(match.group()))
-        elif match["pragma"]:
-            inner = match.group().replace("(*", "( *").replace("*)", "* )")
+        part.pieces.append(text[position:start])
+        position = end
+        called = i + 1 < len(found) and found[i + 1].text == "("
+        if kind is PRAGMA:
+            inner = piece.replace("(*", "( *").replace("*)", "* )")
             part.pieces.append(f"(* {inner} *)")
             pragmas += 1
-        elif match["function"]:
-            parts.append(_Part(match))
-        elif match["open"]:
+        elif kind is WORD and called and (piece.upper() == "CONCAT" or _CONVERSION.fullmatch(piece)):
+            parts.append(_Part(piece))
+        elif piece == "(":
             part.open += 1
             part.pieces.append("(")
-        elif match["close"] and part.function is not None and part.open == 1:
+        elif piece == ")" and part.function and part.open == 1:
             parts.pop()
-            now = _concatenated(part) if part.function["function"].upper() == "CONCAT" else _seconds(part)
-            parts[-1].pieces.append(now or "".join([part.function.group(), *part.pieces, ")"]))
+            now = _concatenated(part) if part.function.upper() == "CONCAT" else _seconds(part)
+            parts[-1].pieces.append(now or "".join([part.function, *part.pieces, ")"]))
             if now:
-                names[part.function.group().upper()] = None
+                names[part.function.upper()] = None
         else:
-            if match["comma"] and part.open == 1:
+            if piece == "," and part.open == 1:
                 part.commas.append(len(part.pieces))
-            part.open -= bool(match["close"])
-            part.pieces.append(match.group())
+            part.open -= piece == ")"
+            part.pieces.append(unnested(piece) if kind is COMMENT else piece)
     parts[-1].pieces.append(text[position:])
     for part in parts[1:]:  # parentheses that nothing closes
-        assert part.function is not None
-        bottom.pieces += [part.function.group(), *part.pieces]
+        bottom.pieces += [part.function, *part.pieces]
     notes = ["CONCAT of more than two texts was nested"] if names.pop("CONCAT", "") is None else []
     if pragmas:
         count = f"{pragmas} pieces of C code" if pragmas > 1 else "a piece of C code"
@@ -95,11 +90,28 @@ def rewritten(text: str) -> tuple[str, list[str]]:
     return "".join(bottom.pieces), notes
 
 
+def _pieces(text: str) -> Iterator[Piece]:
+    """The pieces of a text of matiec, in which comments do not nest and pragmas are C code."""
+    position: int | None = 0
+    while position is not None:
+        start, position = position, None
+        for piece in pieces(text, start, nested=False):
+            if piece.kind is not PRAGMA:
+                yield piece
+                continue
+            code = _C_CODE.match(text, piece.start)
+            end = piece.start + 1 if code is None else code.end()
+            yield Piece(SIGN if code is None else PRAGMA, text[piece.start : end], piece.start, end)
+            if end != piece.end:
+                position = end
+                break
+
+
 @dataclass(slots=True)
 class _Part:
     """What is being put together: the whole text, or the arguments of a function from its parenthesis on."""
 
-    function: re.Match[str] | None
+    function: str
     pieces: list[str] = field(default_factory=list)
     open: int = 0
     commas: list[int] = field(default_factory=list)
@@ -121,9 +133,10 @@ def _concatenated(part: _Part) -> str | None:
 
 
 def _seconds(part: _Part) -> str:
-    assert part.function is not None
+    conversion = _CONVERSION.fullmatch(part.function)
+    assert conversion is not None
     argument = "".join(part.pieces).strip().removeprefix("(").strip()
-    to, from_ = (part.function["to"] or "").upper(), (part.function["from"] or "").upper()
+    to, from_ = (conversion["to"] or "").upper(), (conversion["from"] or "").upper()
     if to in ("REAL", "LREAL"):
         return f"(TIME_TO_{to}({argument}) / 1000.0)"
     if to:

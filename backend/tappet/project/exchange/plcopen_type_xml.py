@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from tappet.iec.tokens import NAME, Word, words
+from tappet.iec.words import ELEMENTARY_TYPES
 from tappet.project.exchange.declaration_sections import (
     Variable,
     assignment,
@@ -15,11 +16,14 @@ from tappet.project.exchange.declaration_sections import (
 from tappet.project.exchange.plcopen_declarations import CODESYS
 from tappet.project.exchange.xml_tree import XHTML, escape_attribute, escape_text, is_legal
 
-_ELEMENTARY_TYPES = """
-    BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL TIME DATE DT TOD
-"""
-_ELEMENTARY = frozenset(_ELEMENTARY_TYPES.split())
-_LONG_NAMES = {"DATE_AND_TIME": "DT", "TIME_OF_DAY": "TOD"}
+_SHORT_NAMES = {"DATE_AND_TIME": "DT", "TIME_OF_DAY": "TOD"}
+_ELEMENTARY = {
+    name: _SHORT_NAMES.get(name, name)
+    for name, type_ in ELEMENTARY_TYPES.items()
+    if type_.family not in ("time", "date") or type_.size == 4  # the schema is older than LTIME, LDATE ...
+}
+_ELEMENTARY |= {short: short for short in _SHORT_NAMES.values()}
+"""The element of an elementary type, by upper-case name."""
 _STRING = re.compile(r"(W?STRING)\s*(?:[(\[]\s*(.+?)\s*[)\]])?", re.IGNORECASE | re.DOTALL)
 _ARRAY = re.compile(r"ARRAY\s*\[(?P<bounds>[^\]]*)\]\s*OF\b(?P<of>.*)", re.IGNORECASE | re.DOTALL)
 _POINTER = re.compile(r"(?P<kind>POINTER|REFERENCE)\s+TO\b(?P<to>.*)", re.IGNORECASE | re.DOTALL)
@@ -57,9 +61,7 @@ def _type(text: str, depth: int) -> str:
     text = text.strip()
     upper = text.upper()
     if upper in _ELEMENTARY:
-        return f"<{upper} />"
-    if upper in _LONG_NAMES:
-        return f"<{_LONG_NAMES[upper]} />"
+        return f"<{_ELEMENTARY[upper]} />"
     string = _STRING.fullmatch(text)
     if string:
         length = f' length="{_attribute(string[2])}"' if string[2] else ""

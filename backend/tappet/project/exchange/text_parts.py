@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
-from tappet.iec.tokens import NAME, Word
-
-_LINE_COMMENT = re.compile(r"[ \t]*(?://[^\n]*|\(\*[^*\n]*\*\)[ \t]*)")
+from tappet.iec.sections import commented_line_end
+from tappet.iec.tokens import COMMENT, NAME, Word
 
 
 def type_parts(text: str, scan: list[Word]) -> Iterator[tuple[str, int, int]]:
@@ -34,14 +32,7 @@ def type_parts(text: str, scan: list[Word]) -> Iterator[tuple[str, int, int]]:
                     end = scan[i].end
                     i += 1
                 break
-        yield text[start.start : start.end], start.start, _with_comment(text, end)
-
-
-def _with_comment(text: str, end: int) -> int:
-    """Where the line of an offset ends if only a comment follows there, else the offset itself."""
-    line_end = text.find("\n", end)
-    line_end = len(text) if line_end < 0 else line_end
-    return line_end if _LINE_COMMENT.fullmatch(text, end, line_end) else end
+        yield text[start.start : start.end], start.start, commented_line_end(text, end, (COMMENT,))
 
 
 def trimmed(text: str) -> str:
