@@ -119,7 +119,8 @@ def test_the_tasks_of_an_export(one: str, text: str, two: str) -> None:
     done = imported(
         "blocks.exp",
         f"PROGRAM PLC_PRG\nVAR s : STRING := {text}; END_VAR\nEND_PROGRAM\n\nRESOURCE\n"
-        f"{{event_task : 'start','TASK x (',''}}\nTASK main {one}\n(PRIORITY := 1, {two}\nINTERVAL := T#3ms);\nPLC_PRG(); {one}\n"
+        f"{{event_task : 'start','TASK x (',''}}\n"
+        f"TASK main {one}\n(PRIORITY := 1, {two}\nINTERVAL := T#3ms);\nPLC_PRG(); {one}\n"
         f"LOG(s := {text}, n := F(1)); {two}\n{{Additional_info : 1,0}}\nEND_TASK\nEND_RESOURCE\n",
     )
     tasks = {item.name: item.data.model_dump() for item in done.project.find_kind("task")}
