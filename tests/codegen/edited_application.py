@@ -144,13 +144,13 @@ def faults(application: LoadedApplication, cycles: int = 3) -> list[object]:
     return found
 
 
-def values(application: LoadedApplication) -> list[object]:
+def values(application: LoadedApplication, cycles: int = 3) -> list[object]:
     """What some cycles leave in the image; a fault ends one."""
     names = ["PLC_PRG.sum", "PLC_PRG.text", "PLC_PRG.i", "PLC_PRG.x", "G.total", "G.log", "G.calls"]
     for block in ("PLC_PRG.b", "PLC_PRG.d"):
         names += [f"{block}.n", f"{block}.i", f"{block}.row"]
     names += ["PLC_PRG.leaf.q", "PLC_PRG.d.inner.q"]
-    return faults(application) + [application.read(name) for name in names]
+    return faults(application, cycles) + [application.read(name) for name in names]
 
 
 def changed_over(
