@@ -15,7 +15,6 @@ from tappet.core.ir.expressions import (
     Compare,
     Const,
     Convert,
-    Expr,
     FunctionAddress,
     Intrinsic,
     Load,
@@ -35,6 +34,7 @@ from tappet.core.ir.functions import (
     Module,
     Parameter,
 )
+from tappet.core.ir.nodes import Expr, Stmt
 from tappet.core.ir.places import (
     Base,
     Data,
@@ -62,7 +62,6 @@ from tappet.core.ir.statements import (
     Promoted,
     Repeat,
     Return,
-    Stmt,
     Store,
     Switch,
     SwitchCase,

@@ -3,20 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
+from tappet.core.ir.nodes import Expr, Stmt
 from tappet.core.ir.places import Place
-from tappet.core.ir.types import Scalar
-
-if TYPE_CHECKING:
-    from tappet.core.ir.statements import Stmt
-
-
-@dataclass(eq=False, slots=True)
-class Expr:
-    """Base of the expressions; `type` is the type of the value."""
-
-    type: Scalar
 
 
 @dataclass(eq=False, slots=True)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tappet.core.ir.expressions import VirtualMethod
+from tappet.core.ir.nodes import Stmt
 from tappet.core.ir.places import Base, Local
-from tappet.core.ir.statements import Copy, Stmt
+from tappet.core.ir.statements import Copy
 from tappet.core.ir.types import VOID, Scalar
 
 

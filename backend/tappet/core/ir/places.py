@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from tappet.core.ir.nodes import Expr
 from tappet.core.ir.types import Scalar
-
-if TYPE_CHECKING:
-    from tappet.core.ir.expressions import Expr
 
 
 @dataclass(eq=False, slots=True)

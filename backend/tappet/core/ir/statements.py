@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tappet.core.ir.expressions import Expr
+from tappet.core.ir.nodes import Expr, Stmt
 from tappet.core.ir.places import Local, Place, Subscript
 from tappet.core.ir.types import Scalar
-
-
-@dataclass(eq=False, slots=True)
-class Stmt:
-    """Base of the statements."""
 
 
 @dataclass(eq=False, slots=True)
