@@ -390,8 +390,3 @@ def _path_attribute(member: t.Member) -> str | None:
 def _not_initialised(decl: ast.VarDecl) -> bool:
     names = ("no_init", "noinit", "no-init")
     return any(attribute_value(decl.attributes, name) is not None for name in names)
-
-
-def _indices(type_: t.Array) -> Iterator[str]:
-    for index in type_.indices():
-        yield ", ".join(map(str, index))

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from tappet import libraries as installed
 from tappet.codegen.compile_options import OptimiseOptions
 from tappet.codegen.emit_module import EmitOptions, emit_module
 from tappet.codegen.object_cache import ObjectCache
 from tappet.core import passes
 from tappet.core.lower import lower
-from tappet.core.program import CONVERSION_LIBRARY, LoweringError
+from tappet.core.program import LoweringError
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
@@ -39,17 +38,12 @@ class SystemBuildError(RuntimeError):
     """ST of the product does not compile; the message lists the errors."""
 
 
-def build_system(
-    sources: Iterable[Source], level: int = 2, conversions: bool = False, absolute_data: bool = False
-) -> SystemBuild:
+def build_system(sources: Iterable[Source]) -> SystemBuild:
     """Compile ST that stands alone: functions with attribute tappet_export and what they call, one object.
 
     Raises SystemBuildError. Global variables become imports `tappet.data.*` that the linker has to provide.
     """
-    texts = list(sources)
-    if conversions:
-        texts += installed.load(CONVERSION_LIBRARY).sources
-    parsed = [parse(source) for source in texts]
+    parsed = [parse(source) for source in sources]
     analysis = analyse([p.unit for p in parsed], AnalysisOptions(system=True))
     found = [d for p in parsed for d in p.diagnostics] + analysis.diagnostics
     errors = [d for d in found if d.severity == "error"]
@@ -61,8 +55,8 @@ def build_system(
         raise SystemBuildError(f"{error.uri}: {error.message}") from error
     passes.run(lowered.module)
     names = list(lowered.module.functions)
-    text = emit_module(lowered.module, names, EmitOptions(absolute_data=absolute_data), whole=True)
-    return SystemBuild(ObjectCache(None).compile(text, OptimiseOptions(level=level)), analysis)
+    text = emit_module(lowered.module, names, EmitOptions(absolute_data=False), whole=True)
+    return SystemBuild(ObjectCache(None).compile(text, OptimiseOptions()), analysis)
 
 
 def _named_type(analysis: Analysis, type_name: str) -> t.Type:

@@ -117,15 +117,6 @@ class SourceMap(Struct, frozen=True, array_like=True):
         shown = Span(line + shift, column, end_line + shift, end_column)
         return Place(found.object_id, found.part, shown, _element_at(found, line) if found.drawn else None)
 
-    def line_of(self, document: str, element: str) -> int | None:
-        """The first line of an element in the text; None when the text does not have it."""
-        for segment in self.segments:
-            if segment.document == document:
-                for name, first in segment.elements:
-                    if name == element:
-                        return segment.line + first
-        return None
-
     def position(self, document: str, position: Position) -> Position | None:
         """Where a position of a document stands in the text; None when it does not show the document."""
         for segment in self.segments:

@@ -213,14 +213,15 @@ class LoadedApplication:
             Remanent(r, True) for r in self.package.persistent
         ]
 
-    def kept_values(self, *, retain: bool, persistent: bool) -> Kept:
-        """Present values of the remanent variables; only while no task runs."""
+    def kept_values(self, *, retain: bool) -> Kept:
+        """Present values of the persistent variables, of the retained ones if asked for; only while no task
+        runs."""
         return {
             r.variable.path.upper(): KeptValue(
                 r.variable.type_signature, self.image.read(r.variable.offset, r.variable.size), r.persistent
             )
             for r in self.remanent()
-            if (persistent if r.persistent else retain)
+            if r.persistent or retain
         }
 
     def open_retain_file(self, folder: Path) -> None:
@@ -439,7 +440,7 @@ class LoadedApplication:
                 status = "not created"
             if faulted == i:
                 status = "exception"
-            rows.append(read_statistics(spec, task, self.contexts.statistics(task), status))
+            rows.append(read_statistics(spec, self.contexts.statistics(task), status))
         return rows
 
     def reset_statistics(self, task: int) -> None:

@@ -223,7 +223,7 @@ class SoftPlc(ApplicationAccess):
             if application.tasks.state == RUNNING:
                 application.tasks.set_state(STOPPED)
             with application.tasks.standing():
-                kept = application.kept_values(retain=kind == "warm", persistent=True)
+                kept = application.kept_values(retain=kind == "warm")
                 application.tasks.set_state(STOPPED)
                 self._report = None
                 fault = application.initialise(kept, keep_no_init=True)
@@ -340,7 +340,7 @@ class SoftPlc(ApplicationAccess):
             if old.package.application != package.application:
                 return {}
             old.tasks.stop()
-            return old.kept_values(retain=False, persistent=True)
+            return old.kept_values(retain=False)
         if self.folder is None:
             return {}
         kept, _ = load_retain(self.folder)  # left by a boot application that could not be loaded

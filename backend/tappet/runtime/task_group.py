@@ -210,16 +210,14 @@ class TaskGroup:
 
     # -- lists that running tasks read -------------------------------------------------------------------
 
-    def publish(
-        self, cell: int, address: int, owner: object, release: Callable[[], None] | None = None
-    ) -> None:
-        """Exchange a pointer that tasks follow. The owner of the new list is kept; the old one is dropped,
-        and its `release` called, once no task can be using it."""
+    def publish(self, cell: int, address: int, owner: object) -> None:
+        """Exchange a pointer that tasks follow. The owner of the new list is kept; the old one is dropped
+        once no task can be using it."""
         old = self._published.get(cell)
-        self._published[cell] = (owner, release)
+        self._published[cell] = owner
         self.executive.store(cell, address)
-        if isinstance(old, tuple):
-            self.retire(old[0], old[1])
+        if old is not None:
+            self.retire(old)
 
     def retire(self, owner: object, release: Callable[[], None] | None = None) -> None:
         """Keep `owner` until every cycle that may use it has ended, then call `release`."""

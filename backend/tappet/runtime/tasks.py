@@ -96,7 +96,7 @@ class TaskStatistics:
     """99.9 % of the starts were not later than this, in steps of 2048 ns; 1,048,576 means more."""
 
 
-def read_statistics(spec: TaskSpec, task: Record, statistics: Record, status: str) -> TaskStatistics:
+def read_statistics(spec: TaskSpec, statistics: Record, status: str) -> TaskStatistics:
     """Statistics out of a task context; single numbers are exact, the set may straddle a cycle."""
     raw = read_memory(statistics.place("lateness"), statistics.size_of("lateness"))
     iec = statistics["iecCycles"]

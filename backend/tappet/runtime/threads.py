@@ -118,11 +118,6 @@ class NativeThread:
         self._handle = create_thread(entry, argument, stack.mapping, GUARD_SIZE, options)
         self._joined = False
 
-    @property
-    def alive(self) -> bool:
-        """Whether it has not been joined yet."""
-        return not self._joined
-
     def wake(self) -> None:
         """Interrupt a sleep of the thread (the watchdog signal does nothing else outside programs)."""
         if not self._joined:

@@ -24,7 +24,7 @@ def declare(session: Session, found: Collected, declarations: Declarations, whol
     link(session, found, declarations)
     _register(session, found, declarations)
     _resolve_types(found, declarations)
-    _resolve_variables(session, found, declarations)
+    _resolve_variables(found, declarations)
     lay_out_lists(session, found)
     _fill(session, whole, declarations)
     _initial_values(session, found, declarations)
@@ -63,7 +63,7 @@ def _resolve_types(found: Collected, declarations: Declarations) -> None:
             declarations.complete(symbol.type)
 
 
-def _resolve_variables(session: Session, found: Collected, declarations: Declarations) -> None:
+def _resolve_variables(found: Collected, declarations: Declarations) -> None:
     for gvl, _ in found.gvls:
         for member in gvl.members.values():
             declarations.resolve(member)
@@ -228,7 +228,7 @@ def _initial_values(session: Session, found: Collected, declarations: Declaratio
         if isinstance(declaration.type_ref, ast.StructType):
             for decl in declaration.type_ref.members:
                 if isinstance(decl.symbol, VarSymbol):
-                    _initial_value(body, decl.symbol, declarations)
+                    _initial_value(body, decl.symbol)
         elif (
             declaration.initial is not None
             and symbol.type is not None
@@ -238,16 +238,16 @@ def _initial_values(session: Session, found: Collected, declarations: Declaratio
     for gvl, source in found.gvls:
         session.account(source.uri)
         for member in gvl.members.values():
-            _initial_value(declarations.bodies[id(gvl)], member, declarations)
+            _initial_value(declarations.bodies[id(gvl)], member)
     for pou in (*all_pous(found), *_heads(found)):
         body = declarations.bodies[id(pou)]
         session.account(body.uri)
         for variable in found.own[id(pou)].variables.values():
             if variable.section != "VAR_EXTERNAL":
-                _initial_value(body, variable, declarations)
+                _initial_value(body, variable)
 
 
-def _initial_value(body: Body, variable: VarSymbol, declarations: Declarations) -> None:
+def _initial_value(body: Body, variable: VarSymbol) -> None:
     decl, type_ = variable.decl, variable.type
     if decl is None or type_ is None:
         return

@@ -18,7 +18,6 @@ _NUMBERS = frozenset({Kind.BITS, Kind.SIGNED, Kind.UNSIGNED, Kind.REAL})
 _LONG_DATES = frozenset({"LDATE", "LTIME_OF_DAY", "LDATE_AND_TIME"})
 _DAYS = (t.DATE, t.LDATE)
 """Dates without time of day: there is nothing a duration could be added to."""
-_UNTYPED_LIMITS = (-(1 << 63), (1 << 64) - 1)
 
 
 def unary(b: Body, e: ast.Unary) -> None:
@@ -143,7 +142,7 @@ def _meet(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> conversion
     return conversion.OPERANDS.get((lt.name, rt.name))
 
 
-def _warn(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr, meeting: conversion.Operands) -> None:
+def _warn(b: Body, left: ast.Expr, right: ast.Expr, meeting: conversion.Operands) -> None:
     for operand, code in zip((left, right), meeting.warnings, strict=True):
         if code and not operand.is_constant and operand.type is not None:
             complain(b, operand.span, operand.type, meeting.computed, code)
@@ -164,7 +163,7 @@ def _arithmetic(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
         return
     e.type, e.operand_type = meeting.type, meeting.computed
     if meeting.warnings != ("", ""):
-        _warn(b, e, left, right, meeting)
+        _warn(b, left, right, meeting)
 
 
 def _scale(b: Body, e: ast.Binary, time: ast.Expr, type_: Elementary, factor: ast.Expr) -> None:
@@ -318,7 +317,7 @@ def _comparison(b: Body, e: ast.Binary, left: ast.Expr, right: ast.Expr) -> None
             if left.untyped and right.untyped:
                 e.operand_type = t.LREAL if meeting.computed.kind is Kind.REAL else meeting.computed
             elif meeting.warnings != ("", ""):
-                _warn(b, e, left, right, meeting)
+                _warn(b, left, right, meeting)
             return
         if _bool_with_number(b, e, left, right, lt, rt):
             return

@@ -25,8 +25,6 @@ CODES = ("W1131",)
 NODES = (ast.If,)
 _COMPARED = 50
 """So many branches are compared with each other; the time grows with the square."""
-_LOOK_BACK = 50
-"""Conditions before one that it is compared with; generated texts have thousands."""
 
 
 def check_statement(b: Body, s: ast.If) -> None:

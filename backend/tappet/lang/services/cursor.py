@@ -32,8 +32,6 @@ class Cursor:
     """The identifier or keyword up to the position, '' if none is being typed."""
     previous: int
     """Index of the last token before the word, -1 if there is none."""
-    following: int
-    """Index of the first token behind the word."""
 
 
 def cursor_at(lexed: Lexed, position: Position) -> Cursor:
@@ -42,15 +40,15 @@ def cursor_at(lexed: Lexed, position: Position) -> Cursor:
     for item in (*lexed.trivia.get(low + 1, ()), *lexed.trivia.get(low, ())):
         if _inside(item.span, item.text, position):
             kind: Literal["comment", "pragma"] = "comment" if item.kind is COMMENT else "pragma"
-            return Cursor(kind, _up_to(item.text, item.span, position), "", low, low + 1)
+            return Cursor(kind, _up_to(item.text, item.span, position), "", low)
     if low >= 0 and lexed.lines[low] == position.line:
         kind_, text, column = lexed.kinds[low], lexed.texts[low], lexed.columns[low]
         end = column + len(text)
         if kind_ is STRING and position.column < end:
-            return Cursor("string", text[: position.column - column], "", low - 1, low + 1)
+            return Cursor("string", text[: position.column - column], "", low - 1)
         if (kind_ is ID or text[:1].isidentifier()) and position.column <= end:
-            return Cursor("code", "", text[: position.column - column], low - 1, low + 1)
-    return Cursor("code", "", "", low, low + 1)
+            return Cursor("code", "", text[: position.column - column], low - 1)
+    return Cursor("code", "", "", low)
 
 
 def _inside(span: Span, text: str, position: Position) -> bool:

@@ -120,7 +120,7 @@ def code_of(snapshot: Snapshot, symbol: Symbol) -> str:
         ]
         return f"PROPERTY {symbol.name} : {symbol.type} ({', '.join(accessors) or 'no accessor'})"
     if isinstance(symbol, TypeSymbol):
-        return type_code(snapshot, symbol)
+        return type_code(symbol)
     if isinstance(symbol, InterfaceSymbol):
         heads = [head_line(method) for key, method in symbol.methods.items() if not key.startswith("__")]
         heads += [f"PROPERTY {p.name} : {p.type}" for p in symbol.properties.values()]
@@ -139,13 +139,13 @@ def variable_code(snapshot: Snapshot, symbol: VarSymbol) -> str:
     section = "" if symbol.section == "RESULT" else f"{symbol.section} "
     flags = "".join(f"{flag} " for flag in sorted(symbol.flags)) if section else ""
     address = f" AT {decl.address}" if decl is not None and decl.address else ""
-    initial = initial_text(snapshot, symbol)
+    initial = initial_text(symbol)
     operator = "REF=" if decl is not None and decl.initial_ref else ":="
     value = f" {operator} {initial}" if initial else ""
     return f"{section}{flags}{symbol.name}{address} : {type_as_written(symbol)}{value};"
 
 
-def initial_text(snapshot: Snapshot, symbol: VarSymbol) -> str:
+def initial_text(symbol: VarSymbol) -> str:
     """The initial value as written, '' without one; of a parameter the one that the reference gives."""
     decl = symbol.decl
     if decl is None or decl.initial is None or symbol.source is None:
@@ -205,7 +205,7 @@ def pou_code(snapshot: Snapshot, pou: PouSymbol) -> str:
                 lines.append("END_VAR")
             section = variable.section
             lines.append(section)
-        initial = initial_text(snapshot, variable)
+        initial = initial_text(variable)
         comment = f"  // {variable.comment.splitlines()[0]}" if variable.comment else ""
         value = f" := {initial}" if initial else ""
         lines.append(f"    {variable.name} : {type_as_written(variable)}{value};{comment}")
@@ -214,7 +214,7 @@ def pou_code(snapshot: Snapshot, pou: PouSymbol) -> str:
     return "\n".join(lines)
 
 
-def type_code(snapshot: Snapshot, symbol: TypeSymbol) -> str:
+def type_code(symbol: TypeSymbol) -> str:
     """The definition as written, shortened when it is long."""
     decl = getattr(symbol.type, "decl", None)
     if symbol.source is not None and isinstance(decl, ast.TypeDecl) and decl.source is symbol.source:

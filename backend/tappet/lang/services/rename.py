@@ -42,7 +42,7 @@ def rename(snapshot: Snapshot, document: str, position: Position, name: str) -> 
     found = _target(snapshot, view)
     _check_name(name)
     places = list(occurrences_of(snapshot, found, view.index))
-    _check_free(snapshot, view, found, places, name)
+    _check_free(snapshot, found, places, name)
     edits: dict[tuple[str, Span], Edit] = {}
     for index, item in places:
         place = snapshot.program.texts[index].place(item.span)
@@ -88,7 +88,7 @@ def _check_name(name: str) -> None:
 
 
 def _check_free(
-    snapshot: Snapshot, view: View, found: Occurrence, places: list[tuple[int, Occurrence]], name: str
+    snapshot: Snapshot, found: Occurrence, places: list[tuple[int, Occurrence]], name: str
 ) -> None:
     """The new name must be free where the thing is declared, and must not be hidden where it is used."""
     key = name.upper()

@@ -42,7 +42,7 @@ def _of_pou(view: View, pou: PouSymbol, count: int, named: str) -> Signature:
         if parameters:
             label += ", "
         arrow = " =>" if variable.section == "VAR_OUTPUT" else ""
-        initial = describe.initial_text(view.snapshot, variable)
+        initial = describe.initial_text(variable)
         start = len(label)
         value = f" := {initial}" if initial else ""
         label += f"{variable.name}{arrow} : {describe.type_as_written(variable)}{value}"

@@ -72,13 +72,13 @@ def zip_files(files: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def read_zip(source: bytes | BinaryIO, limits: Limits = DEFAULT_LIMITS) -> Project:
+def read_zip(source: bytes | BinaryIO) -> Project:
     """The project of an archive, with its further files; it may stand in a folder of the archive.
 
     Raises FolderFormatError, also for archives that are too large, packed suspiciously well, damaged or
     encrypted, or hold links, doubled names or paths that lead out of the folder.
     """
-    files = unpack(source, limits)
+    files = unpack(source)
     tops = sorted((path.count("/"), path) for path in files if path.split("/")[-1] == PROJECT_FILE)
     if not tops:
         raise FolderFormatError("archive", f"holds no {PROJECT_FILE}, so it is no Tappet project")

@@ -158,10 +158,6 @@ class Builder:
         running = self._running.get((project_id, application_id))
         return running is not None and running[1].cancel()
 
-    def newest(self, project_id: str, application_id: str) -> Built | None:
-        """The newest finished build."""
-        return self._built.get((project_id, application_id))
-
     async def close(self) -> None:
         """Ends the compiler processes."""
         for _, task in list(self._running.values()):
