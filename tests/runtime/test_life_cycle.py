@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from plc_programs import build
 
-from tappet.runtime.access import PlcError
 from tappet.runtime.boot import store_boot
+from tappet.runtime.errors import PlcError
 from tappet.runtime.plc import Event, SoftPlc
 
 TEXT = """

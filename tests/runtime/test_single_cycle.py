@@ -6,7 +6,7 @@ import pytest
 from plc_programs import MS, build
 
 from tappet.iec.task import Task
-from tappet.runtime.access import PlcError
+from tappet.runtime.errors import PlcError
 from tappet.runtime.plc import SoftPlc
 
 FAST = "PROGRAM Fast\nVAR n : DINT; END_VAR\nn := n + 2;\nEND_PROGRAM\n"

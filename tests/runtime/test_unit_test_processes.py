@@ -19,23 +19,29 @@ from tappet.runtime.unit_tests import attempts as processes
 from tappet.runtime.unit_tests.attempts import NO_MEMORY, Attempts
 from tappet.runtime.unit_tests.junit import to_xml
 from tappet.runtime.unit_tests.known import NOTHING, Known
+from tappet.runtime.unit_tests.order import TestLimits, order
 from tappet.runtime.unit_tests.place import PlacePage
-from tappet.runtime.unit_tests.process import order, run_in_process
+from tappet.runtime.unit_tests.process import run_in_process
 from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome, TestOutcome
-from tappet.runtime.unit_tests.runner import TestLimits
 
 FOLDER = Path(__file__).parent / "unit_tests"
 
 
 def order_of(text: str, limits: TestLimits) -> bytes:
-    return order([Source("tests.st", text, name="tests")], [], BuildOptions(), limits=limits)
+    options = BuildOptions()
+    return order(
+        options.application, [Source("tests.st", text, name="tests")], [], options.libraries, limits=limits
+    )
 
 
 @pytest.fixture(scope="module")
 def deadly() -> Report:
     (application,) = applications([FOLDER / "deadly.st"])
     limits = TestLimits(cycle_s=20.0, memory_mib=128)
-    return run_in_process(order(application.sources, application.tasks, application.options, limits=limits))
+    libraries = application.options.libraries
+    return run_in_process(
+        order(application.name, application.sources, application.tasks, libraries, limits=limits)
+    )
 
 
 def test_each_deadly_test_has_its_error_and_the_others_run_on(deadly: Report) -> None:

@@ -12,9 +12,11 @@ from tests.cli.invoke import invoke
 from tappet.cli.inputs import applications
 from tappet.lang.parser import parse
 from tappet.lang.source import Source
-from tappet.runtime.unit_tests.instrument import Mark, instrument
+from tappet.runtime.unit_tests.instrument import instrument
+from tappet.runtime.unit_tests.known import Mark
+from tappet.runtime.unit_tests.order import TestLimits
 from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome
-from tappet.runtime.unit_tests.runner import TestLimits, run_tests
+from tappet.runtime.unit_tests.runner import run_tests
 
 FOLDER = Path(__file__).parent / "unit_tests"
 LIMITS = TestLimits(cycle_s=2.0, simulated_s=700.0)

@@ -4,7 +4,7 @@ import pytest
 from plc_programs import MS, build
 
 from tappet.iec.task import Task
-from tappet.runtime.access import PlcError
+from tappet.runtime.errors import PlcError
 from tappet.runtime.local import LocalRuntime
 
 TEXT = """

@@ -12,9 +12,9 @@ from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import Root, SymbolMap
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 from tappet.runtime import protocol
-from tappet.runtime.access import NoApplicationError, PlcError
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
-from tappet.runtime.faults import CallFrame, ExceptionReport
+from tappet.runtime.errors import NoApplicationError, PlcError
+from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.logbook import LogEntry
@@ -22,9 +22,9 @@ from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.symbols import GetSymbols
 from tappet.runtime.places import Place, path_at
-from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.recorder import Frame
 from tappet.runtime.service import refusal_code
+from tappet.runtime.state import RuntimeInfo
 from tappet.runtime.tasks import TaskStatistics
 
 IMAGE_SIZE = 256

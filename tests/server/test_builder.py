@@ -13,9 +13,10 @@ from tappet.codegen.generate import Generator
 from tappet.iec.places import Segment, SourceMap
 from tappet.iec.source import Source
 from tappet.server.builds.builder import Application, Builder
+from tappet.server.builds.messages import CANCEL
 from tappet.server.builds.packages import KEEP, PackageStore
 from tappet.server.builds.source_places import SourcePlaces
-from tappet.server.builds.worker import CANCEL, Compiler
+from tappet.server.builds.worker import Compiler
 from tappet.server.problems import Problem
 
 PLACES = SourcePlaces("p", {}, {})

@@ -17,7 +17,8 @@ from tappet.bench.report import Report, Row
 from tappet.iec.task import Task
 from tappet.lang.source import Source
 from tappet.project.library_reference import LibraryReference
-from tappet.server.builds.worker import BuildOrder, Compiler
+from tappet.server.builds.messages import BuildOrder
+from tappet.server.builds.worker import Compiler
 
 POUS = 550
 EDITED = (7, 100, 222, 333, 444)

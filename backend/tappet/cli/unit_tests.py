@@ -46,8 +46,8 @@ def run_unit_tests(given: Namespace) -> int:
     """Runs the tests of all applications and shows one report."""
     from tappet.cli.inputs import applications
     from tappet.runtime.unit_tests.junit import to_xml
-    from tappet.runtime.unit_tests.process import order, run_in_process
-    from tappet.runtime.unit_tests.runner import TestLimits
+    from tappet.runtime.unit_tests.order import TestLimits, order
+    from tappet.runtime.unit_tests.process import run_in_process
 
     limits = TestLimits(
         cycle_s=given.cycle_limit, simulated_s=_seconds(given.time_limit), memory_mib=given.memory_limit
@@ -56,7 +56,17 @@ def run_unit_tests(given: Namespace) -> int:
     if not chosen:
         raise UsageError("the project has no application to test")
     reports = [
-        run_in_process(order(a.sources, a.tasks, a.options, test_filter=given.filter, limits=limits))
+        run_in_process(
+            order(
+                a.options.application,
+                a.sources,
+                a.tasks,
+                a.options.libraries,
+                defines=a.options.defines,
+                test_filter=given.filter,
+                limits=limits,
+            )
+        )
         for a in chosen
     ]
     merged = reports[0] if len(reports) == 1 else _merge(reports)

@@ -124,6 +124,8 @@ def with_elements(found: Sequence[Diagnostic], sources: Iterable[Source]) -> lis
 
 TABLE: dict[str, Entry] = _read_table()
 """All messages by code."""
+CODING_RULES = frozenset(code for code in TABLE if code.startswith("S"))
+"""Codes of the optional rules."""
 
 
 def report(

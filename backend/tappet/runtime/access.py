@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.application import LoadedApplication
+from tappet.runtime.errors import NoApplicationError, PlcError
 from tappet.runtime.flight import FlightRecorder, FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.places import path_at
@@ -18,17 +19,6 @@ from tappet.runtime.tasks import TaskStatistics
 _PATIENCE_S = 0.5
 """How long reading waits for a property that is monitored by a call."""
 _MOMENT_S = 0.002
-
-
-class PlcError(RuntimeError):
-    """The PLC cannot do that in its present state; the message says what would be right."""
-
-
-class NoApplicationError(PlcError):
-    """What is asked for needs an application."""
-
-    def __init__(self) -> None:
-        super().__init__("no application is loaded; download one first")
 
 
 class ApplicationAccess:

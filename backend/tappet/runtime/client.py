@@ -28,9 +28,9 @@ from tappet.runtime.operations.download import CHUNK, BeginDownload, CommitDownl
 from tappet.runtime.operations.life_cycle import GetInfo, Hello
 from tappet.runtime.operations.recording import EndRecord, Record
 from tappet.runtime.operations.symbols import GetSymbols, LoadedSymbols
-from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.protocol import ProtocolError
 from tappet.runtime.recorder import Frame
+from tappet.runtime.state import RuntimeInfo
 
 _LARGEST_REPLY = 1 << 30
 _PENDING_FRAMES = 20_000

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from tappet.codegen.emit_text import PREFIX
 from tappet.codegen.faults import Fault, fault_message
+from tappet.runtime.exception_report import CallFrame
 from tappet.runtime.executive.records import Record
 from tappet.runtime.link import CodeSection, LinkedCode, ObjectSymbol, read_symbols
 
@@ -14,40 +15,6 @@ ABORTED = 100
 """FAULT_CODE.ABORTED: the runtime itself ended the cycle."""
 _GENERATED = "tappet."
 """Functions the compiler adds: the list of a task's programs, initialisation."""
-
-
-@dataclass(frozen=True, slots=True)
-class CallFrame:
-    """One level of the call stack, the innermost first."""
-
-    pou: str
-    uri: str
-    line: int
-    """1-based line in the source text `uri`; 0 when unknown."""
-    element: str | None = None
-    """Id of the drawn element that the line denotes."""
-
-
-@dataclass(frozen=True, slots=True)
-class ExceptionReport:
-    """Why an application is in the state exception."""
-
-    code: int
-    name: str
-    message: str
-    task: str
-    pou: str
-    uri: str
-    line: int
-    cycle: int
-    timestamp_ns: int
-    call_stack: tuple[CallFrame, ...] = ()
-    values: dict[str, str] = field(default_factory=dict)
-    """Numbers of the fault itself (index, low, high, address ...) and variables of the programs in the call
-    stack.
-    """
-    element: str | None = None
-    """Id of the drawn element that the line denotes."""
 
 
 @dataclass(frozen=True, slots=True)

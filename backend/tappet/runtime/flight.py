@@ -11,13 +11,15 @@ import time
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_deltas import BLOCK, ENTRY_SIZE, Entry, FlightError, rebuild, unpack_entries
 from tappet.runtime.image import Image
 from tappet.runtime.posix import map_memory, pages, read_memory
+
+if TYPE_CHECKING:
+    from tappet.runtime.executive.loader import Executive
 
 LEAST_MEMORY = 64 << 10
 T = TypeVar("T")

@@ -12,14 +12,15 @@ from types import TracebackType
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import VarRef
 from tappet.codegen.values import Value
-from tappet.runtime.access import PlcError
 from tappet.runtime.contexts import STUCK_LIMIT_S, VIRTUAL_FREEWHEEL_NS
-from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.errors import PlcError
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight import FlightSettings, FlightStatus
 from tappet.runtime.forces import PlacedValue
 from tappet.runtime.places import Place
-from tappet.runtime.plc import ResetKind, SoftPlc, State
+from tappet.runtime.plc import SoftPlc
 from tappet.runtime.recorder import Recorder
+from tappet.runtime.state import ResetKind, State
 from tappet.runtime.tasks import TaskStatistics
 from tappet.runtime.threads import NORMAL, Scheduling
 

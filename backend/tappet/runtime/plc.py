@@ -12,15 +12,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
-from typing import Literal, get_args
+from typing import get_args
 
 from tappet.codegen.package import CodePackage, PackageError
-from tappet.runtime.access import ApplicationAccess, PlcError
+from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.boot import BootError, load_boot, remove_boot, store_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
+from tappet.runtime.errors import PlcError
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.executive.loader import Executive
-from tappet.runtime.faults import ExceptionReport, RawFault, describe
+from tappet.runtime.faults import RawFault, describe
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
@@ -29,30 +31,13 @@ from tappet.runtime.online_change import OnlineChangeError, apply_change
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.reports import build_report, summary
 from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
+from tappet.runtime.state import ResetKind, RuntimeInfo, State
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.threads import NORMAL, Scheduling
 
-State = Literal["empty", "stop", "run", "exception"]
-ResetKind = Literal["warm", "cold", "origin"]
 _STATES: dict[int, State] = {STOPPED: "stop", RUNNING: "run", FAULTED: "exception"}
 MOST_TASKS = 64
 """Tasks of an application."""
-
-
-@dataclass(frozen=True, slots=True)
-class RuntimeInfo:
-    """Who a runtime is and what it runs."""
-
-    version: str
-    instance_id: str
-    state: State
-    application: str | None
-    code_id: str | None
-    data_id: str | None
-    scheduling: tuple[str, ...]
-    """What has to be known about real-time behaviour on this host, one sentence each."""
-    cycle_ns: int = 0
-    """Interval of the bus cycle task."""
 
 
 @dataclass(frozen=True, slots=True)

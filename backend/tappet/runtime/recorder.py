@@ -8,9 +8,12 @@ from __future__ import annotations
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block, Layout, Record
+
+if TYPE_CHECKING:
+    from tappet.runtime.executive.loader import Executive
 
 HEADER_SIZE = 16
 """Cycle number (u64) and unix time in ns (i64) before the values of a frame."""

@@ -9,7 +9,8 @@ from dataclasses import replace
 from tappet.codegen.symbol_map import SymbolError
 from tappet.iec.places import SourceMap, Span
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.faults import CallFrame, ExceptionReport, Locator, describe, fault_name
+from tappet.runtime.exception_report import CallFrame, ExceptionReport
+from tappet.runtime.faults import Locator, describe, fault_name
 from tappet.runtime.logbook import Logbook
 
 _MOST_VALUES = 200

@@ -16,13 +16,16 @@ from collections.abc import Mapping as MappingType
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgpack
 
 from tappet.codegen.package import RemanentRange
-from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block, Record
 from tappet.runtime.posix import Mapping, map_memory, read_memory, write_memory
+
+if TYPE_CHECKING:
+    from tappet.runtime.executive.loader import Executive
 
 MAGIC = b"TAPPETRT"
 VERSION = 1

@@ -16,7 +16,7 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 from tappet.runtime import protocol
-from tappet.runtime.access import NoApplicationError, PlcError
+from tappet.runtime.errors import NoApplicationError, PlcError
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import OperationError
 from tappet.runtime.operations.life_cycle import Hello

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
 from tappet.runtime.forces import PlacedValue
 from tappet.runtime.operations.declaration import Fact, Offset, Operation, OperationError, Rest
 from tappet.runtime.places import Place
-from tappet.runtime.plc import SoftPlc
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 SIZE = 2
 MOST = (1 << 15) - 1

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from msgspec import Meta
 
 from tappet.runtime.operations.declaration import OperationError, Session, SessionOperation
-from tappet.runtime.plc import RuntimeInfo
+from tappet.runtime.state import RuntimeInfo
 
 CHUNK = 1 << 20
 """Bytes of a package per message."""

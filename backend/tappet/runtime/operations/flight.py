@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
-from typing import Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from msgspec import Meta, Struct
 
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.operations.declaration import Count, Fact, Operation, Places, Rest
-from tappet.runtime.plc import SoftPlc
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _TAG = "flight recorder"

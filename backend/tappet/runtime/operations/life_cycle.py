@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from tappet.runtime.operations.declaration import Fact, Operation, Rest, Text
-from tappet.runtime.plc import RuntimeInfo, SoftPlc
+from tappet.runtime.state import RuntimeInfo
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 
 class Hello(Operation[RuntimeInfo], frozen=True):

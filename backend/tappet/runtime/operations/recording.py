@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
-from tappet.runtime.access import PlcError
+from tappet.runtime.errors import PlcError
 from tappet.runtime.operations.declaration import Count, Places, Session, SessionOperation, Text
 from tappet.runtime.subscriptions import MOST_RECORDERS
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.operations.declaration import Count, Operation
-from tappet.runtime.plc import SoftPlc
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 
 class GetException(Operation[ExceptionReport | None], frozen=True):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from msgspec import Struct
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.operations.declaration import Operation
-from tappet.runtime.plc import SoftPlc
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 
 class LoadedSymbols(Struct, frozen=True):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
 from tappet.runtime.operations.declaration import Operation, OperationError, Rest, Text
-from tappet.runtime.plc import SoftPlc
 from tappet.runtime.tasks import TaskStatistics
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 
 class TaskState(Struct, frozen=True):

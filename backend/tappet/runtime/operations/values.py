@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
@@ -19,7 +19,9 @@ from tappet.runtime.operations.declaration import (
     Values,
 )
 from tappet.runtime.places import Place
-from tappet.runtime.plc import SoftPlc
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 WRITE_TIMEOUT_S = 1.0
 _POLL_S = 0.001

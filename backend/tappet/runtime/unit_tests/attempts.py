@@ -14,8 +14,7 @@ from typing import Any
 
 import msgpack
 
-from tappet.runtime.unit_tests.instrument import Mark
-from tappet.runtime.unit_tests.known import NOTHING, Known
+from tappet.runtime.unit_tests.known import NOTHING, Known, Mark
 from tappet.runtime.unit_tests.place import Place, PlacePage
 from tappet.runtime.unit_tests.results import Failure, Report, TestOutcome
 

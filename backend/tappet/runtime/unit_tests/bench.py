@@ -8,10 +8,9 @@ from typing import Any
 
 from tappet.codegen.faults import Fault
 from tappet.codegen.symbol_map import SymbolError, SymbolMap
-from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY
-from tappet.runtime.unit_tests.instrument import Mark
 from tappet.runtime.unit_tests.known import (
     BROKEN,
     FAILED,
@@ -21,6 +20,7 @@ from tappet.runtime.unit_tests.known import (
     WAITING,
     Known,
     KnownTest,
+    Mark,
 )
 from tappet.runtime.unit_tests.results import Failure, Outcome, SuiteOutcome, TestOutcome
 

@@ -15,20 +15,11 @@ from tappet.lang import ast
 from tappet.lang.parser import parse
 from tappet.lang.source import Scope, Source, Span
 from tappet.runtime.unit_tests.discovery import callee_name
+from tappet.runtime.unit_tests.known import Mark
 
 BEGIN, END = "TEST", ("TEST_FINISHED", "TEST_FINISHED_NAMED")
 ASSERTION = "ASSERT"
 CLOSE = " END_IF;"
-
-
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """Where an assertion stands, or a test begins."""
-
-    uri: str
-    pou: str
-    line: int
-    """From 1."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,16 @@ WAITING, RUNNING, PASSED, FAILED, SKIPPED, BROKEN = range(6)
 
 
 @dataclass(frozen=True, slots=True)
+class Mark:
+    """Where an assertion stands, or a test begins."""
+
+    uri: str
+    pou: str
+    line: int
+    """From 1."""
+
+
+@dataclass(frozen=True, slots=True)
 class KnownTest:
     """A test whose outcome is known for good."""
 

@@ -10,8 +10,8 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, astuple
+from collections.abc import Callable
+from dataclasses import astuple
 from typing import Any
 
 import msgpack
@@ -24,32 +24,9 @@ from tappet.runtime.posix import PAGE, map_memory
 from tappet.runtime.unit_tests.attempts import FRESH, NO_MEMORY, Attempts
 from tappet.runtime.unit_tests.known import NOTHING, Known
 from tappet.runtime.unit_tests.memory import MemoryLimit, MemoryLimitReachedError
+from tappet.runtime.unit_tests.order import TestLimits
 from tappet.runtime.unit_tests.results import Report
-from tappet.runtime.unit_tests.runner import TestLimits, TestProcess, run_tests
-
-
-def order(
-    sources: Sequence[Source],
-    tasks: Sequence[Task],
-    options: BuildOptions,
-    *,
-    test_filter: str = "",
-    only: Sequence[str] = (),
-    limits: TestLimits | None = None,
-) -> bytes:
-    """What the process reads."""
-    content = {
-        "application": options.application,
-        "libraries": [asdict(reference) for reference in options.libraries],
-        "defines": options.defines,
-        "sources": [msgspec.to_builtins(source) for source in sources],
-        "tasks": [{"name": t.name, "interval_ns": t.interval_ns, "programs": t.programs} for t in tasks],
-        "filter": test_filter,
-        "only": list(only),
-        "limits": asdict(limits or TestLimits()),
-    }
-    packed: bytes = msgpack.packb(content, use_bin_type=True)
-    return packed
+from tappet.runtime.unit_tests.runner import TestProcess, run_tests
 
 
 def run_in_process(command: bytes) -> Report:

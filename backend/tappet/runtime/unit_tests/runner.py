@@ -20,30 +20,16 @@ from tappet.runtime.flight import FlightSettings
 from tappet.runtime.local import ApplicationException, LocalRuntime
 from tappet.runtime.unit_tests.bench import MOST_CHOSEN, Bench
 from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY, discover, program_text
-from tappet.runtime.unit_tests.instrument import Mark, instrument
-from tappet.runtime.unit_tests.known import NOTHING, Known
+from tappet.runtime.unit_tests.instrument import instrument
+from tappet.runtime.unit_tests.known import NOTHING, Known, Mark
 from tappet.runtime.unit_tests.memory import MemoryLimit, MemoryLimitReachedError
+from tappet.runtime.unit_tests.order import TestLimits
 from tappet.runtime.unit_tests.results import Report
 
 DEFAULT_INTERVAL_NS = 10_000_000
 NS_PER_S = 1_000_000_000
 CHUNK = 100
 """Cycles between two looks whether all tests have finished."""
-
-
-@dataclass(frozen=True, slots=True)
-class TestLimits:
-    """When a test counts as endless."""
-
-    cycle_s: float = 2.0
-    """Wall time of one cycle."""
-    simulated_s: float = 600.0
-    """Time of the PLC for all tests."""
-    restarts: int = 1000
-    memory_mib: int = 1024
-    """What all tests together may take with __NEW; only where they have a process of their own."""
-
-    __test__ = False  # no test class of pytest
 
 
 @dataclass(frozen=True, slots=True)

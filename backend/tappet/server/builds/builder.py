@@ -24,8 +24,8 @@ from tappet.project.kinds.application import NO_RULES, StaticAnalysisData
 from tappet.project.library_reference import LibraryReference
 from tappet.project.library_texts import library_requirements, library_sources
 from tappet.project.model import Project
+from tappet.server.builds.messages import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
 from tappet.server.builds.shapes import BuildReport, Diagnostic, Part, Severity
-from tappet.server.builds.worker import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
 from tappet.server.problems import Problem
 
 log = logging.getLogger(__name__)

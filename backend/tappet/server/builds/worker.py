@@ -1,7 +1,6 @@
 """The compiler as a process of its own: reads build orders from its input, writes outcomes to its output.
 
-A frame is the length of what follows (8 bytes, little endian) and a msgpack map. Parsed texts and objects are
-kept from one build of an application to the next.
+Parsed texts and objects are kept from one build of an application to the next.
 """
 
 from __future__ import annotations
@@ -9,17 +8,14 @@ from __future__ import annotations
 import gc
 import os
 import signal
-import struct
 import sys
 import time
 import traceback
 from collections import OrderedDict
-from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
-from typing import Any, BinaryIO
+from typing import Any
 
-import msgpack
 from msgspec import convert, structs
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
@@ -29,43 +25,18 @@ from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 from tappet.project.library_reference import LibraryReference
+from tappet.server.builds.messages import CANCEL, pack_frame, read_frame
 
-LENGTH = struct.Struct("<Q")
 KEPT_SESSIONS = 8
 """Applications whose parsed texts are kept."""
-LARGEST_FRAME = 1 << 31
 PARTIAL_BUILDS = 20
 """Builds of single bodies leave little garbage: it is looked for after so many."""
 BEHIND_TYPING = 5
 """Niceness of a build: the messages for who is typing come before it."""
-CANCEL = signal.SIGUSR1
-"""Ends the running build; what earlier ones left for the next stays."""
 
 
 class BuildCancelled(BaseException):
     """The running build is to end. No Exception: nothing on the way may take it for a failure."""
-
-
-@dataclass(frozen=True, slots=True)
-class BuildOrder:
-    """Everything a build depends on, as plain data."""
-
-    key: str
-    """Names the application; builds of one key share their caches."""
-    application: str
-    sources: tuple[dict[str, Any], ...]
-    """Fields of `iec.source.Source`."""
-    tasks: tuple[dict[str, Any], ...]
-    """Fields of `iec.task.Task`."""
-    libraries: tuple[LibraryReference, ...]
-    previous: bytes | None
-    """Package that runs now; unchanged data keep their places."""
-    cache: str
-    """Folder of compiled objects."""
-    static: dict[str, Any]
-    """Fields of `project.data.StaticAnalysisData`."""
-    check_only: bool = False
-    """Make no package."""
 
 
 class Compiler:
@@ -176,25 +147,6 @@ def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
         "end_line": span.end_line,
         "end_column": span.end_column,
     }
-
-
-def read_frame(stream: BinaryIO) -> dict[str, Any] | None:
-    """The next map; None at the end of the stream."""
-    head = stream.read(LENGTH.size)
-    if len(head) < LENGTH.size:
-        return None
-    (length,) = LENGTH.unpack(head)
-    body = stream.read(length)
-    if len(body) < length:
-        return None
-    frame: dict[str, Any] = msgpack.unpackb(body, raw=False, max_bin_len=LARGEST_FRAME)
-    return frame
-
-
-def pack_frame(content: dict[str, Any]) -> bytes:
-    """A map with its length in front."""
-    body: bytes = msgpack.packb(content, use_bin_type=True)
-    return LENGTH.pack(len(body)) + body
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 from starlette.concurrency import run_in_threadpool
 
 from tappet import libraries
-from tappet.libraries import UnknownLibraryError, archive, catalog, repository
+from tappet.libraries import UnknownLibraryError, archive, repository
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.library import Library
 from tappet.project.errors import ProjectError
@@ -49,6 +49,8 @@ def _load(name: str, version: str = "*") -> Library:
 
 @lru_cache(maxsize=32)
 def _items(library: Library) -> list[LibraryItem]:
+    from tappet.libraries import catalog  # parses: only a server whose libraries are looked at needs that
+
     return _ITEMS.validate_python(catalog.items(library), from_attributes=True)
 
 

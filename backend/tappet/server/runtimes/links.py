@@ -15,11 +15,11 @@ from starlette.concurrency import run_in_threadpool
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
-from tappet.runtime.faults import ExceptionReport
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.operations.life_cycle import GetInfo
 from tappet.runtime.operations.reports import GetException
 from tappet.runtime.operations.values import ForcedValue, ListForces
-from tappet.runtime.plc import RuntimeInfo
+from tappet.runtime.state import RuntimeInfo
 from tappet.server.builds.source_places import SourcePlaces
 from tappet.server.problems import Problem, not_found
 from tappet.server.runtimes.plc_client import Connect, PlcClient

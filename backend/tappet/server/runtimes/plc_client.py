@@ -8,8 +8,8 @@ from typing import Literal, Protocol
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent
 from tappet.runtime.operations.declaration import Reply, WireOperation
-from tappet.runtime.plc import RuntimeInfo
 from tappet.runtime.recorder import Frame
+from tappet.runtime.state import RuntimeInfo
 
 LoadMode = Literal["download", "online_change"]
 

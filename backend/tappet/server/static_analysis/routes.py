@@ -6,8 +6,7 @@ from fastapi import APIRouter
 
 from tappet.lang.coding_settings import LIMITS, OF_RULE, PREFIXES
 from tappet.lang.diagnostic_translations import Language, texts
-from tappet.lang.diagnostics import TABLE
-from tappet.lang.rules import chosen_codes
+from tappet.lang.diagnostics import CODING_RULES, TABLE
 from tappet.server.builds.shapes import BuildReport
 from tappet.server.dependencies import CommissioningDep, Engineer, Viewer
 from tappet.server.static_analysis.shapes import CodingRule
@@ -28,7 +27,7 @@ def list_coding_rules(who: Viewer, language: Language = "en") -> list[CodingRule
             prefixes={key: PREFIXES[key] for key in OF_RULE.get(code, ()) if key in PREFIXES},
             limits={key: LIMITS[key] for key in OF_RULE.get(code, ()) if key in LIMITS},
         )
-        for code in sorted(chosen_codes("all"))
+        for code in sorted(CODING_RULES)
     ]
 
 

@@ -6,9 +6,8 @@ import asyncio
 from collections.abc import Sequence
 from contextlib import suppress
 
-from tappet.codegen.build import BuildOptions
-from tappet.runtime.unit_tests import process
 from tappet.runtime.unit_tests.attempts import Attempts
+from tappet.runtime.unit_tests.order import order
 from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome, TestOutcome
 from tappet.server.builds.builder import Application
 from tappet.server.builds.shapes import Diagnostic, Part, Severity
@@ -34,8 +33,7 @@ class TestRuns:
             raise Problem(409, "tests-running", "Tests of this application are running; wait for their end.")
         runner = self._running[key] = _Runner()
         try:
-            order = await asyncio.to_thread(_order, application, test_filter, only)
-            report = await runner.run(order)
+            report = await runner.run(await asyncio.to_thread(_order, application, test_filter, only))
         finally:
             del self._running[key]
         return _reply(report, application)
@@ -56,8 +54,8 @@ class _Runner:
         self._child: asyncio.subprocess.Process | None = None
         self._cancelled = False
 
-    async def run(self, order: bytes) -> Report:
-        with Attempts(order) as attempts:
+    async def run(self, command: bytes) -> Report:
+        with Attempts(command) as attempts:
             report = None
             while report is None:
                 report = await self._attempt(attempts)
@@ -94,9 +92,14 @@ class _Runner:
 
 
 def _order(application: Application, test_filter: str, only: Sequence[str]) -> bytes:
-    tasks = list(application.tasks)
-    options = BuildOptions(application.name, libraries=application.libraries)
-    return process.order(application.sources, tasks, options, test_filter=test_filter, only=only)
+    return order(
+        application.name,
+        application.sources,
+        application.tasks,
+        application.libraries,
+        test_filter=test_filter,
+        only=only,
+    )
 
 
 def _reply(report: Report, application: Application) -> TestReport:

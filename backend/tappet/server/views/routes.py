@@ -23,9 +23,8 @@ async def view_page(
 ) -> Response:
     """A file of a view's page."""
     answer = await services.views.fetch(view_id, path, request.headers.get("accept-encoding", "identity"))
-    headers = dict(answer.headers) | {"Content-Security-Policy": VIEW_POLICY, "Cache-Control": "no-cache"}
-    headers.pop("content-length", None)
-    return Response(b"".join([part async for part in answer.aiter_raw()]), answer.status_code, headers)
+    headers = answer.headers | {"Content-Security-Policy": VIEW_POLICY, "Cache-Control": "no-cache"}
+    return Response(answer.content, answer.status, headers)
 
 
 @router.websocket("/{view_id}")

@@ -10,9 +10,8 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-import httpx
 import websockets
 from starlette.concurrency import run_in_threadpool
 from starlette.websockets import WebSocket
@@ -20,6 +19,9 @@ from websockets.asyncio.client import ClientConnection
 
 from tappet.server.problems import Problem, not_found
 from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
+
+if TYPE_CHECKING:
+    from tappet.server.views.pages import File, Pages
 
 MOST_VIEWS = 16
 """Views that run at the same time; the oldest one that nobody looks at makes room."""
@@ -32,7 +34,6 @@ VIEW_POLICY = (
 """viser's page is one file that unpacks itself, which needs inline and evaluated scripts."""
 LARGEST_MESSAGE = 50 * 1024 * 1024
 """viser's own limit."""
-_PASSED_ON = ("content-type", "content-encoding", "content-length", "etag", "last-modified")
 
 
 class ViewServer(Protocol):
@@ -61,7 +62,8 @@ class ViewRegistry:
     def __init__(self) -> None:
         self._views: dict[str, _View] = {}
         self._starting = asyncio.Lock()
-        self._http = httpx.AsyncClient(timeout=30.0, trust_env=False)
+        self._pages: Pages | None = None
+        """Of the views, once somebody has looked at one."""
 
     def ids(self) -> list[str]:
         """Ids of the running views, oldest first."""
@@ -94,23 +96,20 @@ class ViewRegistry:
         """Ends all views."""
         for view_id in self.ids():
             await self.stop_view(view_id)
-        await self._http.aclose()
+        if self._pages is not None:
+            await self._pages.close()
 
-    async def fetch(self, view_id: str, path: str, accept_encoding: str) -> httpx.Response:
+    async def fetch(self, view_id: str, path: str, accept_encoding: str) -> File:
         """A file of the view's page, still compressed. Cookies and tokens are not passed on."""
+        from tappet.server.views.pages import Pages, UnreachableError  # an HTTP client: only for 3D views
+
         view = self._get(view_id)
-        url = httpx.URL(f"http://127.0.0.1:{view.server.get_port()}").copy_with(path=f"/{path}")
-        request = self._http.build_request("GET", url, headers={"Accept-Encoding": accept_encoding})
+        if self._pages is None:
+            self._pages = Pages()
         try:
-            response = await self._http.send(request, stream=True)
-        except httpx.HTTPError as error:
+            return await self._pages.fetch(view.server.get_port(), path, accept_encoding)
+        except UnreachableError as error:
             raise _unreachable(view_id, error) from error
-        try:
-            raw = b"".join([chunk async for chunk in response.aiter_raw()])
-        finally:
-            await response.aclose()
-        headers = {name: response.headers[name] for name in _PASSED_ON if name in response.headers}
-        return httpx.Response(response.status_code, headers=headers, stream=httpx.ByteStream(raw))
 
     async def connect(self, view_id: str, socket: WebSocket, still_allowed: StillAllowed) -> None:
         """Passes messages between a browser and the view until one of them leaves."""

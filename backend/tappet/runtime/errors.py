@@ -1,0 +1,14 @@
+"""What a soft PLC refuses."""
+
+from __future__ import annotations
+
+
+class PlcError(RuntimeError):
+    """The PLC cannot do that in its present state; the message says what would be right."""
+
+
+class NoApplicationError(PlcError):
+    """What is asked for needs an application."""
+
+    def __init__(self) -> None:
+        super().__init__("no application is loaded; download one first")

@@ -1,0 +1,39 @@
+"""Why an application is in the state exception, as an engineer reads it (decision 8)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class CallFrame:
+    """One level of the call stack, the innermost first."""
+
+    pou: str
+    uri: str
+    line: int
+    """1-based line in the source text `uri`; 0 when unknown."""
+    element: str | None = None
+    """Id of the drawn element that the line denotes."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExceptionReport:
+    """Why an application is in the state exception."""
+
+    code: int
+    name: str
+    message: str
+    task: str
+    pou: str
+    uri: str
+    line: int
+    cycle: int
+    timestamp_ns: int
+    call_stack: tuple[CallFrame, ...] = ()
+    values: dict[str, str] = field(default_factory=dict)
+    """Numbers of the fault itself (index, low, high, address ...) and variables of the programs in the call
+    stack.
+    """
+    element: str | None = None
+    """Id of the drawn element that the line denotes."""

@@ -1,0 +1,25 @@
+"""The states of a soft PLC, and who it is: what clients know of it without having one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+State = Literal["empty", "stop", "run", "exception"]
+ResetKind = Literal["warm", "cold", "origin"]
+
+
+@dataclass(frozen=True, slots=True)
+class RuntimeInfo:
+    """Who a runtime is and what it runs."""
+
+    version: str
+    instance_id: str
+    state: State
+    application: str | None
+    code_id: str | None
+    data_id: str | None
+    scheduling: tuple[str, ...]
+    """What has to be known about real-time behaviour on this host, one sentence each."""
+    cycle_ns: int = 0
+    """Interval of the bus cycle task."""
