@@ -9,6 +9,8 @@ import zipfile
 from fastapi.testclient import TestClient
 from tests.project.archives import archive
 
+from tappet.project.exchange import ARCHIVES, importable
+
 API = "/api/v1"
 SOURCE = b"FUNCTION_BLOCK FB_Pump\nVAR_INPUT\n  bOn : BOOL;\nEND_VAR\nEND_FUNCTION_BLOCK\n"
 
@@ -116,3 +118,15 @@ def test_parts_go_out_as_xml_st_and_archive(admin: TestClient) -> None:
     assert {"E_State", "FB_Pump"} <= names
     assert "PLC_PRG" not in names
     assert admin.get(f"{export}/st", params={"object": "0" * 32}).status_code == 404
+
+
+def test_what_is_taken_of_a_folder_is_what_is_taken_of_an_archive(admin: TestClient) -> None:
+    formats = admin.get(f"{API}/import-formats").json()
+    assert {".st", ".iecst", ".tctleo", ".export", ".tsproj", ".zip", ".tpzip"} <= set(formats["endings"])
+    assert formats["project_file"] == "tappet-project.json"
+    files = {f"Pumps/{number}{ending}": b"" for number, ending in enumerate(formats["endings"])}
+    assert set(importable(files)) == {path for path in files if not path.endswith(ARCHIVES)}
+    packed = archive(("Pumps.iecst", SOURCE), ("Pumps.png", b""))
+    answer = admin.post(f"{API}/projects/import-files", files={"files": ("Pumps.zip", packed)})
+    assert answer.status_code == 201, answer.text
+    assert [entry["object"] for entry in answer.json()["report"]["entries"]][:1] == ["FB_Pump"]

@@ -26,6 +26,7 @@ export const keys = {
   object: (projectId: string, objectId: string) => ['project', projectId, 'object', objectId] as const,
   placement: ['placement'] as const,
   languages: ['languages'] as const,
+  importFormats: ['importFormats'] as const,
   libraries: ['libraries'] as const,
   library: (name: string, version = '*') => ['libraries', name, version] as const,
   runtimes: ['runtimes'] as const,

@@ -228,6 +228,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/import-formats": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Import Formats
+         * @description Which files of a folder are worth sending.
+         */
+        get: operations["read_import_formats"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/languages": {
         parameters: {
             query?: never;
@@ -2509,6 +2529,22 @@ export interface components {
             offset: number;
             /** Size */
             size: number;
+        };
+        /**
+         * ImportFormats
+         * @description Which files of a folder an import takes.
+         */
+        ImportFormats: {
+            /**
+             * Endings
+             * @description Of the names of files and archives, in lower case.
+             */
+            endings: string[];
+            /**
+             * Project File
+             * @description A folder with a file of this name is a project of our own: all of it.
+             */
+            project_file: string;
         };
         /**
          * ImportNode
@@ -5309,6 +5345,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_import_formats: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportFormats"];
                 };
             };
             /** @description The request was refused */

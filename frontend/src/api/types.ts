@@ -52,6 +52,7 @@ export type StaticAnalysisData = Required<Schemas['StaticAnalysisData']>;
 export type CodingRule = Schemas['CodingRule'];
 export type DeviceData = Schemas['DeviceData'];
 
+export type ImportFormats = Schemas['ImportFormats'];
 export type ImportNode = Schemas['ImportNode'];
 export type ImportEntry = Schemas['Entry'];
 export interface ImportReport {

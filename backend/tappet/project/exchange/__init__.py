@@ -5,12 +5,20 @@ May import `tappet.project` only. Start reading at `importing` (which file goes 
 """
 
 from tappet.project.exchange.choosing import ImportNode
-from tappet.project.exchange.importing import ARCHIVES, Imported, import_files, importable, is_importable
+from tappet.project.exchange.importing import (
+    ARCHIVES,
+    TAKEN,
+    Imported,
+    import_files,
+    importable,
+    is_importable,
+)
 from tappet.project.exchange.placing import Place
 from tappet.project.exchange.report import ExchangeError, ImportReport
 
 __all__ = [
     "ARCHIVES",
+    "TAKEN",
     "ExchangeError",
     "ImportNode",
     "ImportReport",

@@ -27,8 +27,11 @@ from tappet.project.exchange.twincat_types import FOLDER
 from tappet.project.exchange.without_result import mark_without_result
 from tappet.project.model import Project
 
-ENDINGS = (".xml", ".export", ".st", ".exp", ".txt", ".plcproj", *twincat.ENDINGS, *twincat_system.ENDINGS)
+_TEXT_ENDINGS = (".st", ".exp", ".txt", ".iecst", ".lib")
+ENDINGS = (".xml", ".export", *_TEXT_ENDINGS, ".plcproj", *twincat.ENDINGS, *twincat_system.ENDINGS)
 """Endings of the files that are read, in lower case."""
+TAKEN = (*ENDINGS, *twincat.NOT_READ)
+"""Endings of what an import takes of a folder: what is read, and what the report says a word about."""
 
 ARCHIVES = (".zip", ".tpzip", ".tnzip", ".tszip")
 """Endings of archives of such files, in lower case; TwinCAT has its own for them."""
@@ -42,7 +45,6 @@ _HINTS = {
 }
 """What to do with files that only the system itself can read."""
 
-_TEXT_ENDINGS = (".st", ".exp", ".txt", ".iecst", ".lib")
 _NATIVE = re.compile(r"<ExportFile[\s>]")
 _MARKED = re.compile(r"\(\*\s*@(?:NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION|GLOBAL_VARIABLE_LIST)\s*:=")
 
@@ -59,7 +61,7 @@ class Imported:
 
 def is_importable(path: str) -> bool:
     """Whether a file is of a kind that is read, by its name."""
-    return path.lower().endswith((*ENDINGS, *twincat.NOT_READ))
+    return path.lower().endswith(TAKEN)
 
 
 def importable(files: Mapping[str, bytes]) -> dict[str, bytes]:

@@ -10,16 +10,17 @@ from pydantic import TypeAdapter, ValidationError
 
 from tappet.libraries.missing import report_missing
 from tappet.project.errors import FolderFormatError
-from tappet.project.exchange import ARCHIVES, ImportReport, Place, import_files, importable
+from tappet.project.exchange import ARCHIVES, TAKEN, ImportReport, Place, import_files, importable
 from tappet.project.exchange.parts import part_of, st_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.archive import DEFAULT_LIMITS, unpack, zip_files
 from tappet.project.model import Project
+from tappet.project.project_file import PROJECT_FILE
 from tappet.project.store import Store
 from tappet.server import audit
 from tappet.server.audit import Act
 from tappet.server.dependencies import DatabaseDep, Engineer, StoreDep, Viewer
-from tappet.server.exchange.shapes import ImportPreview, ImportResult
+from tappet.server.exchange.shapes import ImportFormats, ImportPreview, ImportResult
 from tappet.server.problems import Problem
 from tappet.server.projects.replies import project_summary
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
@@ -35,6 +36,12 @@ PlaceId = Annotated[
     str | None,
     Form(description="The application or folder that takes the objects, `pous` for the POUs view."),
 ]
+
+
+@router.get("/import-formats")
+def read_import_formats(who: Viewer) -> ImportFormats:
+    """Which files of a folder are worth sending."""
+    return ImportFormats(endings=[*TAKEN, *ARCHIVES], project_file=PROJECT_FILE)
 
 
 @router.post("/projects/preview-files", max_body_size=MAX_ARCHIVE_BYTES)

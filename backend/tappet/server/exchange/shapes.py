@@ -9,6 +9,15 @@ from tappet.server.projects.shapes import ProjectSummary
 from tappet.server.shapes import Reply
 
 
+class ImportFormats(Reply):
+    """Which files of a folder an import takes."""
+
+    endings: list[str] = Field(description="Of the names of files and archives, in lower case.")
+    project_file: str = Field(
+        description="A folder with a file of this name is a project of our own: all of it."
+    )
+
+
 class ImportPreview(Reply):
     """What an import would bring."""
 

@@ -25,11 +25,11 @@ export function FilesStep({ files, change }: FilesStepProps) {
     const paths = new Set(more.map(({ path }) => path));
     change([...files.filter(({ path }) => !paths.has(path)), ...more]);
   };
+  const later = (found: Promise<readonly NamedFile[]>) => void guard(async () => add(await found));
   const drop = (event: DragEvent) => {
     event.preventDefault();
     setOver(false);
-    const found = droppedFiles(event.dataTransfer);
-    void guard(async () => add(await found));
+    later(droppedFiles(event.dataTransfer));
   };
   return (
     <section
@@ -58,7 +58,7 @@ export function FilesStep({ files, change }: FilesStepProps) {
           hidden
           aria-label={t('exchange.chooseFiles')}
           onChange={(event) => {
-            add(chosenFiles(event.target.files ?? []));
+            later(chosenFiles(event.target.files ?? []));
             event.target.value = '';
           }}
         />
@@ -69,7 +69,7 @@ export function FilesStep({ files, change }: FilesStepProps) {
           aria-label={t('exchange.chooseFolder')}
           {...FOLDER}
           onChange={(event) => {
-            add(chosenFiles(event.target.files ?? []));
+            later(chosenFiles(event.target.files ?? []));
             event.target.value = '';
           }}
         />

@@ -1,4 +1,7 @@
 /** Files that are dropped or chosen, folders walked through, each with its path. */
+import { api } from '@/api/client';
+import { keys, queryClient } from '@/api/queries';
+import type { ImportFormats } from '@/api/types';
 import { readable } from './model';
 
 export interface NamedFile {
@@ -16,17 +19,28 @@ export async function droppedFiles(data: DataTransfer): Promise<NamedFile[]> {
     if (entry.isDirectory) found.push(...(await filesIn(entry as FileSystemDirectoryEntry)));
     else loose.push({ path: entry.name, file: await fileOf(entry as FileSystemFileEntry) });
   }
-  return [...loose, ...ofFolders(found)];
+  return [...loose, ...(await ofFolders(found))];
 }
 
 /** Files of a file dialog; those of a folder are filtered. */
-export function chosenFiles(files: Iterable<File>): NamedFile[] {
+export async function chosenFiles(files: Iterable<File>): Promise<NamedFile[]> {
   const all = [...files].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
-  return all.some(({ file }) => file.webkitRelativePath) ? ofFolders(all) : all;
+  return all.some(({ file }) => file.webkitRelativePath) ? [...(await ofFolders(all))] : all;
 }
 
-function ofFolders(files: readonly NamedFile[]): NamedFile[] {
-  const wanted = new Set(readable(files.map(({ path }) => path)));
+/** What an import takes; it does not change while the server runs. */
+function formats(): Promise<ImportFormats> {
+  return queryClient.fetchQuery({
+    queryKey: keys.importFormats,
+    queryFn: () => api.get<ImportFormats>('/import-formats'),
+    staleTime: Infinity,
+  });
+}
+
+async function ofFolders(files: readonly NamedFile[]): Promise<readonly NamedFile[]> {
+  if (files.length === 0) return files;
+  const paths = files.map(({ path }) => path);
+  const wanted = new Set(readable(await formats(), paths));
   return files.filter(({ path }) => wanted.has(path));
 }
 

@@ -137,7 +137,10 @@ describe('the report', () => {
 
 describe('files of a folder', () => {
   it('are those that are read, or all of a project of our own', () => {
-    expect(readable(['L/x.TcPOU', 'L/x.txt', 'L/x.png', 'L/.git/y.xml'])).toEqual(['L/x.TcPOU', 'L/x.txt']);
-    expect(readable(['P/tappet-project.json', 'P/a.png', 'P/.git/c'])).toEqual(['P/tappet-project.json', 'P/a.png']);
+    const formats = { endings: ['.tcpou', '.tctleo'], project_file: 'own.json' };
+    const of = (...paths: string[]) => readable(formats, paths);
+    expect(of('L/x.TcPOU', 'L/x.TcTLEO', 'L/x.png', 'L/.git/y.TcPOU')).toEqual(['L/x.TcPOU', 'L/x.TcTLEO']);
+    expect(of('P/own.json', 'P/a.png', 'P/.git/c')).toEqual(['P/own.json', 'P/a.png']);
+    expect(of('P/not-own.json', 'P/a.png')).toEqual([]);
   });
 });

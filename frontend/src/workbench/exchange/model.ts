@@ -1,6 +1,6 @@
 /** Imports and exports as data: the tree to choose from, places, the report. Pure functions. */
 import { hasRole } from '@/project/kinds';
-import type { ImportEntry, ImportNode, ObjectSummary } from '@/api/types';
+import type { ImportEntry, ImportFormats, ImportNode, ObjectSummary } from '@/api/types';
 import { childrenOf, forestOf, lineage, type Forest } from '@/project/tree';
 
 export interface NodeForest {
@@ -165,11 +165,9 @@ export function reportText(entries: readonly ImportEntry[]): string {
   return lines.map((line) => `${line}\n`).join('');
 }
 
-const READ = /\.(xml|st|iecst|exp|txt|lib|plcproj|tcpou|tcdut|tcgvl|tcio|tctto|zip)$/i;
-
 /** Of a folder: what can be read, or all of it when it is a project of our own; hidden files never. */
-export function readable(paths: readonly string[]): string[] {
+export function readable({ endings, project_file }: ImportFormats, paths: readonly string[]): string[] {
   const visible = paths.filter((path) => !path.split('/').some((part) => part.startsWith('.')));
-  const own = visible.some((path) => /(^|\/)tappet-project\.json$/.test(path));
-  return own ? visible : visible.filter((path) => READ.test(path));
+  const own = visible.some((path) => path.split('/').at(-1) === project_file);
+  return own ? visible : visible.filter((path) => endings.some((ending) => path.toLowerCase().endsWith(ending)));
 }
