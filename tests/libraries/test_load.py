@@ -30,7 +30,7 @@ def test_unknown_names_and_versions_say_what_is_there() -> None:
 
 MANIFEST = {
     *("name", "version", "namespace", "company", "description", "internal"),
-    *("replaces", "completes", "requires"),
+    *("replaces", "completes", "requires", "qualified_only"),
 }
 MANIFESTS = sorted(ROOT.glob("**/library.json"))
 

@@ -345,6 +345,26 @@ def test_files_and_folders_at_once(tmp_path: Path, virtual: bool) -> None:
     assert sorted(p.name for p in (tmp_path / "files/logs").iterdir()) == ["a.bin", "b.bin"]
 
 
+COPIES = """PROGRAM PLC_PRG
+VAR codes : ARRAY [0..2] OF RTS_IEC_RESULT; copied : __XWORD; END_VAR
+codes[0] := SysFileCopy('long', 'short', ADR(copied));
+codes[1] := SysFileCopy('new', 'short', 0);
+codes[2] := SysFileCopy('short', 'short', 0);
+END_PROGRAM
+"""
+
+
+def test_a_copy_replaces_what_is_there_but_never_its_source(tmp_path: Path) -> None:
+    folder = tmp_path / "files"
+    folder.mkdir()
+    (folder / "short").write_bytes(b"abc")
+    (folder / "long").write_bytes(b"0123456789")
+    with LocalRuntime(compiled(COPIES, "SysFile, * (System)"), folder=tmp_path) as runtime:
+        runtime.run(cycles=2)
+        assert [runtime.literal("PLC_PRG.codes"), runtime.read("PLC_PRG.copied")] == ["[0, 0, 2]", 3]
+    assert {path.read_bytes() for path in folder.iterdir()} == {b"abc"}
+
+
 TWO_TASKS = """PROGRAM PLC_PRG
 VAR h : RTS_IEC_HANDLE; n : INT; data : DWORD := 16#11111111; written : __XWORD; END_VAR
 IF n = 0 THEN h := SysFileOpen('one', ACCESS_MODE.AM_WRITE, 0); END_IF
