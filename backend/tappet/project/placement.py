@@ -79,12 +79,18 @@ def owner_of(project: Project, parent_id: str | None) -> ProjectObject | None:
 
 def in_scope_of(project: Project, owner: ProjectObject | None) -> Iterable[ProjectObject]:
     """The objects directly below an owner and in its folders; of None those of both views' roots."""
-    waiting = list(reversed(project.children(owner.id if owner else None)))
+    return _with_folders(project.children, owner)
+
+
+def _with_folders(
+    below: Callable[[str | None], Sequence[ProjectObject]], owner: ProjectObject | None
+) -> Iterator[ProjectObject]:
+    waiting = list(reversed(below(owner.id if owner else None)))
     while waiting:
         item = waiting.pop()
         yield item
         if item.kind == FOLDER:
-            waiting.extend(reversed(project.children(item.id)))
+            waiting.extend(reversed(below(item.id)))
 
 
 @dataclass(frozen=True)
@@ -108,14 +114,7 @@ class Site:
     @cached_property
     def scope(self) -> list[ProjectObject]:
         """The objects directly below the owner and in its folders; of the roots those of both views."""
-        found = []
-        waiting = list(reversed(self.below(self.owner.id if self.owner else None)))
-        while waiting:
-            item = waiting.pop()
-            found.append(item)
-            if item.kind == FOLDER:
-                waiting.extend(reversed(self.below(item.id)))
-        return found
+        return list(_with_folders(self.below, self.owner))
 
     def siblings(self, kind: str) -> Iterator[ProjectObject]:
         """The objects among which one of this kind would be."""
