@@ -181,7 +181,7 @@ def test_a_reference_comes_with_its_parameters_and_its_place() -> None:
     project = edit.change_data(project, manager.id, {"references": references})
     given = (ParameterValue("GVL_Param", "cMax", "3"), ParameterValue("", "cMin", "1"))
     (found,) = libraries(project, at(project, APP).id)
-    assert found == LibraryReference("Util", "1.0", None, "U", given, f"{APP}/Library Manager")
+    assert found == LibraryReference("Util", "1.0", None, "U", given, place=f"{APP}/Library Manager")
     assert LibraryReference.of(asdict(found)) == found
     assert [item.id for item in objects_with_libraries(project, at(project, APP).id)] == [manager.id]
     twice = [{"name": "cMax", "value": "1"}, {"name": "CMAX", "value": "2"}]
