@@ -21,7 +21,17 @@ print(json.dumps([code, sorted(sys.modules)]))
 """
 WEB = ("fastapi", "starlette", "uvicorn", "httpx", "sqlalchemy", "alembic", "viser", "websockets", "asyncio")
 NETWORK = ("ssl", "http", "urllib.request", "xmlrpc")
-FOREIGN = (*WEB, *NETWORK, "pydantic", "numpy", "lsprotocol", "click", "rich", "zoneinfo")
+FOREIGN = (
+    *WEB,
+    *NETWORK,
+    "pydantic",
+    "numpy",
+    "lsprotocol",
+    "click",
+    "rich",
+    "zoneinfo",
+    "importlib.metadata",
+)
 ROOMS = ("tappet.server", "tappet.bench", "tappet.project.model", "tappet.project.exchange")
 MACHINE_CODE = ("llvmlite.binding", "ctypes", "subprocess", "elftools", "tappet.codegen.emit_module")
 AFTER_AN_EDIT = ("tappet.lang.analysis.edits", "tappet.core.edits.relower")

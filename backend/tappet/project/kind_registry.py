@@ -18,10 +18,10 @@ import pkgutil
 import re
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from importlib.metadata import entry_points
 from types import MappingProxyType, ModuleType
 from typing import Any
 
+from tappet.plug_ins import entry_points
 from tappet.project import kinds as own_kinds
 from tappet.project.data import Data
 from tappet.project.model import ProjectObject
@@ -76,7 +76,7 @@ def _descriptor(module: ModuleType) -> ObjectKind[Any]:
 
 
 def _plugged_in() -> Iterator[ObjectKind[Any]]:
-    for entry in sorted(entry_points(group=ENTRY_POINTS), key=lambda entry: entry.name):
+    for entry in entry_points(ENTRY_POINTS):
         try:
             kind = entry.load()
         except Exception:

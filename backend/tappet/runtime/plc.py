@@ -10,10 +10,10 @@ import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import metadata
 from pathlib import Path
 from typing import get_args
 
+from tappet import __version__
 from tappet.codegen.package import CodePackage, PackageError
 from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
@@ -95,7 +95,7 @@ class SoftPlc(ApplicationAccess):
             if application is not None and application.ownership.bus is not None:
                 cycle = application.package.tasks[application.ownership.bus].interval_ns
             return RuntimeInfo(
-                metadata.version("tappet"),
+                __version__,
                 self.instance_id,
                 self.state,
                 package.application if package else None,

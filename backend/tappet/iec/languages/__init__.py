@@ -12,6 +12,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from tappet.iec.languages.language import Form, Language
+from tappet.plug_ins import entry_points
 
 log = logging.getLogger(__name__)
 GROUP = "tappet.languages"
@@ -66,10 +67,8 @@ def _of_folder() -> list[Language]:
 
 
 def _of_plugins() -> list[Language]:
-    from importlib.metadata import entry_points  # slow to import
-
     found = []
-    for point in entry_points(group=GROUP):
+    for point in entry_points(GROUP):
         try:
             language = point.load()
         except Exception:

@@ -7,10 +7,10 @@ import inspect
 import pkgutil
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from importlib.metadata import entry_points
 from types import ModuleType
 from typing import Any
 
+from tappet.plug_ins import entry_points
 from tappet.runtime import operations
 from tappet.runtime.operations.declaration import WireOperation, missing_handler, reply_type
 
@@ -58,7 +58,7 @@ def _declared(module: ModuleType) -> Iterator[type[WireOperation[Any]]]:
 def _modules() -> Iterator[ModuleType]:
     for entry in pkgutil.iter_modules(operations.__path__):
         yield importlib.import_module(f"{operations.__name__}.{entry.name}")
-    for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
+    for point in entry_points(GROUP):
         try:
             module = point.load()
         except Exception as error:
