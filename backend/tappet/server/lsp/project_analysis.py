@@ -15,7 +15,7 @@ import gc
 import logging
 from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final, Protocol
 
 from lsprotocol import types as lsp
 
@@ -24,12 +24,10 @@ from tappet.lang.services.documents import Programs
 from tappet.lang.services.reports import reports
 from tappet.lang.services.results import Report
 from tappet.lang.services.workspace import Snapshot, Workspace
-from tappet.server.lsp.publication import Published
+from tappet.server.lsp.publication import Publication, Published
 from tappet.server.lsp.reached_libraries import ReachedLibraries
+from tappet.server.lsp.rpc import Endpoint
 from tappet.server.lsp.shared_texts import SharedTexts, Stored, nothing_stored
-
-if TYPE_CHECKING:
-    from tappet.server.lsp.session import LanguageSession
 
 DEBOUNCE_S: Final = 0.3
 """Pause in the typing after which messages are worked out again."""
@@ -43,7 +41,20 @@ SLICE_S: Final = 0.03
 """Requests and edits wait at most so long for a check that runs after the messages of the edited text."""
 
 log = logging.getLogger(__name__)
-Message = tuple["LanguageSession", Any]
+
+
+class Subscriber(Protocol):
+    """A session as the analysis needs it."""
+
+    endpoint: Endpoint
+    publication: Publication
+
+    @property
+    def is_initialized(self) -> bool:
+        """Whether the client wants messages."""
+
+
+Message = tuple[Subscriber, Any]
 """Params of published messages, and who gets them."""
 
 
@@ -65,7 +76,7 @@ class ProjectAnalysis:
         """Does everything that reads or changes the workspace."""
         self.loop = asyncio.get_running_loop()
         self._debounce_s = debounce_s
-        self._sessions: list[LanguageSession] = []
+        self._sessions: list[Subscriber] = []
         self._edited_since: set[str] = set()
         """Documents edited since messages were published last: theirs come first."""
         self._left = False
@@ -79,11 +90,11 @@ class ProjectAnalysis:
 
     # -- sessions and texts
 
-    def attach(self, session: LanguageSession) -> None:
+    def attach(self, session: Subscriber) -> None:
         """A session works on the project from now on."""
         self._sessions.append(session)
 
-    def detach(self, session: LanguageSession, documents: list[str]) -> None:
+    def detach(self, session: Subscriber, documents: list[str]) -> None:
         """A session has ended; its unsaved texts count no longer. Call in the event loop."""
         with contextlib.suppress(ValueError):
             self._sessions.remove(session)
@@ -96,13 +107,13 @@ class ProjectAnalysis:
             with contextlib.suppress(RuntimeError):  # the thread has ended with the project
                 self.thread.submit(drop)
 
-    def put(self, session: LanguageSession, document: str, text: str, *, edited: bool) -> None:
+    def put(self, session: Subscriber, document: str, text: str, *, edited: bool) -> None:
         """A session shows this text of a document. Call in the thread."""
         self.texts.put(session, document, text)
         changed = self._take(document)
         self.schedule_from_thread(edited or changed)
 
-    def drop(self, session: LanguageSession, document: str) -> None:
+    def drop(self, session: Subscriber, document: str) -> None:
         """A session shows a document no longer. Call in the thread."""
         self.texts.drop(session, document)
         self.schedule_from_thread(self._take(document))

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lsprotocol import converters
 
 from tappet.lang.diagnostic_translations import Language
 from tappet.lang.services.results import Report
 from tappet.server.lsp import convert
-
-if TYPE_CHECKING:
-    from tappet.server.lsp.session import LanguageSession
+from tappet.server.lsp.client import Client
 
 _CONVERTER = converters.get_converter()
 Published = dict[tuple[str, Language, bool], Any]
@@ -22,8 +20,8 @@ Published = dict[tuple[str, Language, bool], Any]
 class Publication:
     """Used in the thread of the analysis only."""
 
-    def __init__(self, session: LanguageSession) -> None:
-        self._session = session
+    def __init__(self, client: Client) -> None:
+        self._client = client
         self._reports: Mapping[str, list[Report]] = {}
         """What was published last, of documents with messages."""
         self._due: set[str] = set()
@@ -46,7 +44,7 @@ class Publication:
         concerned = {*found, *self._reports, *due, *self._moved} if only is None else {*only}
         for document in sorted(concerned):
             now = found.get(document, [])
-            other = self._session.shown(document).is_other
+            other = self._client.shown(document).is_other
             known = now == self._reports.get(document, [])
             if not known or document in due or other or document in self._moved:
                 out.append(self._params(document, now, published))
@@ -58,18 +56,18 @@ class Publication:
         return out
 
     def _params(self, document: str, now: list[Report], published: Published) -> dict[str, Any]:
-        session = self._session
-        key = (document, session.language, session.advise)
-        mine = any(report.related for report in now) or session.shown(document).is_other
+        client = self._client
+        key = (document, client.language, client.advise)
+        mine = any(report.related for report in now) or client.shown(document).is_other
         diagnostics = None if mine else published.get(key)
         if diagnostics is None:
             diagnostics = _CONVERTER.unstructure(
-                convert.diagnostics(now, document, session.shown, session.advise, session.language)
+                convert.diagnostics(now, document, client.shown, client.advise, client.language)
             )
             if not mine:
                 published[key] = diagnostics
-        open_document = session.documents.get(document)
-        params: dict[str, Any] = {"uri": session.documents.spelled(document), "diagnostics": diagnostics}
+        open_document = client.documents.get(document)
+        params: dict[str, Any] = {"uri": client.documents.spelled(document), "diagnostics": diagnostics}
         if open_document is not None:
             params["version"] = open_document.version
         return params

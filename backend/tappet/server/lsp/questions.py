@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import asdict, replace
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from lsprotocol import types as lsp
 
@@ -42,11 +42,9 @@ from tappet.lang.services import (
 from tappet.lang.services.results import CrossReference, Outline, ServiceError
 from tappet.lang.source import Span
 from tappet.server.lsp import convert
+from tappet.server.lsp.client import Client
 from tappet.server.lsp.positions import lines_of, to_position, to_range
 from tappet.server.lsp.shown import OtherTextError
-
-if TYPE_CHECKING:
-    from tappet.server.lsp.session import LanguageSession
 
 MAX_LINE: Final = 10_000
 """Characters of a line that may be short for a declaration."""
@@ -59,7 +57,7 @@ _MEMBERS: Final = frozenset(["variable", "field", "constant", "enum_value"])
 """What a search for nothing leaves out."""
 
 
-def completion(session: LanguageSession, params: lsp.CompletionParams) -> lsp.CompletionList:
+def completion(session: Client, params: lsp.CompletionParams) -> lsp.CompletionList:
     """What can be written here."""
     uri, position = session.at(params)
     found = completions.complete(session.workspace, uri, position)
@@ -67,7 +65,7 @@ def completion(session: LanguageSession, params: lsp.CompletionParams) -> lsp.Co
     return convert.completion_list(found, shown.line(position.line), shown.own_position(params.position))
 
 
-def completion_in(session: LanguageSession, params: Any) -> lsp.CompletionList:
+def completion_in(session: Client, params: Any) -> lsp.CompletionList:
     """What can be written at a place of a text that is being tried: `{textDocument, position, text}`."""
     identifier, at = _place(params)
     text = params.get("text")
@@ -79,7 +77,7 @@ def completion_in(session: LanguageSession, params: Any) -> lsp.CompletionList:
     return convert.completion_list(completions.proposals(view), lines(position.line), position)
 
 
-def operand_facts(session: LanguageSession, params: Any) -> list[dict[str, str] | None]:
+def operand_facts(session: Client, params: Any) -> list[dict[str, str] | None]:
     """What is declared for operands of a body: `{textDocument, operands}` to `{type, address, comment}` each.
 
     None for what names no variable.
@@ -99,7 +97,7 @@ def operand_facts(session: LanguageSession, params: Any) -> list[dict[str, str] 
     return [None if found is None else asdict(found) for found in operands.facts(view, wanted)]
 
 
-def element_variables(session: LanguageSession, params: Any) -> dict[str, list[str]]:
+def element_variables(session: Client, params: Any) -> dict[str, list[str]]:
     """The expressions to monitor at the elements of a drawn body, by id: `{textDocument}`."""
     identifier, _ = _place(
         params | {"position": {"line": 0, "character": 0}} if isinstance(params, dict) else None
@@ -108,41 +106,41 @@ def element_variables(session: LanguageSession, params: Any) -> dict[str, list[s
     return monitoring.variables_of(session.snapshot(uri), uri)
 
 
-def hover(session: LanguageSession, params: lsp.HoverParams) -> lsp.Hover | None:
+def hover(session: Client, params: lsp.HoverParams) -> lsp.Hover | None:
     """What this is."""
     uri, position = session.at(params)
     found = hovers.hover(session.snapshot(uri), uri, position)
     return convert.hover(found, session.shown(uri)) if found is not None else None
 
 
-def signature_help(session: LanguageSession, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+def signature_help(session: Client, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
     """The parameters of the call."""
     uri, position = session.at(params)
     found = signatures.signature(session.workspace, uri, position)
     return convert.signature_help(found) if found is not None else None
 
 
-def definition(session: LanguageSession, params: lsp.DefinitionParams) -> lsp.Location | None:
+def definition(session: Client, params: lsp.DefinitionParams) -> lsp.Location | None:
     """Where this is declared."""
     uri, position = session.at(params)
     found = navigation.definition(session.snapshot(uri), uri, position)
     return session.location(found) if found is not None else None
 
 
-def type_definition(session: LanguageSession, params: lsp.TypeDefinitionParams) -> lsp.Location | None:
+def type_definition(session: Client, params: lsp.TypeDefinitionParams) -> lsp.Location | None:
     """Where the type of this is declared."""
     uri, position = session.at(params)
     found = navigation.type_definition(session.snapshot(uri), uri, position)
     return session.location(found) if found is not None else None
 
 
-def implementation(session: LanguageSession, params: lsp.ImplementationParams) -> list[lsp.Location]:
+def implementation(session: Client, params: lsp.ImplementationParams) -> list[lsp.Location]:
     """What implements or replaces this."""
     uri, position = session.at(params)
     return session.locations(navigation.implementations(session.snapshot(uri), uri, position))
 
 
-def references(session: LanguageSession, params: lsp.ReferenceParams) -> list[lsp.Location]:
+def references(session: Client, params: lsp.ReferenceParams) -> list[lsp.Location]:
     """Where this is used, in every program that shows the document."""
     uri, position = session.at(params)
     places: dict[docs.Place, None] = {}
@@ -153,23 +151,19 @@ def references(session: LanguageSession, params: lsp.ReferenceParams) -> list[ls
     return session.locations(places)
 
 
-def document_highlight(
-    session: LanguageSession, params: lsp.DocumentHighlightParams
-) -> list[lsp.DocumentHighlight]:
+def document_highlight(session: Client, params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
     """Where this is used in the document."""
     uri, position = session.at(params)
     return convert.highlights(navigation.highlights(session.snapshot(uri), uri, position), session.shown(uri))
 
 
-def document_symbol(session: LanguageSession, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+def document_symbol(session: Client, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
     """The outline."""
     uri = session.canonical(params.text_document.uri)
     return convert.document_symbols(outline.outline(session.snapshot(uri), uri), session.shown(uri))
 
 
-def workspace_symbol(
-    session: LanguageSession, params: lsp.WorkspaceSymbolParams
-) -> list[lsp.SymbolInformation]:
+def workspace_symbol(session: Client, params: lsp.WorkspaceSymbolParams) -> list[lsp.SymbolInformation]:
     """Objects, their members and variables, types by a part of the name, best match first."""
     wanted = params.query.lower()
     found: dict[tuple[str, str], lsp.SymbolInformation] = {}
@@ -205,7 +199,7 @@ def workspace_symbol(
     return sorted(found.values(), key=distance)[:MAX_SYMBOLS]
 
 
-def formatting(session: LanguageSession, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+def formatting(session: Client, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
     """The edits that format a document."""
     uri = session.canonical(params.text_document.uri)
     text = session.text(uri)
@@ -218,13 +212,13 @@ def formatting(session: LanguageSession, params: lsp.DocumentFormattingParams) -
     return [lsp.TextEdit(to_range(lines, edit.place.span), edit.text) for edit in edits]
 
 
-def folding_range(session: LanguageSession, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+def folding_range(session: Client, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
     """What can be folded."""
     uri = session.canonical(params.text_document.uri)
     return convert.folding_ranges(folding.folds(session.snapshot(uri), uri), session.shown(uri))
 
 
-def prepare_rename(session: LanguageSession, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
+def prepare_rename(session: Client, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
     """The name that would be renamed; refused with the reason when it cannot be."""
     uri, position = session.at(params)
     span = renaming.renameable(session.snapshot(uri), uri, position)
@@ -235,7 +229,7 @@ def prepare_rename(session: LanguageSession, params: lsp.PrepareRenameParams) ->
     return lsp.PrepareRenamePlaceholder(place, shown.line(span.line)[span.column : span.end_column])
 
 
-def rename(session: LanguageSession, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+def rename(session: Client, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
     """The edits that rename something in every program that shows the document."""
     uri, position = session.at(params)
     edits = {}
@@ -247,13 +241,13 @@ def rename(session: LanguageSession, params: lsp.RenameParams) -> lsp.WorkspaceE
     return lsp.WorkspaceEdit(convert.text_edits(edits.values(), session.shown))
 
 
-def semantic_tokens(session: LanguageSession, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+def semantic_tokens(session: Client, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
     """What each word is."""
     uri = session.canonical(params.text_document.uri)
     return convert.semantic_tokens(tokens.semantic_tokens(session.snapshot(uri), uri), session.shown(uri))
 
 
-def read_document(session: LanguageSession, params: Any) -> dict[str, str]:
+def read_document(session: Client, params: Any) -> dict[str, str]:
     """The text of a document, for one that is in no editor."""
     uri = params.get("uri") if isinstance(params, dict) else None
     text = session.text(session.canonical(uri)) if isinstance(uri, str) else None
@@ -262,7 +256,7 @@ def read_document(session: LanguageSession, params: Any) -> dict[str, str]:
     return {"uri": str(uri), "languageId": convert.LANGUAGE_ID, "text": text}
 
 
-def expand_shorthand(session: LanguageSession, params: Any) -> dict[str, str | None]:
+def expand_shorthand(session: Client, params: Any) -> dict[str, str | None]:
     """The declaration that a typed line denotes (DECL-61..DECL-66)."""
     line = params.get("line") if isinstance(params, dict) else None
     if not isinstance(line, str) or len(line) > MAX_LINE:
@@ -270,7 +264,7 @@ def expand_shorthand(session: LanguageSession, params: Any) -> dict[str, str | N
     return {"line": shorthand.expand(line)}
 
 
-def code_action(session: LanguageSession, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+def code_action(session: Client, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
     """What mends the messages of a range."""
     uri = session.canonical(params.text_document.uri)
     shown = session.shown(uri)
@@ -283,7 +277,7 @@ def code_action(session: LanguageSession, params: lsp.CodeActionParams) -> list[
     return [item for item in found if session.asks or item.edit is not None]
 
 
-def cross_reference_list(session: LanguageSession, params: Any) -> list[dict[str, Any]]:
+def cross_reference_list(session: Client, params: Any) -> list[dict[str, Any]]:
     """Where something is declared and used, by `{textDocument, position}` or by `{name}`.
 
     Each place has `uri`, `range`, `access` (declaration, read, write, call, address), `symbol` and `text`.

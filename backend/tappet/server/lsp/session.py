@@ -10,7 +10,7 @@ import asyncio
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Final, Literal, Protocol
+from typing import Any, Final, Literal
 
 from cattrs.errors import BaseValidationError
 from lsprotocol import converters
@@ -27,6 +27,7 @@ from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.lang.source import split_lines
 from tappet.server.lsp import convert, questions, rpc
+from tappet.server.lsp.client import Positioned
 from tappet.server.lsp.open_documents import DocumentRefusedError, OpenDocument, OpenDocuments
 from tappet.server.lsp.positions import lines_of, to_edit
 from tappet.server.lsp.project_analysis import ProjectAnalysis
@@ -51,13 +52,6 @@ _REFUSING: Final = frozenset({lsp.TEXT_DOCUMENT_RENAME, lsp.TEXT_DOCUMENT_PREPAR
 
 _CONVERTER = converters.get_converter()
 _State = Literal["new", "initialized", "shut down"]
-
-
-class _Positioned(Protocol):
-    """Params that name a position in a document."""
-
-    text_document: lsp.TextDocumentIdentifier
-    position: lsp.Position
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,7 +288,7 @@ class LanguageSession:
         stored = own if own is not None else self.analysis.texts.stored(document)
         return stored if stored is not None else self._composed_text(document)
 
-    def at(self, params: _Positioned) -> tuple[str, Position]:
+    def at(self, params: Positioned) -> tuple[str, Position]:
         """Document and place of a request, in the analysed text. Raises OtherTextError."""
         uri = self.canonical(params.text_document.uri)
         return uri, self.shown(uri).position(params.position)

@@ -1,0 +1,64 @@
+"""What requests and published messages need of the session of a client, whoever serves it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Protocol
+
+from lsprotocol import types as lsp
+
+from tappet.lang.diagnostic_translations import Language
+from tappet.lang.services import documents as docs
+from tappet.lang.services.documents import Position
+from tappet.lang.services.fix_site import Offering
+from tappet.lang.services.formatting import Style
+from tappet.lang.services.workspace import Snapshot, Workspace
+from tappet.server.lsp.open_documents import OpenDocuments
+from tappet.server.lsp.shown import ShownDocument
+
+
+class Positioned(Protocol):
+    """Params that name a position in a document."""
+
+    text_document: lsp.TextDocumentIdentifier
+    position: lsp.Position
+
+
+class Client(Protocol):
+    """A client with its open documents and settings; what is analysed it shares with others."""
+
+    canonical: Callable[[str], str]
+    """One spelling for each document uri."""
+    offering: Offering
+    """Libraries that have something of a name."""
+    advise: bool
+    """Whether advice is part of the message texts."""
+    asks: bool
+    """Whether the client can do what no edit of texts does: ask for a declaration, make objects."""
+    style: Style
+    language: Language
+    """Of the messages, as the client has asked for when it began."""
+    documents: OpenDocuments
+    """As the client shows them."""
+
+    @property
+    def workspace(self) -> Workspace:
+        """The programs, with the unsaved texts of all sessions."""
+
+    def shown(self, document: str) -> ShownDocument:
+        """A document as this client shows it, open or not."""
+
+    def text(self, document: str) -> str | None:
+        """The text of a document as the editor shows it, or as it is stored."""
+
+    def at(self, params: Positioned) -> tuple[str, Position]:
+        """Document and place of a request, in the analysed text. Raises OtherTextError."""
+
+    def snapshot(self, uri: str) -> Snapshot:
+        """The program that shows a document."""
+
+    def location(self, place: docs.Place) -> lsp.Location | None:
+        """A place as the client names it; None where it shows another text."""
+
+    def locations(self, places: Iterable[docs.Place]) -> list[lsp.Location]:
+        """Places as the client names them, those left out where it shows another text."""
