@@ -203,12 +203,17 @@ class Constants:
                 constant = replace(constant, type=type_, initial=m.initial(m.plain, type_))
             found.append((constant, replace(copy, type=type_)))
         for _ in range(m.r.choice((0, 0, 1, 2)) if edit or owner not in self.known else 0):
-            type_ = m.type()
+            with_bits = [t for t in m.types if _has_bits(t)]
+            type_ = m.r.choice(with_bits) if with_bits and m.chance(40) else m.type()
             if initialisable(type_):
                 constant = tree.Variable(m.fresh("kc"), type_, m.initial(m.plain, type_), constant=True)
                 found.append((constant, tree.Variable(m.fresh("kv"), type_)))
         self.known[owner] = found
         return found
+
+
+def _has_bits(type_: tree.Type) -> bool:
+    return isinstance(type_, tree.Struct) and any(isinstance(t, tree.BitMember) for _, t in type_.members)
 
 
 def _without_constants(variables: list[tree.Variable]) -> list[tree.Variable]:
