@@ -76,6 +76,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	cd frontend && npm run --silent generate
 	$(BIN)/python -m tappet.lang.diagnostic_pages
 	$(BIN)/python -m tappet.iec.typescript
+	$(BIN)/python -m tappet.lang.languages.il.typescript
 	$(BIN)/python tests/iec/iec_texts.py
 	$(BIN)/python tests/project/placement_answers.py
 

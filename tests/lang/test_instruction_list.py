@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -9,6 +11,7 @@ from tests.lang.resolved import codes
 
 from tappet.lang import ast
 from tappet.lang.analysis import analyse
+from tappet.lang.languages.il.typescript import FILE, module
 from tappet.lang.parser import parse
 from tappet.lang.source import BodyText, Source, split_lines
 
@@ -19,6 +22,10 @@ END_VAR
 """
 _TIMER = "FUNCTION_BLOCK FB_Timer VAR_INPUT IN : BOOL; PT : TIME; END_VAR END_FUNCTION_BLOCK"
 _HEAD = _DECLARATION.count("\n")
+
+
+def test_the_operators_of_the_table_are_up_to_date() -> None:
+    assert (Path(__file__).parents[2] / FILE).read_text(encoding="utf-8") == module(), "run 'make generate'"
 
 
 def in_language(name: str | None) -> tuple[BodyText, ...]:

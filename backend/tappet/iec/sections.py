@@ -14,12 +14,12 @@ from functools import lru_cache
 from tappet.iec.tokens import NAME, NOT_CODE, TRIVIA, Kind, Word, extent, pieces, words
 from tappet.iec.words import ACCESSORS, GENERIC_SECTION, MODIFIERS, OBJECT_ENDS, SECTIONS
 
-_BEGINNINGS = {
+BEGINNINGS = {
     **{word: end for word, end in OBJECT_ENDS.items() if word != "TRANSITION"},
     "FUNCTIONBLOCK": "END_FUNCTION_BLOCK",  # CoDeSys 2.3
 }
 """Keywords that begin the text of an object, and what closes it; a transition is a part of its chart."""
-_CLOSING = frozenset(_BEGINNINGS.values())
+_CLOSING = frozenset(BEGINNINGS.values())
 _END_VAR = re.compile(rf"{NOT_CODE}|(?P<end_var>(?<![\w%#])(?i:END_VAR)(?![\w#]))")
 _HEADER_CONTINUES_WITH = frozenset(["EXTENDS", "IMPLEMENTS", ":", ","])
 _HEADER_CONTINUES_AFTER = _HEADER_CONTINUES_WITH | MODIFIERS | frozenset(["OF", "TO"])
@@ -41,7 +41,7 @@ def read_header(text: str) -> Header | None:
     """The header of a text, None when it does not begin with a keyword that declares something."""
     scan = words(text)
     first = next(scan, None)
-    if first is None or (first.text not in _BEGINNINGS and first.text not in SECTIONS):
+    if first is None or (first.text not in BEGINNINGS and first.text not in SECTIONS):
         return None
     if first.text in SECTIONS or first.text in ACCESSORS:
         return Header(first.text, None, first.end)
@@ -110,7 +110,7 @@ def _has_range(scan: Iterator[Word]) -> bool:
 def end_keyword(text: str) -> str | None:
     """The keyword that closes a text with this declaration, None when the declaration does not say."""
     header = read_header(text)
-    return None if header is None else _BEGINNINGS.get(header.keyword)
+    return None if header is None else BEGINNINGS.get(header.keyword)
 
 
 def declaration_end(text: str) -> int:

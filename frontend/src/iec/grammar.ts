@@ -16,7 +16,7 @@ export const SECTIONS = [
   'VAR_TEMP',
 ] as const;
 
-/** Words between a section keyword and its variables. */
+/** Words behind a section keyword. */
 export const SECTION_FLAGS = [
   'CONSTANT',
   'RETAIN',
@@ -43,8 +43,8 @@ export const MODIFIERS = [
   'PUBLIC',
 ] as const;
 
-/** Keywords that begin an object. */
-export const OBJECT_HEADS = [
+/** Keywords that begin the text of an object. */
+export const BEGINNINGS = [
   'ACTION',
   'FUNCTION',
   'FUNCTION_BLOCK',
@@ -52,8 +52,16 @@ export const OBJECT_HEADS = [
   'METHOD',
   'PROGRAM',
   'PROPERTY',
-  'TRANSITION',
   'TYPE',
+  'GET',
+  'SET',
+  'FUNCTIONBLOCK',
+] as const;
+
+/** Those of them that have no name. */
+export const ACCESSORS = [
+  'GET',
+  'SET',
 ] as const;
 
 /** Keywords that close something. */
@@ -354,21 +362,7 @@ export const NUMERIC_TYPES = [
 
 /** Types without parts, by all their names. */
 export const ELEMENTARY_TYPES = [
-  'BOOL',
-  'BYTE',
-  'WORD',
-  'DWORD',
-  'LWORD',
-  'SINT',
-  'INT',
-  'DINT',
-  'LINT',
-  'USINT',
-  'UINT',
-  'UDINT',
-  'ULINT',
-  'REAL',
-  'LREAL',
+  ...NUMERIC_TYPES,
   'TIME',
   'LTIME',
   'DATE',

@@ -9,6 +9,7 @@
 import type { ComponentType, LazyExoticComponent } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { textOf } from '@/i18n';
+import type { ACCESS_SPECIFIERS } from '@/iec/grammar';
 import type { IconComponent } from '@/icons/IconComponent';
 import { NeutralIcon } from '@/icons/shape';
 import type { EditorProps } from './editorProps';
@@ -40,7 +41,7 @@ export type ValuePlace =
 
 /** One field that Add Object shows besides the name; `access` is a choice, the others are typed. */
 export type AddOption = 'extends' | 'implements' | 'returns' | 'access' | 'base';
-export type Access = 'PUBLIC' | 'PRIVATE' | 'PROTECTED' | 'INTERNAL';
+export type Access = (typeof ACCESS_SPECIFIERS)[number];
 export type AddValues = Partial<Record<Exclude<AddOption, 'access'>, string> & { access: Access }>;
 
 export interface NewDeclaration {

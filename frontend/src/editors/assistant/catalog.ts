@@ -10,6 +10,7 @@ import {
   CONSTANT_KEYWORDS,
   DECLARATION_KEYWORDS,
   ELEMENTARY_TYPES,
+  NUMERIC_TYPES,
   OPERATOR_FUNCTIONS,
   OPERATOR_KEYWORDS,
   STATEMENT_KEYWORDS,
@@ -148,7 +149,7 @@ export function languageEntries(groups: {
 }): Entry[] {
   const make = (names: readonly string[], category: Category, group: string): Entry[] =>
     names.map((name) => ({ name, insert: name, detail: '', comment: '', group, category }));
-  const conversions = ['BOOL', 'INT', 'DINT', 'UINT', 'UDINT', 'WORD', 'DWORD', 'REAL', 'LREAL', 'TIME', 'STRING'];
+  const conversions = [...NUMERIC_TYPES, 'TIME', 'STRING'];
   const converted = conversions.flatMap((from) =>
     conversions.filter((to) => to !== from).map((to) => `${from}_TO_${to}`),
   );

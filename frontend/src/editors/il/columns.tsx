@@ -2,7 +2,7 @@ import { CircleAlert, Info, TriangleAlert } from 'lucide-react';
 import type { ReactNode } from 'react';
 import type { t as Text } from '@/i18n';
 import type { GridColumn } from '@/ui/grid/Grid';
-import { OPERATORS } from './instructionList';
+import { isOperator } from './instructionList';
 import { textOf, tokenize } from '@/iec/lexer';
 import type { OperandFacts } from './facts';
 import styles from './IlTable.module.css';
@@ -102,7 +102,7 @@ function Operator({ row, messages }: { row: IlRow; messages: readonly RowMessage
       </span>
     );
   const word = /^[^\s(]*/.exec(row.operator.text)?.[0] ?? '';
-  const known = OPERATORS.has(word.toUpperCase()) || word === ')' || word === '&';
+  const known = isOperator(word) || word === ')' || word === '&';
   const look = row.kind === 'parameter' ? styles.parameter : known ? styles.operator : styles.function;
   return (
     <span className={look} data-bad={bad} style={{ marginLeft: row.depth * STEP_PX }}>

@@ -1,13 +1,15 @@
 /** Rows of IL, by their tokens: which words are operators, labels or functions and so name no value (IL-01, IL-13). */
 import { textOf, type Token } from '@/iec/lexer';
+import { BEGINNINGS, OPERATORS } from './operators';
 
-export const OPERATORS: ReadonlySet<string> = new Set(
-  (
-    'LD LDN ST STN S R NOT AND ANDN OR ORN XOR XORN ADD SUB MUL DIV MOD GT GE EQ NE LE LT ' +
-    'JMP JMPC JMPCN JMPN CAL CALC CALCN RET RETC RETCN'
-  ).split(' '),
-);
-const BEGINNINGS = new Set('LD LDN CAL CALC CALCN JMP JMPC JMPCN JMPN RET RETC RETCN'.split(' '));
+const INSTRUCTIONS: ReadonlySet<string> = new Set(OPERATORS);
+const FIRST: ReadonlySet<string> = new Set(BEGINNINGS);
+
+/** Whether a word is an operator where one may stand. */
+export function isOperator(word: string): boolean {
+  return INSTRUCTIONS.has(word.toUpperCase());
+}
+
 const OPERANDS = new Set(['word', 'number', 'string', 'wstring', 'address']);
 
 /** Tokens row by row; `tokens` are those without comments. */
@@ -42,7 +44,7 @@ export function isInstructionList(text: string, tokens: readonly Token[]): boole
     return behind !== '=' && behind !== ';' && (OPERANDS.has(second.kind) || textOf(text, second) === '-');
   };
   const alone = rows[0]?.length === 1 && rows[0][0]?.kind === 'word';
-  return begins(rows[0], BEGINNINGS) || (alone && begins(rows[1], OPERATORS));
+  return begins(rows[0], FIRST) || (alone && begins(rows[1], INSTRUCTIONS));
 }
 
 /** The tokens that may stand for values: without labels, operators, names of functions and targets of jumps. */
@@ -61,7 +63,7 @@ export function operandTokens(text: string, tokens: readonly Token[]): Token[] {
     const word = textOf(text, head).toUpperCase();
     if (word.startsWith('JMP')) return [];
     let taken = 1;
-    while (!OPERATORS.has(word) && isPath(text, body[taken])) taken += body[taken + 1]?.kind === 'word' ? 2 : 1;
+    while (!isOperator(word) && isPath(text, body[taken])) taken += body[taken + 1]?.kind === 'word' ? 2 : 1;
     const opened = body[taken];
     // The parenthesis of a deferred operand belongs to the operator, not to the operand of the row before.
     if (opened !== undefined && textOf(text, opened) === '(') taken += 1;

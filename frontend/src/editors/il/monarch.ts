@@ -1,9 +1,9 @@
 /** Colours of IL: the words of ST, but other ones are keywords at the beginning of a row. */
 import type { languages } from 'monaco-editor/editor/editor.api';
 import { monarchLanguage } from '@/text/iecText';
-import { OPERATORS } from './instructionList';
+import { OPERATORS } from './operators';
 
-const OPERATOR = new RegExp(`(?:${[...OPERATORS].join('|')})(?![\\w\\u0080-\\uffff.#])`);
+const OPERATOR = new RegExp(`(?:${OPERATORS.join('|')})(?![\\w\\u0080-\\uffff.#])`);
 
 /** The first word of a row is an operator, also behind a label. */
 const tokens: languages.IMonarchLanguage = {

@@ -4,7 +4,7 @@
  */
 import { joinComments } from '@/iec/declaration/comments';
 import type { Range } from '@/iec/declaration/model';
-import { OPERATORS } from './instructionList';
+import { isOperator } from './instructionList';
 import { isTrivia, textOf, tokenize, type Token } from '@/iec/lexer';
 import { runsOf, type Run } from './excluded';
 
@@ -204,7 +204,7 @@ class Line {
     if (lead === ')') return this.code.length === first + 1 ? first + 1 : first;
     if (lead !== '&' && this.word(0) === null) return first;
     let split = first + 1;
-    const known = OPERATORS.has(lead.toUpperCase()) && this.textAt(split) !== '.';
+    const known = isOperator(lead) && this.textAt(split) !== '.';
     if (!known && lead !== '&') split = this.pathEnd(split);
     if (/^CALC?N?$/i.test(lead)) return split;
     // A parenthesis that closes in its row is the operand's; one that stays open belongs to the operator.
@@ -249,7 +249,7 @@ class Line {
   /** Whether an operator with an operand stands where an operand was to come. */
   private beginsInstruction(): boolean {
     const behind = this.textAt(this.taken + 1);
-    return OPERATORS.has((this.word(0) ?? '').toUpperCase()) && !['', ',', '.'].includes(behind);
+    return isOperator(this.word(0) ?? '') && !['', ',', '.'].includes(behind);
   }
 
   /** Takes the parentheses and the last comma of the row into the context. */

@@ -1,6 +1,6 @@
 /** Declaration text to header, blocks and rows with exact ranges. */
 
-import { ACCESS_SPECIFIERS, MODIFIERS, SECTION_FLAGS, SECTIONS } from '../grammar';
+import { ACCESS_SPECIFIERS, ACCESSORS, BEGINNINGS, MODIFIERS, SECTION_FLAGS, SECTIONS } from '../grammar';
 import { isTrivia, textOf, tokenize, type Token } from '../lexer';
 import type {
   Block,
@@ -14,9 +14,8 @@ import type {
 } from './model';
 import { cellOf, enumerationRow, specialRow, variableRows, type Lead } from './rows';
 
-const HEADER_KEYWORDS = new Set([
-  "PROGRAM", "FUNCTION_BLOCK", "FUNCTION", "METHOD", "PROPERTY", "INTERFACE", "ACTION", "GET", "SET",
-]); // prettier-ignore
+const HEADER_KEYWORDS: ReadonlySet<string> = new Set(BEGINNINGS);
+const NAMELESS: ReadonlySet<string> = new Set(ACCESSORS);
 const MODIFIER_WORDS: ReadonlySet<string> = new Set(MODIFIERS);
 const FLAGS: ReadonlySet<string> = new Set(SECTION_FLAGS);
 const ACCESS: ReadonlySet<string> = new Set(ACCESS_SPECIFIERS);
@@ -113,7 +112,7 @@ class DeclarationParser {
     let first = 0;
     while (first < own.length && MODIFIER_WORDS.has(this.upper(own[first] as Token))) first += 1;
     const name = own[first]?.kind === 'word' ? (own[first] as Token) : null;
-    if (name === null && !['GET', 'SET'].includes(this.upper(keyword))) {
+    if (name === null && !NAMELESS.has(this.upper(keyword))) {
       this.problem('missing-name', keyword, this.textOf(keyword));
     }
     const extendsAt = own.findIndex((t) => this.upper(t) === 'EXTENDS');
@@ -180,7 +179,7 @@ class DeclarationParser {
     }
     this.at += 1;
     this.skipTo((t) => !isTrivia(t));
-    if (this.at >= this.tokens.length) {
+    if (this.at >= this.tokens.length || SECTION_WORDS.has(this.upper(this.peek()))) {
       this.problem('missing-type', keyword, '');
       return;
     }
@@ -203,7 +202,8 @@ class DeclarationParser {
     } else {
       this.problem('not-tabular', opening, this.textOf(opening));
     }
-    this.skipTo((t) => t.kind === 'word' && (this.upper(t) === 'END_TYPE' || this.upper(t) === 'TYPE'));
+    const behind = (word: string) => word === 'END_TYPE' || word === 'TYPE' || SECTION_WORDS.has(word);
+    this.skipTo((t) => t.kind === 'word' && behind(this.upper(t)));
   }
 
   /** Reads statements up to the closing word and adds the block and its rows. */

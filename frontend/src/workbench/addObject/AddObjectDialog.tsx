@@ -4,6 +4,7 @@ import { api, ApiError } from '@/api/client';
 import { keys } from '@/api/queries';
 import type { BodyLanguage, PlacementRule, ProjectObject } from '@/api/types';
 import { textOf, useText } from '@/i18n';
+import { ACCESS_SPECIFIERS } from '@/iec/grammar';
 import {
   kindAbout,
   kindOf,
@@ -35,8 +36,6 @@ interface AddObjectProps {
   kind?: string;
   close: (created?: ProjectObject) => void;
 }
-
-const ACCESS = ['PUBLIC', 'PRIVATE', 'PROTECTED', 'INTERNAL'] as const;
 
 /** Add Object: kinds that may be here at the left, name and what the kind needs at the right. */
 export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind, close }: AddObjectProps) {
@@ -93,7 +92,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
           <Select
             {...attributes}
             value={options.access ?? 'PUBLIC'}
-            choices={ACCESS.map((access) => ({ value: access, text: access }))}
+            choices={ACCESS_SPECIFIERS.map((access) => ({ value: access, text: access }))}
             onValue={(access) => setOptions({ ...options, access })}
           />
         )}
