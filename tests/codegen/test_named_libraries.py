@@ -14,9 +14,7 @@ from tests.spec.language_cases import load_cases, sources_of
 from tappet.bench.large_library import install
 from tappet.codegen import compile_pool
 from tappet.codegen.build import BuildOptions, BuildResult, build_application
-from tappet.lang.analysis import AnalysisOptions, analyse
-from tappet.lang.analysis.libraries import own_results, read_program
-from tappet.lang.source import Scope, Source, Span
+from tappet.lang.source import Scope, Source
 from tappet.libraries import named, repository, resolve
 from tappet.libraries.named import index_of, named_texts
 from tappet.project.library_reference import LibraryReference
@@ -109,39 +107,6 @@ def test_what_is_taken() -> None:
     assert {"MX_Move6", "MX_Move5", "MX_Base", "MX_IAxis", "MX_AXIS_REF", "MX_Segment", "TON"} <= taken
     assert not taken & {"MX_Move0", "MX_Move11", "TOF", "CTU", "BLINK"}
     assert {"MX_Limits", "Constants"} <= {s.name for s in named_texts(libraries, [])}, "data are always there"
-    assert not {"MX_Limits", "Constants"} & {s.name for s in named_texts(libraries, [], to_run=False)}
-
-
-def messages(sources: Sequence[Source], libraries: Sequence[Source]) -> list[tuple[str, str, Span]]:
-    """Codes and places of what is said about a program; texts may propose names of libraries."""
-    results, shared = read_program([*sources, *libraries], AnalysisOptions())
-    found = [message for result in results for message in result.diagnostics]
-    found += analyse([r.unit for r in own_results(results, shared)], libraries=shared).diagnostics
-    return sorted((message.uri, message.code, message.span) for message in found)
-
-
-@pytest.mark.parametrize("number", CHOSEN)
-def test_messages_are_those_with_all_texts(number: int) -> None:
-    libraries = library_texts(REFERENCES)
-    program = sources_of(CASES[number])
-    reached = named_texts(libraries, program, to_run=False)
-    assert len(reached) < len(libraries) // 2
-    assert messages(program, reached) == messages(program, libraries)
-
-
-@pytest.mark.usefixtures("motion")
-def test_messages_about_constants_and_charts_are_those_with_all_texts() -> None:
-    libraries = library_texts(MOTION)
-    texts = (
-        "VAR x : ARRAY[0..MX_cSegments] OF INT; k : BOOL; END_VAR\nk := MX_Cruise; x[MX_cSegments] := 1;",
-        "VAR x : INT; END_VAR\nINITIAL_STEP A : x(N); END_STEP\nTRANSITION FROM A TO B := x > 1;"
-        " END_TRANSITION\nSTEP B : END_STEP\nSFCInit := x;",
-    )
-    for text in texts:
-        program = [Source("Main", f"PROGRAM Main\n{text}\nEND_PROGRAM")]
-        assert messages(program, named_texts(libraries, program, to_run=False)) == messages(
-            program, libraries
-        )
 
 
 def test_nothing_is_left_out_of_a_library_with_messages() -> None:

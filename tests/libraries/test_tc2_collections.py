@@ -75,6 +75,33 @@ def test_csv_without_room_and_without_an_end() -> None:
         assert program.literal("Main.sOut") == "''"
 
 
+def test_fields_of_any_bytes_and_quotation_marks() -> None:
+    text = """
+        PROGRAM Main
+        VAR
+            s : ARRAY[0..6] OF STRING; aRaw : ARRAY[0..4] OF BYTE := [1, 34, 0, 34, 2];
+            aBack : ARRAY[0..4] OF BYTE; aField : ARRAY[0..9] OF BYTE; n : ARRAY[0..5] OF UDINT;
+            sText : STRING;
+        END_VAR
+        s[0] := STRING_TO_CSVFIELD('a"b', FALSE); s[1] := STRING_TO_CSVFIELD('a"b', TRUE);
+        s[2] := CSVFIELD_TO_STRING('a""b', FALSE); s[3] := CSVFIELD_TO_STRING('"a""b"', TRUE);
+        s[4] := CSVFIELD_TO_STRING('"', TRUE); s[5] := STRING_TO_CSVFIELD('', TRUE);
+        s[6] := CSVFIELD_TO_STRING('plain', TRUE);
+        n[0] := ARG_TO_CSVFIELD(F_BIGTYPE(ADR(aRaw), SIZEOF(aRaw)), TRUE, ADR(aField), SIZEOF(aField));
+        n[1] := CSVFIELD_TO_ARG(ADR(aField), n[0], TRUE, F_BIGTYPE(ADR(aBack), SIZEOF(aBack)));
+        n[2] := ARG_TO_CSVFIELD(F_BIGTYPE(ADR(aRaw), SIZEOF(aRaw)), TRUE, ADR(aField), 8);
+        n[3] := CSVFIELD_TO_ARG(ADR(aField), n[0], TRUE, F_BIGTYPE(ADR(aBack), 4));
+        sText := 'x"y'; n[4] := ARG_TO_CSVFIELD(F_STRING(sText), FALSE, ADR(aField), SIZEOF(aField));
+        n[5] := CSVFIELD_TO_ARG(ADR(aField), 3, FALSE, F_STRING(sText));
+        END_PROGRAM"""
+    with run(text, 1) as program:
+        fields = [program.literal(f"Main.s[{k}]") for k in range(7)]
+        assert fields == ["'a\"\"b'", '\'"a""b"\'', "'a\"b'", "'a\"b'", "'\"'", "'\"\"'", "'plain'"]
+        assert program.literal("Main.n") == "[9, 5, 0, 0, 4, 2]"
+        assert program.literal("Main.aBack") == "[1, 34, 0, 34, 2]"
+        assert program.literal("Main.sText") == "'x\"'"
+
+
 def test_a_ring_buffer_of_texts_is_a_queue() -> None:
     room, queue, lines, expected = 64, deque[str](), [], []
     for n in range(80):

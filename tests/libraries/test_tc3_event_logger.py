@@ -108,3 +108,28 @@ def test_messages_arguments_and_all_alarms_at_once() -> None:
         assert program.literal("Main.stLast.nTimeStamp") == "77"
         assert program.literal("Main.x") == "[TRUE, FALSE, TRUE, FALSE, FALSE, TRUE]"
         assert program.literal("Main.stOld.nTimeStamp") == "1051"
+
+
+def test_events_by_their_parts_and_texts_that_are_not_known() -> None:
+    text = """
+        PROGRAM Main
+        VAR
+            m : FB_TcMessage; a : FB_TcAlarm; e : TcEventEntry; x : ARRAY[0..4] OF BOOL;
+            s : STRING := 'before'; h : HRESULT; nId : UDINT; y : BOOL;
+            stLast : ST_LoggedEvent; logger : FB_TcEventLogger;
+        END_VAR
+        e.uuidEventClass.Data1 := 5; e.nEventId := 9; e.eSeverity := TcEventSeverity.Error;
+        m.Create(e.uuidEventClass, 9, TcEventSeverity.Error, 0);
+        a.Create(e.uuidEventClass, 9, TcEventSeverity.Error, TRUE, 0);
+        x[0] := m.EqualsToEventEntryEx(e) AND a.EqualsToEventEntryEx(e);
+        x[1] := m.EqualsToEventEntry(e.uuidEventClass, 9, TcEventSeverity.Error);
+        x[2] := m.EqualsToEventEntry(e.uuidEventClass, 9, TcEventSeverity.Warning);
+        x[3] := m.RequestEventText(1033, s, SIZEOF(s), bError => x[4], hrErrorCode => h);
+        nId := m.EventClass.Data1; m.Send(3); y := logger.GetLoggedEvent(0, stLogged => stLast);
+        END_PROGRAM"""
+    with run(text, 1) as program:
+        assert program.literal("Main.x") == "[TRUE, TRUE, FALSE, TRUE, TRUE]"
+        assert program.literal("Main.s") == "''"
+        assert program.literal("Main.h") == str(0x9811070C - 2**32)
+        assert program.literal("Main.nId") == "5"
+        assert program.literal("Main.stLast.stEvent.nEventId") == "9"

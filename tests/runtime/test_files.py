@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import os
+import resource
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -16,6 +21,7 @@ from tappet.runtime.local import LocalRuntime
 MS = 1_000_000
 SESSION = BuildSession()
 TASK = Task("Main", interval_ns=10 * MS, programs=("PLC_PRG",))
+UNIX_SINCE_1601_S = int((datetime(1970, 1, 1, tzinfo=UTC) - datetime(1601, 1, 1, tzinfo=UTC)).total_seconds())
 TC2_SYSTEM = "Tc2_System, * (Beckhoff Automation GmbH)"
 
 
@@ -286,12 +292,17 @@ VAR
     h, gone : RTS_IEC_HANDLE; result, opened : RTS_IEC_RESULT;
     data : ARRAY [0..9] OF BYTE := [1, 2, 3, 4, 5, 6, 7, 8, 9, 10];
     back : ARRAY [0..9] OF BYTE; written, got, size, copied, position : __XWORD;
-    end1, end2 : BOOL; n : INT;
+    end1, end2, end3 : RTS_IEC_RESULT; n : INT; name : STRING(255); modes : ARRAY [0..5] OF DINT;
+    pName : POINTER TO STRING(255); state : SYS_FILE_STATUS;
     times : SYS_FILETIME; codes : ARRAY [0..9] OF RTS_IEC_RESULT; status : ARRAY [0..1] OF SYS_FILE_STATUS;
-    hDir : RTS_IEC_HANDLE; entry : STRING; info : DirInfo; files, folders : INT; sizes : LWORD;
+    moved : ARRAY [0..4] OF RTS_IEC_RESULT; hDir : RTS_IEC_HANDLE; entry : STRING;
+    info : DirInfo; files, folders : INT; sizes : LWORD;
 END_VAR
 n := n + 1;
 IF n > 1 THEN RETURN; END_IF
+modes[0] := ACCESS_MODE.AM_READ; modes[1] := ACCESS_MODE.AM_WRITE; modes[2] := ACCESS_MODE.AM_APPEND;
+modes[3] := ACCESS_MODE.AM_READ_PLUS; modes[4] := ACCESS_MODE.AM_WRITE_PLUS;
+modes[5] := ACCESS_MODE.AM_APPEND_PLUS;
 codes[0] := SysDirCreate('$$PlcLogic$$/logs');
 h := SysFileOpen('logs/a.bin', ACCESS_MODE.AM_WRITE_PLUS, ADR(opened));
 written := SysFileWrite(h, ADR(data), 10, ADR(result));
@@ -302,11 +313,15 @@ end1 := SysFileEOF(h);
 status[0] := SysFileGetStatus(h);
 got := got + SysFileRead(h, ADR(back[3]), 10, ADR(result));
 end2 := SysFileEOF(h);
-codes[3] := SysFileTruncate(h, 8);
+codes[3] := SysFileTruncate(h, ulSizeNew := 8);
+pName := SysFileGetName(h);
+name := pName^;
 size := SysFileGetSizeByHandle(h, ADR(result));
 codes[4] := SysFileClose(h);
 codes[5] := SysFileClose(h);
-status[1] := SysFileGetStatus(h);
+status[1] := SysFileGetStatus2(h, ADR(result));
+end3 := SysFileEOF(h);
+pName := SysFileGetName(h);
 h := SysFileOpen('logs/a.bin', ACCESS_MODE.AM_APPEND, ADR(opened));
 SysFileWrite(h, ADR(data), 2, 0);
 SysFileClose(h);
@@ -318,12 +333,17 @@ SysFileGetTime('logs/a.bin', ADR(times));
 SysDirCreate('logs/inner');
 hDir := SysDirOpen('logs', entry, 80, ADR(info), ADR(result));
 WHILE result = 0 DO
-    IF info.xDirectory THEN folders := folders + 1;
+    IF info.diDirectory = DWORD_TO_DINT(DF_DIRECTORY) THEN folders := folders + 1;
     ELSE files := files + 1; sizes := sizes + info.ulSize; END_IF
     result := SysDirRead(hDir, entry, 80, ADR(info));
 END_WHILE
 SysDirClose(hDir);
-SysDirDelete('logs/inner');
+moved[0] := SysDirRename('logs/inner', 'logs/other');
+moved[1] := SysDirRename('logs/inner', 'logs/third');
+moved[2] := SysDirDelete('logs/other');
+h := SysFileOpen('logs/short.lived', ACCESS_MODE.AM_WRITE, 0);
+moved[3] := SysFileDeleteByHandle(h);
+moved[4] := SysFileDeleteByHandle(h);
 END_PROGRAM
 """
 
@@ -334,11 +354,14 @@ def test_files_and_folders_at_once(tmp_path: Path, virtual: bool) -> None:
     with LocalRuntime(package, virtual=virtual, folder=tmp_path) as runtime:
         runtime.run(cycles=2)
         assert runtime.literal("PLC_PRG.back") == "[5, 6, 7, 8, 9, 10, 0, 0, 0, 0]"
-        wanted = {"written": 10, "got": 6, "position": 7, "size": 8, "copied": 10, "end1": False,
-                  "end2": True, "opened": 0, "result": 21, "files": 2, "folders": 1, "sizes": 20}  # fmt: skip
+        wanted = {"written": 10, "got": 6, "position": 7, "size": 8, "copied": 10, "end1": 1,
+                  "end2": 0, "end3": 2, "opened": 0, "name": "logs/a.bin", "pName": 0, "result": 21,
+                  "files": 2, "folders": 1, "sizes": 20}  # fmt: skip
         assert {name: runtime.read(f"PLC_PRG.{name}") for name in wanted} == wanted
         assert runtime.literal("PLC_PRG.codes") == "[0, 0, 0, 0, 0, 20, 0, 18, 25, 16]"
         assert runtime.read("PLC_PRG.gone") == 2**64 - 1
+        assert runtime.literal("PLC_PRG.modes") == "[1, 2, 4, 8, 16, 32]"
+        assert runtime.literal("PLC_PRG.moved") == "[0, 16, 0, 0, 20]"
         modified = runtime.read("PLC_PRG.times.tLastModification")
     assert (tmp_path / "files/logs/a.bin").read_bytes() == bytes([1, 2, 3, 4, 5, 6, 7, 8, 1, 2])
     assert int((tmp_path / "files/logs/a.bin").stat().st_mtime) == modified
@@ -363,6 +386,58 @@ def test_a_copy_replaces_what_is_there_but_never_its_source(tmp_path: Path) -> N
         runtime.run(cycles=2)
         assert [runtime.literal("PLC_PRG.codes"), runtime.read("PLC_PRG.copied")] == ["[0, 0, 2]", 3]
     assert {path.read_bytes() for path in folder.iterdir()} == {b"abc"}
+
+
+DELETED = blocks(
+    step(0, "fbDelete", "sPathName := 'old.txt'") + step(1, "fbDelete", "sPathName := 'old.txt'")
+)
+
+
+def test_a_file_is_deleted_once(tmp_path: Path) -> None:
+    (tmp_path / "files").mkdir()
+    (tmp_path / "files/old.txt").write_text("old")
+    with LocalRuntime(compiled(DELETED, TC2_SYSTEM), folder=tmp_path) as runtime:
+        assert outcome(runtime, 2) == (1000, NOT_FOUND, 1)
+    assert list((tmp_path / "files").iterdir()) == []
+
+
+@contextmanager
+def largest_file(size: int) -> Iterator[None]:
+    """The host takes no more than so many bytes in a file."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+@pytest.mark.parametrize("virtual", [True, False])
+def test_a_host_that_takes_no_more_bytes_is_an_error_and_no_end(tmp_path: Path, virtual: bool) -> None:
+    with LocalRuntime(compiled(WRITE, TC2_SYSTEM), virtual=virtual, folder=tmp_path) as runtime:
+        with largest_file(70_000):
+            assert outcome(runtime, 5) == (1000, 0x700, 2)
+        assert runtime.state == "run"
+    assert (tmp_path / "files/log/data.bin").stat().st_size == 70_000
+
+
+CLOCK = """PROGRAM PLC_PRG
+VAR fb : GETSYSTEMTIME; steps : ULINT; END_VAR
+fb();
+steps := SHL(UDINT_TO_ULINT(fb.timeHiDW), 32) OR UDINT_TO_ULINT(fb.timeLoDW);
+END_PROGRAM
+"""
+
+
+def test_the_system_time_counts_from_1601(tmp_path: Path) -> None:
+    with LocalRuntime(compiled(CLOCK, TC2_SYSTEM), virtual=False) as runtime:
+        before = time.time_ns()
+        runtime.run(cycles=3)
+        steps = runtime.read("PLC_PRG.steps")
+        after = time.time_ns()
+    assert isinstance(steps, int)
+    unix_ns = steps * 100 - UNIX_SINCE_1601_S * 1_000_000_000
+    assert before - 20 * MS <= unix_ns <= after
 
 
 TWO_TASKS = """PROGRAM PLC_PRG

@@ -70,12 +70,9 @@ _kept: OrderedDict[str, Index] = OrderedDict()
 
 
 def named_texts(
-    libraries: Sequence[Source], own: Iterable[Source], index: Index | None = None, *, to_run: bool = True
+    libraries: Sequence[Source], own: Iterable[Source], index: Index | None = None
 ) -> list[Source]:
-    """The texts of `libraries` that a program of the texts `own` can reach, in their order.
-
-    `to_run`: also those that nothing names but whose data or functions every application has in its memory.
-    """
+    """The texts of `libraries` that a program of the texts `own` can reach, in their order."""
     index = index or index_of(libraries)
     if index.everything:
         return list(libraries)
@@ -87,8 +84,7 @@ def named_texts(
     waiting: list[set[str]] = [identifiers(source.text) for source in own]
     converts = any(_CONVERTS.search(name) for found in waiting for name in found)
     for number, source in enumerate(libraries):
-        kept = index.always[number] and (to_run or _are_implicit(index.names[number].split()))
-        if kept or (converts and source.library == _CONVERSION):
+        if index.always[number] or (converts and source.library == _CONVERSION):
             taken[number] = True
             waiting += [set(index.identifiers[number].split()), set(index.names[number].split())]
         waiting += [identifiers(given.value) for given in source.given]
@@ -141,12 +137,6 @@ def _keep(key: str, index: Index) -> None:
         _kept.popitem(last=False)
 
 
-def _are_implicit(names: Iterable[str]) -> bool:
-    """Whether a language looks for one of the names although it does not stand in a text."""
-    implicit = tuple(one.implicit_names for one in languages().values() if one.implicit_names)
-    return any(name.startswith(implicit) for name in names)
-
-
 def _key(libraries: Sequence[Source]) -> str:
     digest = hashlib.blake2b(f"{FORMAT}|{compiler_stamp()}|".encode(), digest_size=20)
     for source in libraries:
@@ -174,12 +164,14 @@ def _made(libraries: Sequence[Source]) -> Index:
     silent = shared is not None and not any(result.diagnostics for result in results)
     if not silent or analyse([], libraries=shared).diagnostics:
         return Index(True, [True] * len(results), [""] * len(results), [""] * len(results))
+    implicit = tuple(one.implicit_names for one in languages().values() if one.implicit_names)
     always, names, words = [], [], []
     for result in results:
         source = result.unit.source
         read = code_of(source.text)
         made = identifiers_of(result.unit).global_names | ({source.owner.upper()} if source.owner else set())
-        always.append(_are_implicit(made) or _ALWAYS.search(source.text) is not None)
+        hidden = any(name.startswith(implicit) for name in made)
+        always.append(hidden or _ALWAYS.search(source.text) is not None)
         names.append(" ".join(sorted(made)))
         words.append(" ".join(sorted(identifiers(read))))
     return Index(False, always, names, words)

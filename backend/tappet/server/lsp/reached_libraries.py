@@ -19,9 +19,7 @@ class ReachedLibraries:
     def reached(self, libraries: Sequence[Source], own: Sequence[Source]) -> Collection[Source] | None:
         """The texts that a program of the texts `own` reaches; None while there is no index."""
         index = known_index(libraries)
-        if index is None or index.everything:
-            return None
-        return named_texts(libraries, own, index, to_run=False)
+        return None if index is None or index.everything else named_texts(libraries, own, index)
 
     def make(self, libraries: Sequence[Source]) -> None:
         """Make the index if there is none; these libraries are analysed."""
