@@ -6,7 +6,7 @@ import os
 import resource
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -419,6 +419,45 @@ def test_a_host_that_takes_no_more_bytes_is_an_error_and_no_end(tmp_path: Path, 
             assert outcome(runtime, 5) == (1000, 0x700, 2)
         assert runtime.state == "run"
     assert (tmp_path / "files/log/data.bin").stat().st_size == 70_000
+
+
+def open_files(folder: Path) -> list[str]:
+    """Files below a folder that this process has open, without folders."""
+    found = []
+    for number in os.listdir("/proc/self/fd"):
+        with suppress(OSError):
+            target = os.readlink(f"/proc/self/fd/{number}")
+            if target.startswith(str(folder)) and not os.path.isdir(target):
+                found.append(target)
+    return found
+
+
+IN_FLIGHT = """PROGRAM PLC_PRG
+VAR n : INT; {before} {block} END_VAR
+n := n + 1;
+{call}
+END_PROGRAM
+"""
+OPENING = "fbOpen(sPathName := 'f', nMode := FOPEN_MODEWRITE, bExecute := TRUE);"
+
+
+@pytest.mark.parametrize("asks", [True, False], ids=["moved", "removed"])
+def test_an_online_change_with_a_request_on_its_way(tmp_path: Path, asks: bool) -> None:
+    first = IN_FLIGHT.format(before="", block="fbOpen : FB_FileOpen;", call=OPENING)
+    block, call = ("fbOpen : FB_FileOpen;", OPENING) if asks else ("", "")
+    second = IN_FLIGHT.format(before="more : ARRAY [1..99] OF LREAL;", block=block, call=call)
+    package = compiled(first, TC2_SYSTEM)
+    with LocalRuntime(package, folder=tmp_path) as runtime:
+        runtime.run(cycles=1)
+        assert runtime.read("PLC_PRG.fbOpen.bBusy") is True
+        changed = compiled(second, TC2_SYSTEM, previous=package)
+        runtime.plc.download(changed.to_bytes(), "online_change")
+        runtime.run(cycles=2)
+        assert runtime.read("PLC_PRG.n") == 3
+        if asks:
+            assert runtime.read("PLC_PRG.fbOpen.hFile") != 0
+            assert runtime.read("PLC_PRG.fbOpen.bError") is False
+        assert len(open_files(tmp_path)) == int(asks)
 
 
 CLOCK = """PROGRAM PLC_PRG

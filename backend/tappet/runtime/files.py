@@ -79,6 +79,10 @@ class ApplicationFiles:
             time.sleep(0.001)
         return True
 
+    def sweep(self) -> None:
+        """Behind an online change, while no task runs: what blocks asked for that are gone is not wanted."""
+        self._executive.sweep_files(self.address)
+
     def close(self) -> None:
         """After the end of all threads: close everything, remove what was temporary."""
         self.reset()

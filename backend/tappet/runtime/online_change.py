@@ -91,6 +91,7 @@ def apply_change(
             application.open_retain_file(retain_folder)
         if ONLINE_CHANGE_SYMBOL in package.exports:
             faults.append(application.tasks.call(code[ONLINE_CHANGE_SYMBOL]))
+        application.files.sweep()
         fault = next((found for found in faults if found is not None), None)
         if fault is not None:
             application.mark_faulted()

@@ -32,10 +32,13 @@ ENTRIES = (
     "tappet_task_thread", "tappet_scheduler_thread", "tappet_virtual_thread", "tappet_call_thread",
     "tappet_signal", "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag",
     "tappet_load", "tappet_file_thread", "tappet_files_reset",
+    "tappet_files_sweep",
 )  # fmt: skip
 """What Python starts or calls."""
 
-FILE_SERVICES = ("tappet_file", "tappet_file_post", "tappet_file_poll", "tappet_file_abandon")
+FILE_SERVICES = (
+    "tappet_file", "tappet_file_post", "tappet_file_poll", "tappet_file_abandon", "tappet_file_leave",
+)  # fmt: skip
 """What libraries call for files."""
 
 SERVICES = (
@@ -141,6 +144,7 @@ class Executive:
         self._reset_files = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_uint64)(
             self.entries["tappet_files_reset"]
         )
+        self._sweep_files = ctypes.CFUNCTYPE(None, ctypes.c_uint64)(self.entries["tappet_files_sweep"])
         self._install_handlers()
 
     def _fill_registry(self) -> None:
@@ -192,3 +196,7 @@ class Executive:
     def reset_files(self, address: int) -> bool:
         """Close the files of an application; only while no task runs. False while a request is served."""
         return bool(self._reset_files(address))
+
+    def sweep_files(self, address: int) -> None:
+        """Abandon the requests of blocks that an online change has removed; only while no task runs."""
+        self._sweep_files(address)
