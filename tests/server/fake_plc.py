@@ -57,6 +57,7 @@ def symbol_map() -> SymbolMap:
                 MemberInfo("aValue", 7, 36),
                 MemberInfo("fbMotor", 8, 44),
                 MemberInfo("nLimit", 1, 48, flags=("CONSTANT",)),
+                MemberInfo("nMask", 1, 50, flags=("DISPLAY_HEX",)),
                 MemberInfo("rOther", 2, 56, section="VAR_IN_OUT"),
             ),
         ),

@@ -47,6 +47,13 @@ def test_values_of_all_kinds_read_as_json_and_literal(admin: TestClient, url: st
     assert values[0]["type"] == "BOOL"
 
 
+def test_a_literal_is_in_the_number_format_of_its_variable(admin: TestClient, url: str, plc: FakePlc) -> None:
+    """LPRG-21."""
+    plc.set("PLC_PRG.nMask", -2)
+    (value,) = _read(admin, url, "PLC_PRG.nMask")
+    assert (value["value"], value["literal"]) == (-2, "16#FFFE")
+
+
 def test_unknown_expression_suggests_and_leaves_the_others(admin: TestClient, url: str) -> None:
     values = _read(admin, url, "PLC_PRG.nCout", "PLC_PRG.nCount", "PLC_PGR.nCount", "PLC_PRG.fbMotor.nSped")
     assert "Did you mean 'PLC_PRG.nCount'" in values[0]["error"]

@@ -2740,7 +2740,7 @@ export interface components {
             expression: string;
             /**
              * Flags
-             * @description Of CONSTANT, RETAIN, PERSISTENT.
+             * @description Of CONSTANT, RETAIN, PERSISTENT, DISPLAY_HEX, DISPLAY_BIN, DISPLAY_DEC.
              * @default []
              */
             flags: string[];
@@ -4838,7 +4838,7 @@ export interface components {
             forced: boolean;
             /**
              * Literal
-             * @description As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`.
+             * @description As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`; a number in the format of attribute 'displaymode'.
              */
             literal: string | null;
             /** Type */

@@ -3,8 +3,9 @@ import type { NumberFormat } from '@/text/settings';
 import type { PlcValue, SubscribedItem } from './item';
 import { valueKind, type ValueKind } from './item';
 
-type FormatItem = Pick<SubscribedItem, 'kind' | 'type' | 'size' | 'enum' | 'bit'>;
+type FormatItem = Pick<SubscribedItem, 'kind' | 'type' | 'size' | 'enum' | 'bit' | 'flags'>;
 
+const FIXED_FORMATS: readonly NumberFormat[] = ['dec', 'hex', 'bin'];
 const WHOLE: ReadonlySet<ValueKind> = new Set<ValueKind>(['int', 'uint', 'bits', 'pointer']);
 
 /** Full value as an IEC literal; exact, so that it can be typed in again. */
@@ -38,11 +39,20 @@ export function formatLiteral(value: PlcValue, item: FormatItem, format: NumberF
   }
 }
 
-/** What a pill or a narrow cell shows: floats rounded to seven digits, long texts cut with an ellipsis. */
+/**
+ * What a pill or a narrow cell shows: floats rounded to seven digits, long texts cut with an ellipsis, whole numbers in
+ * the format that attribute 'displaymode' of the variable fixes (LPRG-21), or else in that of the view.
+ */
 export function formatShort(value: PlcValue, item: FormatItem, format: NumberFormat = 'dec', length = 32): string {
-  if (valueKind(item) === 'real' && typeof value === 'number' && format !== 'sci') return shortReal(value);
-  const text = formatLiteral(value, item, format);
+  const kind = valueKind(item);
+  if (kind === 'real' && typeof value === 'number' && format !== 'sci') return shortReal(value);
+  const text = formatLiteral(value, item, (WHOLE.has(kind) ? fixedFormat(item) : null) ?? format);
   return text.length <= length ? text : `${text.slice(0, length - 1)}\u2026`;
+}
+
+function fixedFormat(item: FormatItem): NumberFormat | null {
+  const flags = item.flags ?? [];
+  return FIXED_FORMATS.find((format) => flags.includes(`DISPLAY_${format.toUpperCase()}`)) ?? null;
 }
 
 /** Every format of a value, for the tooltip. */

@@ -13,7 +13,7 @@ export interface SubscribedItem {
   readonly enum?: Readonly<Record<string, number>>;
   readonly bit?: number | null;
   readonly error?: string | null;
-  /** Space separated of CONSTANT, RETAIN, PERSISTENT. */
+  /** Of CONSTANT, RETAIN, PERSISTENT, DISPLAY_HEX, DISPLAY_BIN, DISPLAY_DEC. */
   readonly flags?: readonly string[];
   readonly section?: string;
   /** Integer kind below an enumeration. */

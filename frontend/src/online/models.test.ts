@@ -107,6 +107,15 @@ describe('formats', () => {
     ]);
   });
 
+  it('are shown in the number format that their attribute displaymode fixes', () => {
+    const hex = { ...item('UINT', 'uint', 2), flags: ['DISPLAY_HEX'] };
+    expect(formatShort(255, hex)).toBe('16#00FF');
+    expect(formatShort(255, hex, 'bin')).toBe('16#00FF');
+    expect(formatShort(255, { ...hex, flags: ['CONSTANT', 'DISPLAY_DEC'] }, 'hex')).toBe('255');
+    expect(formatShort(1.5, { ...item('REAL', 'real', 4), flags: ['DISPLAY_BIN'] })).toBe('1.5');
+    expect(formatLiteral(255, hex)).toBe('255');
+  });
+
   it('round floats so that they stand still', () => {
     const real = item('LREAL', 'real', 8);
     expect(formatShort(1 / 3, real)).toBe('0.3333333');

@@ -56,7 +56,9 @@ class Item(Reply):
     enum: dict[str, int] | None = Field(default=None, description="Numbers of an enumeration by name.")
     base: str | None = Field(default=None, description="int, uint or bits below an enumeration.")
     bit: int | None = Field(default=None, description="Bit of the byte, counted from 0.")
-    flags: tuple[str, ...] = Field(default=(), description="Of CONSTANT, RETAIN, PERSISTENT.")
+    flags: tuple[str, ...] = Field(
+        default=(), description="Of CONSTANT, RETAIN, PERSISTENT, DISPLAY_HEX, DISPLAY_BIN, DISPLAY_DEC."
+    )
     section: str = ""
     place: ImagePlace | None = Field(
         default=None, description="Where it lies: two names of one place, or parts of it, share a force."

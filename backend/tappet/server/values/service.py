@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import JsonValue
 
+from tappet.codegen.display import display_text
 from tappet.codegen.symbol_map import SymbolError, SymbolMap, VarRef
 from tappet.lang.nearest import nearest
 from tappet.runtime.operations.flight import ReadFlight
@@ -239,7 +240,7 @@ def _json(symbols: SymbolMap, ref: VarRef, data: bytes) -> JsonValue:
 
 
 def _literal(symbols: SymbolMap, ref: VarRef, data: bytes) -> str:
-    return symbols.format_literal(ref, symbols.decode(ref, data))
+    return display_text(symbols, ref, symbols.decode(ref, data))
 
 
 def _in_place(ref: VarRef, data: bytes) -> bytes:

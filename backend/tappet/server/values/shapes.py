@@ -25,7 +25,11 @@ class Value(Reply):
     expression: str
     type: str | None = None
     value: Any = None
-    literal: str | None = Field(default=None, description="As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`.")
+    literal: str | None = Field(
+        default=None,
+        description="As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`; a number in the format of attribute "
+        "'displaymode'.",
+    )
     forced: bool = False
     error: str | None = None
 
