@@ -11,6 +11,7 @@ from typing import Any
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import Root, SymbolMap
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
+from tappet.iec import places as iec_places
 from tappet.runtime import protocol
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
 from tappet.runtime.errors import NoApplicationError, PlcError
@@ -239,7 +240,7 @@ class FakePlc:
     def since(self, number: int) -> list[LogEntry]:
         at = 1_700_000_000_000_000_000
         entries = [LogEntry(n, at, "info", "application", f"entry {n}") for n in (1, 2)]
-        entries.append(LogEntry(3, at, "exception", "application", "division by zero", "Library/F", 7))
+        entries.append(LogEntry(3, at, "exception", "application", "division by zero, line 7"))
         return [entry for entry in entries if entry.number > number]
 
 
@@ -323,7 +324,8 @@ class FakeClient:
 
 def division_by_zero() -> ExceptionReport:
     """What a runtime reports of a fault."""
-    frame = CallFrame("FB_Motor", "FB_Motor", 12)
+    place = iec_places.Place("motor", "implementation", iec_places.Span(3, 0, 3, 0))
+    frames = (CallFrame("FB_Motor", "FB_Motor", 12, place), CallFrame("TON", "Standard/TON", 7))
     return ExceptionReport(
-        1, "DIV_ZERO", "division by zero", "MainTask", "FB_Motor", "FB_Motor", 12, 99, 1, (frame,), {}
+        1, "DIV_ZERO", "division by zero", "MainTask", "FB_Motor", "FB_Motor", 12, 99, 1, frames, {}, place
     )

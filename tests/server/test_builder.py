@@ -15,11 +15,9 @@ from tappet.iec.source import Source
 from tappet.server.builds.builder import Application, Builder
 from tappet.server.builds.messages import CANCEL
 from tappet.server.builds.packages import KEEP, PackageStore
-from tappet.server.builds.source_places import SourcePlaces
 from tappet.server.builds.worker import Compiler
 from tappet.server.problems import Problem
 
-PLACES = SourcePlaces("p", {}, {})
 FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))
 
 
@@ -127,9 +125,9 @@ def test_package_store_keeps_the_newest(tmp_path: Path) -> None:
     assert store.find("c1") is None
     assert store.latest("p", "a") is None
     for n in range(KEEP + 3):
-        store.put("p", "a", f"c{n}", b"no package", PLACES)
+        store.put("p", "a", f"c{n}", b"no package")
     assert len(list(tmp_path.glob("*.package"))) == KEEP
     assert store.find(f"c{KEEP}") is None, "what is no package is not offered"
     assert store.find("../../etc/passwd") is None
     with pytest.raises(ValueError, match="no id"):
-        store.put("../p", "a", "c", b"", PLACES)
+        store.put("../p", "a", "c", b"")

@@ -193,7 +193,7 @@ def test_a_fault_names_the_element(chain: list[str], value: str, element: str | 
         with pytest.raises(ApplicationException, match="division by zero in PLC_PRG, element n2") as caught:
             runtime.run(1)
     report = caught.value.report
-    assert (report.element, report.call_stack[0].element) == (element, element)
+    assert tuple(at.place and at.place.element for at in (report, report.call_stack[0])) == (element, element)
 
 
 def test_cross_references_list_elements(chain: list[str]) -> None:

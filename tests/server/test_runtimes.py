@@ -56,8 +56,13 @@ def test_exception_is_told_with_place(admin: TestClient, runtime_id: str, plc: F
     plc.notify("exception")
     until(lambda: admin.get(f"{URL}/{runtime_id}").json()["state"] == "exception")
     report = admin.get(f"{URL}/{runtime_id}").json()["exception"]
-    assert (report["task"], report["pou"], report["line"]) == ("MainTask", "FB_Motor", 12)
-    assert admin.get(f"{URL}/{runtime_id}/exception").json()["call_stack"][0]["pou"] == "FB_Motor"
+    assert (report["task"], report["pou"], report["line"]) == ("MainTask", "FB_Motor", 4)
+    assert (report["object_id"], report["part"], report["element"]) == ("motor", "implementation", None)
+    assert admin.get(f"{URL}/{runtime_id}/exception").json() == report
+    stack = [
+        (frame["pou"], frame["uri"], frame["object_id"], frame["line"]) for frame in report["call_stack"]
+    ]
+    assert stack == [("FB_Motor", "FB_Motor", "motor", 4), ("TON", "Standard/TON", None, 7)]
     refused = admin.post(f"{URL}/{runtime_id}/start")
     assert refused.status_code == 409
     assert "reset" in refused.json()["detail"]
@@ -126,7 +131,7 @@ async def test_a_connection_that_fails_while_it_is_given_up_does_not_go_on() -> 
         asked.set()
         return await answer
 
-    link = RuntimeLink("1", "test stand", "ws://127.0.0.1:1", "token", connect, lambda _: None, 0.01)
+    link = RuntimeLink("1", "test stand", "ws://127.0.0.1:1", "token", connect, 0.01)
     link.start()
     await asked.wait()
     answer.set_exception(ConnectionRefusedError("nobody there"))

@@ -21,6 +21,7 @@ from tappet.codegen.tasks import default_tasks, task_specs
 from tappet.core.edits.edit import Edit
 from tappet.core.internal_error import At, InternalError, reason_of
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
+from tappet.iec.source import source_maps
 from tappet.iec.task import Task
 from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
@@ -174,7 +175,7 @@ def build_application(
             result = _Build(options, previous, BuildSession()).run(texts, task_list)
     result.diagnostics[:] = with_elements(result.diagnostics, texts)
     if result.package is not None:
-        result.package.source_maps = {text.uri: text.map for text in texts if text.map is not None}
+        result.package.source_maps = source_maps(texts)
     return result
 
 

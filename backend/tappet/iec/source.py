@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
@@ -78,3 +79,12 @@ class Source:
     def segments(self) -> tuple[Segment, ...]:
         """The parts of objects that the lines show; none for a text that is a document of its own."""
         return () if self.map is None else self.map.segments
+
+
+def source_maps(sources: Iterable[Source]) -> dict[str, SourceMap]:
+    """What the lines of texts show, by upper-case uri.
+
+    An object of the application hides one of the POUs view with the same name.
+    """
+    ordered = sorted(sources, key=lambda source: source.scope is Scope.APPLICATION)
+    return {source.uri.upper(): source.map for source in ordered if source.map is not None}

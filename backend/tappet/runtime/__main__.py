@@ -71,8 +71,7 @@ def read_token(path: Path) -> str:
 
 
 def _echo(entry: LogEntry) -> None:
-    place = f" ({entry.uri}:{entry.line})" if entry.line else ""
-    print(f"{entry.severity}: {entry.component}: {entry.message}{place}", file=sys.stderr, flush=True)
+    print(f"{entry.severity}: {entry.component}: {entry.message}", file=sys.stderr, flush=True)
 
 
 def _scheduling(arguments: argparse.Namespace, log: Logbook) -> Scheduling:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from tappet.iec.places import Place
+
 
 @dataclass(frozen=True, slots=True)
 class CallFrame:
@@ -13,8 +15,8 @@ class CallFrame:
     uri: str
     line: int
     """1-based line in the source text `uri`; 0 when unknown."""
-    element: str | None = None
-    """Id of the drawn element that the line denotes."""
+    place: Place | None = None
+    """What an editor shows for the line; None for library texts and texts that are documents of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,5 +37,5 @@ class ExceptionReport:
     """Numbers of the fault itself (index, low, high, address ...) and variables of the programs in the call
     stack.
     """
-    element: str | None = None
-    """Id of the drawn element that the line denotes."""
+    place: Place | None = None
+    """What an editor shows for the line; None for library texts and texts that are documents of their own."""

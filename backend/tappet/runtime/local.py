@@ -31,7 +31,8 @@ class ApplicationException(RuntimeError):  # noqa: N818 - the field's term for t
     """The application went into the state exception; `report` says where and why."""
 
     def __init__(self, report: ExceptionReport) -> None:
-        at = f"line {report.line}" if report.element is None else f"element {report.element}"
+        element = report.place.element if report.place is not None else None
+        at = f"line {report.line}" if element is None else f"element {element}"
         place = f" in {report.pou}, {at}" if report.pou else ""
         super().__init__(f"task {report.task}: {report.message}{place}")
         self.report = report

@@ -23,10 +23,6 @@ class LogEntry:
     severity: Severity
     component: str
     message: str
-    uri: str = ""
-    """Text of the program that the event is about, if it is about one."""
-    line: int = 0
-    """Line of that text as it was compiled, from 1; who knows where the text comes from shows another one."""
 
 
 class Logbook:
@@ -38,11 +34,11 @@ class Logbook:
         self._count = 0
         self._echo = echo
 
-    def add(self, severity: Severity, component: str, message: str, uri: str = "", line: int = 0) -> None:
-        """Append an entry with the present time, and the place in a program that it is about."""
+    def add(self, severity: Severity, component: str, message: str) -> None:
+        """Append an entry with the present time."""
         with self._lock:
             self._count += 1
-            entry = LogEntry(self._count, time.time_ns(), severity, component, message, uri, line)
+            entry = LogEntry(self._count, time.time_ns(), severity, component, message)
             self._entries.append(entry)
         if self._echo is not None:
             self._echo(entry)

@@ -126,7 +126,7 @@ class SoftPlc(ApplicationAccess):
             state = self.state
             if state == "exception" and self._report is None:
                 report = self._report = build_report(self._need(), self.log)
-                self.log.add("exception", "application", summary(report), report.uri, report.line)
+                self.log.add("exception", "application", summary(report))
             if state != self._seen_state:
                 entered = state == "exception"
                 self._seen_state = state

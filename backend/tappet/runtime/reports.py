@@ -26,8 +26,8 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
     raw = application.contexts.fault(task)
     message, values = describe(raw)
     try:
-        maps = {uri.upper(): map for uri, map in application.package.source_maps.items()}
-        stack = [_with_element(frame, maps) for frame in Locator(application.code).call_stack(raw)]
+        maps = application.package.source_maps
+        stack = [_with_place(frame, maps) for frame in Locator(application.code).call_stack(raw)]
     except Exception as error:  # whatever is wrong with the debug information, the exception is reported
         log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
         stack = []
@@ -35,17 +35,17 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
     values |= _values_of(application, [frame.pou for frame in stack])
     return ExceptionReport(
         raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
-        time.time_ns(), tuple(stack), values, here.element,
+        time.time_ns(), tuple(stack), values, here.place,
     )  # fmt: skip
 
 
-def _with_element(frame: CallFrame, maps: Mapping[str, SourceMap]) -> CallFrame:
-    """A level of the call stack with the element that its line denotes."""
+def _with_place(frame: CallFrame, maps: Mapping[str, SourceMap]) -> CallFrame:
+    """A level of the call stack with the place that its line shows."""
     shown = maps.get(frame.uri.upper())
     if shown is None or frame.line < 1:
         return frame
     line = frame.line - 1
-    return replace(frame, element=shown.place(Span(line, 0, line, 0)).element)
+    return replace(frame, place=shown.place(Span(line, 0, line, 0)))
 
 
 def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str, str]:
@@ -69,6 +69,7 @@ def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str,
 
 
 def summary(report: ExceptionReport) -> str:
-    """One line for the log, without the line of the program: the entry carries its place."""
+    """One line for the log, with the line as the editor counts it where that is known."""
     place = f" in {report.pou}" if report.pou else ""
-    return f"task {report.task}: {report.message}{place}"
+    line = report.place.span.line + 1 if report.place is not None else report.line
+    return f"task {report.task}: {report.message}{place}{f', line {line}' if line else ''}"

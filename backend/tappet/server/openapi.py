@@ -50,8 +50,9 @@ def document(app: FastAPI) -> dict[str, Any]:
     )
     components = result.setdefault("components", {})
     schemas = components.setdefault("schemas", {})
-    for name, schema in (_extra_schemas() | operations.schemas()).items():
+    for name, schema in _extra_schemas().items():
         schemas.setdefault(name, schema)
+    schemas.update(operations.schemas())  # some are in shapes of the server, which know less of them
     for unused in ("HTTPValidationError", "ValidationError"):
         schemas.pop(unused, None)
     components["schemas"] = dict(sorted(schemas.items()))

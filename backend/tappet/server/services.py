@@ -145,7 +145,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         passwords=passwords,
         one_time=one_time,
         login=Login(database, passwords, one_time),
-        runtimes=RuntimeRegistry(connect, packages.places, settings.reconnect_seconds),
+        runtimes=RuntimeRegistry(connect, settings.reconnect_seconds),
         commissioning=Commissioning(
             store,
             Builder(settings.build_workers, settings.data_dir / "objects"),

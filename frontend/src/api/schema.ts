@@ -1089,10 +1089,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Get Exception
+         * Exception
          * @description Why the application stopped, with call stack and values; null when it did not.
          */
-        get: operations["get_exception"];
+        get: operations["exception"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1209,10 +1209,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Read Log
+         * Log
          * @description Lines of the runtime's log after `since`, oldest first.
          */
-        get: operations["read_log"];
+        get: operations["log"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1873,24 +1873,13 @@ export interface components {
          * @description One level of the call stack, the innermost first.
          */
         CallFrame: {
-            /**
-             * Element
-             * @description Id of the element in a drawn part.
-             */
+            /** @description Id of the element in a drawn part. */
             element: string | null;
-            /**
-             * Line
-             * @description From 1: in the part, or in the whole text where no part is known.
-             */
+            /** @description From 1: in the part, or in the whole text where no part is known. */
             line: number | null;
-            /** Object Id */
             object_id: string | null;
-            /** Object Path */
-            object_path: string | null;
-            part: components["schemas"]["Part"] | null;
-            /** Pou */
+            part: ("declaration" | "implementation") | null;
             pou: string | null;
-            /** Uri */
             uri: string | null;
         };
         /**
@@ -3029,18 +3018,11 @@ export interface components {
          * @description One line of a runtime's log.
          */
         LogEntry: {
-            /**
-             * At
-             * Format: date-time
-             */
+            /** Format: date-time */
             at: string;
-            /** Component */
             component: string;
-            /** Id */
             id: number;
-            /** Message */
             message: string;
-            /** Severity */
             severity: string;
         };
         /**
@@ -4091,43 +4073,21 @@ export interface components {
          * @description Why an application stopped.
          */
         RuntimeException: {
-            /** Call Stack */
             call_stack: components["schemas"]["CallFrame"][];
-            /** Code */
-            code: number | string;
-            /**
-             * Element
-             * @description Id of the element in a drawn part.
-             */
+            code: number;
+            /** @description Id of the element in a drawn part. */
             element: string | null;
-            /**
-             * Line
-             * @description From 1: in the part, or in the whole text where no part is known.
-             */
+            /** @description From 1: in the part, or in the whole text where no part is known. */
             line: number | null;
-            /** Message */
             message: string;
-            /**
-             * Name
-             * @description Name of the code, such as `DIV_ZERO`.
-             * @default
-             */
+            /** @description Name of the code, such as `DIV_ZERO`. */
             name: string;
-            /** Object Id */
             object_id: string | null;
-            /** Object Path */
-            object_path: string | null;
-            part: components["schemas"]["Part"] | null;
-            /** Pou */
+            part: ("declaration" | "implementation") | null;
             pou: string | null;
-            /** Task */
             task: string;
-            /** Uri */
             uri: string | null;
-            /**
-             * Values
-             * @description Numbers of the fault and variables of the programs, as literals.
-             */
+            /** @description Numbers of the fault and variables of the programs, as literals. */
             values: {
                 [key: string]: string;
             };
@@ -7583,7 +7543,7 @@ export interface operations {
             };
         };
     };
-    get_exception: {
+    exception: {
         parameters: {
             query?: never;
             header?: never;
@@ -7831,10 +7791,9 @@ export interface operations {
             };
         };
     };
-    read_log: {
+    log: {
         parameters: {
             query?: {
-                /** @description Id of the last known line. */
                 since?: number;
             };
             header?: never;

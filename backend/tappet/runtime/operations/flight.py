@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import datetime
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from msgspec import Meta, Struct
 
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.operations.declaration import Count, Fact, Operation, Places, Rest
+from tappet.runtime.operations.instants import Instant, instant_of
 
 if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
-_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _TAG = "flight recorder"
-Instant = Annotated[datetime, Meta(tz=True)]
 
 
 class FlightEntries(Struct, frozen=True):
@@ -54,7 +53,7 @@ class FlightCycle(Struct, frozen=True):
 
 
 def _time(timestamp_ns: int | None) -> datetime | None:
-    return None if timestamp_ns is None else _EPOCH + timedelta(microseconds=timestamp_ns // 1000)
+    return None if timestamp_ns is None else instant_of(timestamp_ns)
 
 
 def state_of(status: FlightStatus) -> FlightState:
@@ -78,7 +77,7 @@ def state_of(status: FlightStatus) -> FlightState:
 
 def cycles_of(history: list[tuple[int, int]]) -> list[FlightCycle]:
     """The history as people read it."""
-    return [FlightCycle(cycle, _EPOCH + timedelta(microseconds=stamp // 1000)) for cycle, stamp in history]
+    return [FlightCycle(cycle, instant_of(stamp)) for cycle, stamp in history]
 
 
 class GetFlightStatus(Operation[FlightStatus], frozen=True):

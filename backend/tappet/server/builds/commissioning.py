@@ -12,7 +12,6 @@ from tappet.runtime.operations.life_cycle import Start
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
 from tappet.server.builds.shapes import BuildReport, LoginReport, Relation
-from tappet.server.builds.source_places import SourcePlaces
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import LoadMode
@@ -113,10 +112,9 @@ class Commissioning:
                 diagnostics=[d.model_dump() for d in built.report.diagnostics if d.severity == "error"],
             )
         assert built.report.code_id is not None
-        places = SourcePlaces.of(project_id, built.application.sources, built.application.paths)
         code_id = built.report.code_id
         # Kept first: without it the next login would take the application for a stranger's.
-        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, built.package, places)
+        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, built.package)
         async with link.client() as client:
             await client.download(built.package, mode)
             if start and mode == "download":

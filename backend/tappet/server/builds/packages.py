@@ -8,7 +8,6 @@ from pathlib import Path
 
 from tappet.codegen.package import CodePackage, PackageError
 from tappet.runtime.retain import write_atomically
-from tappet.server.builds.source_places import SourcePlaces
 
 KEEP = 10
 """Newest packages of one application that are kept."""
@@ -26,33 +25,18 @@ class StoredPackage:
 
 
 class PackageStore:
-    """Files named `<project>.<application>.<code>.package`, each with a `.places`. All methods block."""
+    """Files named `<project>.<application>.<code>.package`. All methods block."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
-    def put(
-        self, project_id: str, application_id: str, code_id: str, data: bytes, places: SourcePlaces
-    ) -> None:
-        """Keeps a package and where its lines come from; the oldest ones of the application go."""
+    def put(self, project_id: str, application_id: str, code_id: str, data: bytes) -> None:
+        """Keeps a package; the oldest ones of the application go."""
         self._folder.mkdir(parents=True, exist_ok=True)
         path = self._folder / f"{_safe(project_id)}.{_safe(application_id)}.{_safe(code_id)}.package"
-        write_atomically(path.with_suffix(".places"), places.to_json())
         write_atomically(path, data)
         for old in self._newest_first(f"{project_id}.{application_id}.*.package")[KEEP:]:
-            old.with_suffix(".places").unlink(missing_ok=True)
             old.unlink(missing_ok=True)
-
-    def places(self, code_id: str) -> SourcePlaces | None:
-        """Where the lines of the package with this code come from."""
-        if not _ID.fullmatch(code_id):
-            return None
-        for path in self._newest_first(f"*.*.{code_id}.places"):
-            try:
-                return SourcePlaces.from_json(path.read_bytes())
-            except (OSError, ValueError):
-                continue
-        return None
 
     def find(self, code_id: str) -> StoredPackage | None:
         """The package with this code, whatever application it was built from."""

@@ -1,14 +1,12 @@
-"""Where the lines of a downloaded application come from: kept with its package, for call stacks."""
+"""Where the lines of an application that was built come from, with the paths of its objects."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import msgspec
-
 from tappet.iec.places import Place, SourceMap, Span
-from tappet.iec.source import Scope, Source
+from tappet.iec.source import Source, source_maps
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,20 +20,19 @@ class EditorPlace:
     element: str | None = None
 
 
-class SourcePlaces(msgspec.Struct, frozen=True):
+@dataclass(frozen=True, slots=True)
+class SourcePlaces:
     """The maps of the texts of an application, and the names of its objects."""
 
-    project_id: str
     maps: dict[str, SourceMap]
     """By upper-case uri."""
     paths: dict[str, str]
     """Path in the tree by object id."""
 
     @classmethod
-    def of(cls, project_id: str, sources: tuple[Source, ...], paths: Mapping[str, str]) -> SourcePlaces:
-        """An object of the application hides one of the POUs view with the same name."""
-        ordered = sorted(sources, key=lambda source: source.scope is Scope.APPLICATION)
-        return cls(project_id, {s.uri.upper(): s.map for s in ordered if s.map is not None}, dict(paths))
+    def of(cls, sources: tuple[Source, ...], paths: Mapping[str, str]) -> SourcePlaces:
+        """Of an application as it was built."""
+        return cls(source_maps(sources), dict(paths))
 
     def place(self, uri: str, span: Span) -> Place | None:
         """Where a range of a text comes from; None for library texts."""
@@ -49,21 +46,3 @@ class SourcePlaces(msgspec.Struct, frozen=True):
             return None
         path = self.paths.get(found.object_id, "")
         return EditorPlace(found.object_id, path, found.part, found.span.line + 1, found.element)
-
-    def to_json(self) -> bytes:
-        """For the file beside the package."""
-        return msgspec.json.encode(self, order="deterministic")
-
-    @classmethod
-    def from_json(cls, data: bytes) -> SourcePlaces:
-        """Inverse of `to_json`; raises ValueError for anything else."""
-        try:
-            return msgspec.json.decode(data, type=cls)
-        except msgspec.MsgspecError as error:
-            raise ValueError(f"no table of source places: {error}") from error
-
-
-def shown_line(places: SourcePlaces | None, uri: str, line: int) -> int:
-    """A line of a compiled text as its editor counts it; as it is where the text is not of the project."""
-    found = places.locate(uri, line) if places is not None else None
-    return line if found is None else found.line

@@ -9,21 +9,17 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from datetime import UTC, datetime
 from enum import StrEnum
-from typing import Any
-
-from starlette.concurrency import run_in_threadpool
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.operations.life_cycle import GetInfo
-from tappet.runtime.operations.reports import GetException
+from tappet.runtime.operations.reports import GetException, exception_of
 from tappet.runtime.operations.values import ForcedValue, ListForces
 from tappet.runtime.state import RuntimeInfo
-from tappet.server.builds.source_places import SourcePlaces
 from tappet.server.problems import Problem, not_found
 from tappet.server.runtimes.plc_client import Connect, PlcClient
-from tappet.server.runtimes.shapes import CallFrame, RuntimeException, RuntimeState
+from tappet.server.runtimes.shapes import RuntimeState
 
 log = logging.getLogger(__name__)
 LONGEST_PAUSE_S = 15.0
@@ -32,7 +28,6 @@ PATIENCE_S = 10.0
 """How long an attempt to connect may take."""
 
 
-FindPlaces = Callable[[str], SourcePlaces | None]
 """From a code id; may block."""
 
 
@@ -56,7 +51,6 @@ class RuntimeLink:
         url: str,
         token: str,
         connect: Connect,
-        find_places: FindPlaces,
         first_pause_s: float,
     ) -> None:
         self.id = id
@@ -65,8 +59,6 @@ class RuntimeLink:
         self.info: RuntimeInfo | None = None
         self.exception: ExceptionReport | None = None
         self.symbols: SymbolMap | None = None
-        self.places: SourcePlaces | None = None
-        """Where the lines of the loaded application come from, if this server has downloaded it."""
         self.forced: dict[tuple[int, int | None], str] = {}
         """Paths of the forced variables by (offset, bit)."""
         self.forced_sizes: dict[tuple[int, int | None], int] = {}
@@ -75,7 +67,6 @@ class RuntimeLink:
         self.problem: str | None = None
         self._token = token
         self._connect = connect
-        self._find_places = find_places
         self._first_pause_s = first_pause_s
         self._client: PlcClient | None = None
         self._listeners: list[Callable[[Change], None]] = []
@@ -162,7 +153,7 @@ class RuntimeLink:
             application=info.application if info else None,
             code_id=info.code_id if info else None,
             data_id=info.data_id if info else None,
-            exception=exception_state(self.exception, self.places) if self.exception else None,
+            exception=exception_of(self.exception),
             scheduling="; ".join(info.scheduling) or None if info else None,
             problem=self.problem,
         )
@@ -225,7 +216,6 @@ class RuntimeLink:
         symbols = self.symbols
         if other:
             symbols = await client.symbols() if info.code_id else None
-            self.places = await run_in_threadpool(self._find_places, info.code_id) if info.code_id else None
         forces = await client.call(ListForces()) if symbols is not None else []
         self.info, self.exception, self.symbols = info, exception, symbols
         self.forced = {(force.offset, force.bit): path_of(force) for force in forces}
@@ -282,17 +272,14 @@ class RuntimeLink:
 class RuntimeRegistry:
     """All runtimes by id."""
 
-    def __init__(self, connect: Connect, find_places: FindPlaces, first_pause_s: float) -> None:
+    def __init__(self, connect: Connect, first_pause_s: float) -> None:
         self._connect = connect
-        self._find_places = find_places
         self._first_pause_s = first_pause_s
         self._links: dict[str, RuntimeLink] = {}
 
     def add(self, name: str, url: str, token: str, id: str | None = None) -> RuntimeLink:
         """Begins to keep a connection."""
-        link = RuntimeLink(
-            id or uuid.uuid4().hex, name, url, token, self._connect, self._find_places, self._first_pause_s
-        )
+        link = RuntimeLink(id or uuid.uuid4().hex, name, url, token, self._connect, self._first_pause_s)
         self._links[link.id] = link
         link.start()
         return link
@@ -322,36 +309,6 @@ class RuntimeRegistry:
     async def close(self) -> None:
         """Gives all up."""
         await asyncio.gather(*(link.close() for link in self._links.values()))
-
-
-def exception_state(report: ExceptionReport, places: SourcePlaces | None) -> RuntimeException:
-    """The report for clients, with the places in the editors where they are known."""
-    return RuntimeException(
-        code=report.code,
-        name=report.name,
-        message=report.message,
-        task=report.task,
-        pou=report.pou or None,
-        **_place(places, report.uri, report.line),
-        call_stack=[
-            CallFrame(pou=frame.pou, **_place(places, frame.uri, frame.line)) for frame in report.call_stack
-        ],
-        values=dict(report.values),
-    )
-
-
-def _place(places: SourcePlaces | None, uri: str, line: int) -> dict[str, Any]:
-    found = places.locate(uri, line) if places is not None else None
-    if found is None:
-        return {"uri": uri or None, "line": line or None}
-    return {
-        "uri": uri,
-        "object_id": found.object_id,
-        "object_path": found.object_path,
-        "part": found.part,
-        "element": found.element,
-        "line": found.line,
-    }
 
 
 def path_of(force: ForcedValue) -> str:

@@ -1,4 +1,4 @@
-"""Runtimes: the list, state, exception, log, symbols. What a runtime does is in its operations."""
+"""Runtimes: the list, state, symbols. What a runtime does is in its operations."""
 
 from __future__ import annotations
 
@@ -9,11 +9,8 @@ from fastapi import APIRouter, Query
 from sqlalchemy import Connection, delete, insert
 
 from tappet.codegen.symbol_map import SymbolError
-from tappet.runtime import logbook
-from tappet.runtime.operations.reports import GetException, ReadLog
 from tappet.server import audit
 from tappet.server.audit import Act
-from tappet.server.builds.source_places import SourcePlaces, shown_line
 from tappet.server.dependencies import (
     DatabaseDep,
     Engineer,
@@ -22,11 +19,8 @@ from tappet.server.dependencies import (
     Viewer,
 )
 from tappet.server.problems import Problem
-from tappet.server.runtimes.links import exception_state
 from tappet.server.runtimes.shapes import (
-    LogEntry,
     NewRuntime,
-    RuntimeException,
     RuntimeState,
     Symbol,
 )
@@ -84,25 +78,6 @@ async def remove_runtime(who: Engineer, link: LinkDep, runtimes: RuntimesDep, da
     await runtimes.remove(link.id)
 
 
-@router.get("/{runtime_id}/exception")
-async def get_exception(who: Viewer, link: LinkDep) -> RuntimeException | None:
-    """Why the application stopped, with call stack and values; null when it did not."""
-    async with link.client() as client:
-        report = await client.call(GetException())
-    return exception_state(report, link.places) if report is not None else None
-
-
-@router.get("/{runtime_id}/log")
-async def read_log(
-    who: Viewer,
-    link: LinkDep,
-    since: Annotated[int, Query(ge=0, description="Id of the last known line.")] = 0,
-) -> list[LogEntry]:
-    """Lines of the runtime's log after `since`, oldest first."""
-    async with link.client() as client:
-        return [_log_entry(entry, link.places) for entry in await client.call(ReadLog(since))]
-
-
 @router.get("/{runtime_id}/symbols")
 async def browse_symbols(
     who: Viewer, link: LinkDep, path: Annotated[str, Query(max_length=500)] = ""
@@ -114,15 +89,3 @@ async def browse_symbols(
     except SymbolError as error:
         raise Problem(404, "unknown-expression", values.explain(symbols, path, error)) from None
     return [Symbol(name=c.name, path=c.path, type=c.type, kind=c.kind, leaf=c.leaf) for c in children]
-
-
-def _log_entry(entry: logbook.LogEntry, places: SourcePlaces | None) -> LogEntry:
-    """The line as the log shows it; a place in a program is given as the editor counts lines."""
-    line = shown_line(places, entry.uri, entry.line)
-    return LogEntry(
-        id=entry.number,
-        at=datetime.fromtimestamp(entry.timestamp_ns / 1e9, UTC),
-        severity=entry.severity,
-        component=entry.component,
-        message=f"{entry.message}, line {line}" if line else entry.message,
-    )

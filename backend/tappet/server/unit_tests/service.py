@@ -103,7 +103,7 @@ def _order(application: Application, test_filter: str, only: Sequence[str]) -> b
 
 
 def _reply(report: Report, application: Application) -> TestReport:
-    places = SourcePlaces.of(application.project_id, application.sources, application.paths)
+    places = SourcePlaces.of(application.sources, application.paths)
     return TestReport(
         ok=report.ok,
         total=report.total,

@@ -12,7 +12,6 @@ const exception = (name: string, line: number | null = 2): RuntimeException => (
   pou: 'PLC_PRG',
   uri: 'PLC_PRG',
   object_id: null,
-  object_path: null,
   part: 'implementation',
   element: null,
   call_stack: [],

@@ -45,11 +45,10 @@ export function newExceptions(
   });
 }
 
-/** The path of the object a frame is in, as everywhere else; of a library only what the runtime says. */
+/** The path of the object a frame is in, as everywhere else; of other code only what the runtime says. */
 export function framePath(frame: CallFrame): string {
-  return frame.object_id === null
-    ? (frame.uri ?? frame.pou ?? '')
-    : objectPath(objectsNow(), frame.object_id) || (frame.object_path ?? '');
+  const path = frame.object_id === null ? '' : objectPath(objectsNow(), frame.object_id);
+  return path || (frame.uri ?? frame.pou ?? '');
 }
 
 /** Opens the object of a frame at its line; a place in a library or in the system has none. */
