@@ -460,6 +460,53 @@ def test_an_online_change_with_a_request_on_its_way(tmp_path: Path, asks: bool) 
         assert len(open_files(tmp_path)) == int(asks)
 
 
+FOLDER = """PROGRAM PLC_PRG
+VAR
+    n : INT; h : RTS_IEC_HANDLE; entry : STRING; none : REFERENCE TO STRING; info : DirInfo;
+    opened, read, ended : RTS_IEC_RESULT;
+END_VAR
+n := n + 1;
+IF n > 1 THEN RETURN; END_IF
+h := SysDirOpen('', none, 0, 0, ADR(opened));
+read := SysDirRead(h, entry, 80, ADR(info));
+ended := SysDirRead(h, entry, 80, ADR(info));
+SysDirClose(h);
+END_PROGRAM
+"""
+
+
+def test_the_folder_of_files_itself_is_read_from_its_first_entry(tmp_path: Path) -> None:
+    (tmp_path / "files").mkdir()
+    (tmp_path / "files/only").write_text("12345")
+    with LocalRuntime(compiled(FOLDER, "SysDir, * (System)"), folder=tmp_path) as runtime:
+        runtime.run(cycles=2)
+        wanted = {
+            "opened": 0,
+            "read": 0,
+            "ended": 21,
+            "entry": "only",
+            "info.ulSize": 5,
+            "info.diDirectory": 0,
+        }
+        assert {name: runtime.read(f"PLC_PRG.{name}") for name in wanted} == wanted
+
+
+TASK_FACTS = """PROGRAM PLC_PRG
+VAR n : INT; first : BOOL; info : PlcTaskSystemInfo; END_VAR
+n := n + 1;
+info := F_GetTaskInfo();
+IF n = 1 THEN first := info.FirstCycle; END_IF
+END_PROGRAM
+"""
+
+
+def test_a_program_asks_for_its_task() -> None:
+    with LocalRuntime(compiled(TASK_FACTS, TC2_SYSTEM)) as runtime:
+        runtime.run(cycles=5)
+        wanted = {"first": True, "info.FirstCycle": False, "info.CycleTime": 100_000, "info.CycleCount": 4}
+        assert {name: runtime.read(f"PLC_PRG.{name}") for name in wanted} == wanted
+
+
 CLOCK = """PROGRAM PLC_PRG
 VAR fb : GETSYSTEMTIME; steps : ULINT; END_VAR
 fb();
