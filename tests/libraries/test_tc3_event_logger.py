@@ -116,7 +116,8 @@ def test_events_by_their_parts_and_texts_that_are_not_known() -> None:
         VAR
             m : FB_TcMessage; a : FB_TcAlarm; e : TcEventEntry; x : ARRAY[0..4] OF BOOL;
             s : STRING := 'before'; h : HRESULT; nId : UDINT; y : BOOL;
-            stLast : ST_LoggedEvent; logger : FB_TcEventLogger;
+            stLast, stSent : ST_LoggedEvent; logger : FB_TcEventLogger; fbArguments : FB_TcArguments;
+            now : BOOL;
         END_VAR
         e.uuidEventClass.Data1 := 5; e.nEventId := 9; e.eSeverity := TcEventSeverity.Error;
         m.Create(e.uuidEventClass, 9, TcEventSeverity.Error, 0);
@@ -126,6 +127,9 @@ def test_events_by_their_parts_and_texts_that_are_not_known() -> None:
         x[2] := m.EqualsToEventEntry(e.uuidEventClass, 9, TcEventSeverity.Warning);
         x[3] := m.RequestEventText(1033, s, SIZEOF(s), bError => x[4], hrErrorCode => h);
         nId := m.EventClass.Data1; m.Send(3); y := logger.GetLoggedEvent(0, stLogged => stLast);
+        fbArguments.AddInt(4).AddString('Oven');
+        logger.SendMessageEx(e, 0, 0, fbArguments); y := logger.GetLoggedEvent(0, stLogged => stSent);
+        now := stSent.nTimeStamp = 134_344_736_000_000_000 + LTIME_TO_ULINT(LTIME()) / 100;
         END_PROGRAM"""
     with run(text, 1) as program:
         assert program.literal("Main.x") == "[TRUE, TRUE, FALSE, TRUE, TRUE]"
@@ -133,3 +137,5 @@ def test_events_by_their_parts_and_texts_that_are_not_known() -> None:
         assert program.literal("Main.h") == str(0x9811070C - 2**32)
         assert program.literal("Main.nId") == "5"
         assert program.literal("Main.stLast.stEvent.nEventId") == "9"
+        assert program.literal("Main.stSent.sArguments") == "'4,Oven'"
+        assert program.literal("Main.now") == "TRUE"
