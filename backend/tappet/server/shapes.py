@@ -5,7 +5,7 @@ Request bodies refuse unknown fields, so that a misspelt one is an error and not
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
@@ -23,6 +23,11 @@ class Reply(BaseModel):
     """What the server sends; fields with defaults are always present."""
 
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+
+    @classmethod
+    def of(cls, item: object) -> Self:
+        """What has attributes of the names of the fields, as this shape."""
+        return cls.model_validate(item, from_attributes=True)
 
 
 class InvalidField(Reply):

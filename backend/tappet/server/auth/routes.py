@@ -163,10 +163,7 @@ def change_password(body: PasswordChange, who: Viewer, services: ServicesDep) ->
 @router.get("/tokens")
 def list_tokens(who: Viewer, database: DatabaseDep) -> list[Token]:
     """One's own tokens, without their secrets."""
-    return [
-        Token.model_validate(t, from_attributes=True)
-        for t in database.read(lambda db: tokens.of_user(db, who.user_id))
-    ]
+    return [Token.of(t) for t in database.read(lambda db: tokens.of_user(db, who.user_id))]
 
 
 @router.post("/tokens", status_code=201)
@@ -182,7 +179,7 @@ def create_token(body: NewToken, who: Viewer, database: DatabaseDep) -> IssuedTo
     def issue(db: Connection) -> IssuedToken:
         token, secret = tokens.issue(db, who.user_id, body.name, body.role, expires, now)
         audit.record(db, who, Act("token-created", body.name, new_value=body.role.value))
-        return IssuedToken(**Token.model_validate(token, from_attributes=True).model_dump(), secret=secret)
+        return IssuedToken(**Token.of(token).model_dump(), secret=secret)
 
     return database.write(issue)
 

@@ -29,7 +29,6 @@ from tappet.server.libraries.shapes import (
     LibrarySummary,
     LibraryUse,
     NewLibrary,
-    RequiredLibrary,
 )
 from tappet.server.problems import Problem, not_found
 from tappet.server.projects.routes import download
@@ -54,33 +53,17 @@ def _items(library: Library) -> list[LibraryItem]:
     return _ITEMS.validate_python(catalog.items(library), from_attributes=True)
 
 
-def _summary(library: Library) -> LibrarySummary:
-    return LibrarySummary(
-        name=library.name,
-        version=library.version,
-        namespace=library.namespace,
-        qualified_only=library.qualified_only,
-        company=library.company,
-        description=library.description,
-        removable=library.removable,
-        requires=[
-            RequiredLibrary.model_validate(required, from_attributes=True) for required in library.requires
-        ],
-        replaces=list(library.replaces),
-    )
-
-
 @router.get("/libraries")
 def list_libraries(who: Viewer) -> list[LibrarySummary]:
     """All libraries a project may refer to, in all versions, newest first."""
-    return [_summary(library) for library in libraries.every_version()]
+    return [LibrarySummary.of(library) for library in libraries.every_version()]
 
 
 @router.get("/libraries/{name}")
 def get_library(name: str, who: Viewer, version: Version = "*") -> LibraryDetail:
     """A library with its POUs and types, their pins, defaults and comments."""
     library = _load(name, version)
-    return LibraryDetail(**_summary(library).model_dump(), items=_items(library))
+    return LibraryDetail(**LibrarySummary.of(library).model_dump(), items=_items(library))
 
 
 @router.get("/libraries/{name}/sources/{item}")
@@ -186,7 +169,7 @@ def _with_errors(report: BuildReport) -> Problem:
 
 def _installed(services: Services, who: Identity, name: str, version: str) -> LibrarySummary:
     _note(services, who, "library-installed", f"{name} {version}")
-    return _summary(libraries.load(name, version))
+    return LibrarySummary.of(libraries.load(name, version))
 
 
 def _note(services: Services, who: Identity, action: str, target: str) -> None:

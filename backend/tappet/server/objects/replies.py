@@ -10,16 +10,7 @@ from tappet.server.objects.shapes import ObjectDetail, ObjectSummary
 
 def object_summary(item: records.ObjectSummary) -> ObjectSummary:
     """An object in the tree."""
-    return ObjectSummary(
-        id=item.id,
-        parent_id=item.parent_id,
-        kind=item.kind,
-        subkind=item.subkind,
-        name=item.name,
-        index=item.index,
-        revision=item.revision,
-        excluded=item.excluded,
-    )
+    return ObjectSummary.of(item)
 
 
 def object_detail(item: StoredObject) -> ObjectDetail:

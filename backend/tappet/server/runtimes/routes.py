@@ -88,4 +88,4 @@ async def browse_symbols(
         children = symbols.children(path)
     except SymbolError as error:
         raise Problem(404, "unknown-expression", values.explain(symbols, path, error)) from None
-    return [Symbol(name=c.name, path=c.path, type=c.type, kind=c.kind, leaf=c.leaf) for c in children]
+    return [Symbol.of(child) for child in children]

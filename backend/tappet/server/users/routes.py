@@ -19,22 +19,10 @@ from tappet.server.users.shapes import AuditEntry, NewUser, User, UserChange
 router = APIRouter(tags=["users"])
 
 
-def _user(account: Account) -> User:
-    return User(
-        id=account.id,
-        username=account.username,
-        role=account.role,
-        disabled=account.disabled,
-        has_password=account.has_password,
-        created_at=account.created_at,
-        last_login_at=account.last_login_at,
-    )
-
-
 @router.get("/users")
 def list_users(who: Admin, database: DatabaseDep) -> list[User]:
     """All accounts by name."""
-    return [_user(account) for account in database.read(accounts.all_accounts)]
+    return [User.of(account) for account in database.read(accounts.all_accounts)]
 
 
 @router.post("/users", status_code=201)
@@ -46,7 +34,7 @@ def create_user(body: NewUser, who: Admin, services: ServicesDep) -> User:
     def create(db: Connection) -> User:
         account = accounts.create(db, body.username, encoded, body.role, datetime.now(UTC))
         audit.record(db, who, Act("user-created", account.username, new_value=account.role.value))
-        return _user(account)
+        return User.of(account)
 
     return services.database.write(create)
 
@@ -68,7 +56,7 @@ def change_user(user_id: str, body: UserChange, who: Admin, services: ServicesDe
             audit.record(db, who, Act("password-set", old.username))
         if (old.role, old.disabled) != (new.role, new.disabled):
             audit.record(db, who, Act("user-changed", old.username, _summary(old), _summary(new)))
-        return _user(accounts.by_id(db, user_id))
+        return User.of(accounts.by_id(db, user_id))
 
     return services.database.write(change)
 
