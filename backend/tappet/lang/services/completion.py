@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from tappet.iec.words import ACCESS_SPECIFIERS, SECTION_FLAGS, STATEMENT_WORDS
-from tappet.lang import ast
+from tappet.lang import ast, symbols
 from tappet.lang import types as t
 from tappet.lang.access import may_use
 from tappet.lang.analysis.scope import AmbiguousSymbol, QualifiedSymbol
@@ -61,15 +61,6 @@ from tappet.lang.services.resolution import (
 )
 from tappet.lang.services.results import Completion, ItemKind
 from tappet.lang.services.workspace import View, Workspace
-from tappet.lang.symbols import (
-    EnumValueSymbol,
-    InterfaceSymbol,
-    NamespaceSymbol,
-    PouSymbol,
-    Symbol,
-    TypeSymbol,
-    VarSymbol,
-)
 
 _VALUE_BEFORE = frozenset(
     [":=", "=", "<>", "(", ",", "[", "+", "-", "*", "/", "AND", "OR", "XOR", "NOT", "=>"]
@@ -211,7 +202,7 @@ def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
             continue
         yield _item(symbol, _member_rank(symbol, meaning), order)
         order += 1
-        call = whole_call(symbol, symbol.name, 4, writes) if isinstance(symbol, PouSymbol) else None
+        call = whole_call(symbol, symbol.name, 4, writes) if isinstance(symbol, symbols.PouSymbol) else None
         if call is not None:
             yield call
     if isinstance(meaning.type, t.Elementary) and meaning.type.is_integer:
@@ -228,18 +219,18 @@ def _members(view: View, scope: Scope, cursor: Cursor) -> Iterator[Completion]:
         )
 
 
-def _member_rank(symbol: Symbol, meaning: Meaning) -> int:
+def _member_rank(symbol: symbols.Symbol, meaning: Meaning) -> int:
     """Inputs and outputs of an instance first, then what can be called, what is inside last."""
-    if isinstance(symbol, VarSymbol) and isinstance(meaning.type, t.FunctionBlock):
+    if isinstance(symbol, symbols.VarSymbol) and isinstance(meaning.type, t.FunctionBlock):
         return 7 if is_local(symbol) else 1 if symbol.section == "VAR_INPUT" else 2
     return 3
 
 
-def _item(symbol: Symbol, rank: int, order: int = 0) -> Completion:
+def _item(symbol: symbols.Symbol, rank: int, order: int = 0) -> Completion:
     pragmas: list[ast.Pragma] = []
-    if isinstance(symbol, PouSymbol) and symbol.pou is not None:
+    if isinstance(symbol, symbols.PouSymbol) and symbol.pou is not None:
         pragmas = symbol.pou.attributes
-    elif isinstance(symbol, TypeSymbol):
+    elif isinstance(symbol, symbols.TypeSymbol):
         decl = getattr(symbol.type, "decl", None)
         pragmas = decl.attributes if isinstance(decl, ast.TypeDecl) else []
     return Completion(
@@ -253,7 +244,7 @@ def _item(symbol: Symbol, rank: int, order: int = 0) -> Completion:
     )
 
 
-def _offered(symbol: Symbol) -> bool:
+def _offered(symbol: symbols.Symbol) -> bool:
     if symbol.access == "INTERNAL" and symbol.source is not None and symbol.source.library is not None:
         return False
     return not isinstance(symbol, (AmbiguousSymbol, QualifiedSymbol)) and not is_hidden(symbol)
@@ -287,13 +278,13 @@ def _names(scope: Scope, expected: t.Type | None, statement: bool, word: str) ->
             yield _item(symbol, rank)
             # Long lists of calls help only those who have begun to write a name.
             call = whole_call(symbol, symbol.name, rank, statement) if word else None
-            if call is not None and (statement or isinstance(symbol, PouSymbol)):
+            if call is not None and (statement or isinstance(symbol, symbols.PouSymbol)):
                 yield call
 
 
-def _rank(symbol: Symbol, expected: t.Type | None, rank: int, fitting: int) -> int:
+def _rank(symbol: symbols.Symbol, expected: t.Type | None, rank: int, fitting: int) -> int:
     """What has the very type that is expected comes first."""
-    if expected is not None and isinstance(symbol, VarSymbol) and symbol.type == expected:
+    if expected is not None and isinstance(symbol, symbols.VarSymbol) and symbol.type == expected:
         return fitting
     return rank
 
@@ -316,9 +307,9 @@ def _enum(view: View, type_: t.Enum, rank: int) -> Iterator[Completion]:
     named = view.snapshot.analysis.scope.get((type_.name or "").upper())
     path = named.choice if isinstance(named, QualifiedSymbol) else type_.name
     for order, value in enumerate(enum_values(type_).values()):
-        assert isinstance(value, EnumValueSymbol)
+        assert isinstance(value, symbols.EnumValueSymbol)
         plain = view.snapshot.analysis.scope.get(value.name.upper())
-        bare = isinstance(plain, EnumValueSymbol) and plain.type is type_
+        bare = isinstance(plain, symbols.EnumValueSymbol) and plain.type is type_
         label = value.name if bare else f"{path}.{value.name}"
         detail = f"{type_.name} = {value.number}"
         yield Completion(label, ItemKind.ENUM_VALUE, detail, value.comment, rank=rank, order=order)
@@ -380,10 +371,10 @@ def _types(view: View) -> Iterator[Completion]:
         if not _offered(symbol):
             continue
         library = symbol.source is not None and symbol.source.library is not None
-        block = isinstance(symbol, PouSymbol) and symbol.kind == "FUNCTION_BLOCK"
-        if block or isinstance(symbol, (TypeSymbol, InterfaceSymbol)):
+        block = isinstance(symbol, symbols.PouSymbol) and symbol.kind == "FUNCTION_BLOCK"
+        if block or isinstance(symbol, (symbols.TypeSymbol, symbols.InterfaceSymbol)):
             yield _item(symbol, 4 if library else 3)
-        elif isinstance(symbol, NamespaceSymbol):
+        elif isinstance(symbol, symbols.NamespaceSymbol):
             yield _item(symbol, 6)
     for name in sorted({type_.name for type_ in t.ELEMENTARY.values()} | {"TOD", "DT", "STRING", "WSTRING"}):
         if not name.startswith("__"):
@@ -398,13 +389,13 @@ def _bases(view: View, word: str) -> Iterator[Completion]:
     heads = [k for k in view.lexed.kinds if k in ("FUNCTION_BLOCK", "INTERFACE", "TYPE")]
     head = heads[0] if heads else "FUNCTION_BLOCK"
     for symbol in view.snapshot.analysis.scope.values():
-        if isinstance(symbol, InterfaceSymbol):
+        if isinstance(symbol, symbols.InterfaceSymbol):
             fits = word == "IMPLEMENTS" or head == "INTERFACE"
-        elif isinstance(symbol, PouSymbol):
+        elif isinstance(symbol, symbols.PouSymbol):
             fits = word == "EXTENDS" and head == "FUNCTION_BLOCK" and symbol.kind == "FUNCTION_BLOCK"
-        elif isinstance(symbol, TypeSymbol):
+        elif isinstance(symbol, symbols.TypeSymbol):
             fits = word == "EXTENDS" and head == "TYPE" and isinstance(symbol.type, t.Struct)
         else:
-            fits = isinstance(symbol, NamespaceSymbol)
+            fits = isinstance(symbol, symbols.NamespaceSymbol)
         if fits and _offered(symbol):
             yield _item(symbol, 3)

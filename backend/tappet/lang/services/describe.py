@@ -4,23 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tappet.lang import ast
+from tappet.lang import ast, symbols
 from tappet.lang import types as t
 from tappet.lang.attributes import attribute
 from tappet.lang.services.results import ItemKind
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import Source, Span, split_lines
-from tappet.lang.symbols import (
-    EnumValueSymbol,
-    GvlSymbol,
-    InterfaceSymbol,
-    NamespaceSymbol,
-    PouSymbol,
-    PropertySymbol,
-    Symbol,
-    TypeSymbol,
-    VarSymbol,
-)
 
 _PINS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT")
 _MAX_LINES = 40
@@ -35,57 +24,57 @@ POU_KINDS = {
 """By the keyword of a POU."""
 
 
-def kind_of(symbol: Symbol) -> ItemKind:
+def kind_of(symbol: symbols.Symbol) -> ItemKind:
     """What a symbol is."""
-    if isinstance(symbol, PouSymbol):
+    if isinstance(symbol, symbols.PouSymbol):
         return POU_KINDS.get(symbol.kind, ItemKind.FUNCTION)
-    if isinstance(symbol, VarSymbol):
+    if isinstance(symbol, symbols.VarSymbol):
         if "CONSTANT" in symbol.flags:
             return ItemKind.CONSTANT
         return ItemKind.PARAMETER if symbol.section in _PINS else ItemKind.VARIABLE
-    if isinstance(symbol, TypeSymbol):
+    if isinstance(symbol, symbols.TypeSymbol):
         if isinstance(symbol.type, t.Enum):
             return ItemKind.ENUM
         if isinstance(symbol.type, t.Struct):
             return ItemKind.UNION if symbol.type.union else ItemKind.STRUCT
         return ItemKind.TYPE
-    if isinstance(symbol, EnumValueSymbol):
+    if isinstance(symbol, symbols.EnumValueSymbol):
         return ItemKind.ENUM_VALUE
-    if isinstance(symbol, PropertySymbol):
+    if isinstance(symbol, symbols.PropertySymbol):
         return ItemKind.PROPERTY
-    if isinstance(symbol, InterfaceSymbol):
+    if isinstance(symbol, symbols.InterfaceSymbol):
         return ItemKind.INTERFACE
-    if isinstance(symbol, GvlSymbol):
+    if isinstance(symbol, symbols.GvlSymbol):
         return ItemKind.GLOBAL_LIST
-    if isinstance(symbol, NamespaceSymbol):
+    if isinstance(symbol, symbols.NamespaceSymbol):
         return ItemKind.NAMESPACE
     return ItemKind.OPERATOR
 
 
-def comment_of(symbol: Symbol) -> str:
+def comment_of(symbol: symbols.Symbol) -> str:
     """The comment of a declaration as it is written now."""
     node: ast.VarDecl | ast.Pou | None = None
-    if isinstance(symbol, VarSymbol):
+    if isinstance(symbol, symbols.VarSymbol):
         node = symbol.decl
-    elif isinstance(symbol, PouSymbol):
+    elif isinstance(symbol, symbols.PouSymbol):
         node = symbol.pou
     return node.comment if node is not None and node.comment else symbol.comment
 
 
-def short(symbol: Symbol) -> str:
+def short(symbol: symbols.Symbol) -> str:
     """Type or head of a symbol on one line."""
-    if isinstance(symbol, VarSymbol):
+    if isinstance(symbol, symbols.VarSymbol):
         return type_as_written(symbol)
-    if isinstance(symbol, EnumValueSymbol):
+    if isinstance(symbol, symbols.EnumValueSymbol):
         return f"{symbol.type} = {symbol.number}"
-    if isinstance(symbol, PropertySymbol):
+    if isinstance(symbol, symbols.PropertySymbol):
         return str(symbol.type or "")
-    if isinstance(symbol, PouSymbol):
+    if isinstance(symbol, symbols.PouSymbol):
         result = f" : {symbol.return_type}" if symbol.return_type is not None else ""
         return f"{symbol.kind}{result}"
-    if isinstance(symbol, TypeSymbol):
+    if isinstance(symbol, symbols.TypeSymbol):
         return _type_kind(symbol.type)
-    if isinstance(symbol, GvlSymbol):
+    if isinstance(symbol, symbols.GvlSymbol):
         return "VAR_GLOBAL"
     return type(symbol).__name__.removesuffix("Symbol").upper()
 
@@ -98,7 +87,7 @@ def _type_kind(type_: t.Type | None) -> str:
     return str(type_ or "TYPE")
 
 
-def type_as_written(symbol: VarSymbol) -> str:
+def type_as_written(symbol: symbols.VarSymbol) -> str:
     """The type of a variable; of an array without the text of its elements' members."""
     if symbol.type is not None:
         return str(symbol.type)
@@ -106,34 +95,34 @@ def type_as_written(symbol: VarSymbol) -> str:
     return decl.type_ref.name if decl is not None and isinstance(decl.type_ref, ast.NamedType) else ""
 
 
-def code_of(snapshot: Snapshot, symbol: Symbol) -> str:
+def code_of(snapshot: Snapshot, symbol: symbols.Symbol) -> str:
     """The declaration of a symbol as ST."""
-    if isinstance(symbol, VarSymbol):
+    if isinstance(symbol, symbols.VarSymbol):
         return variable_code(snapshot, symbol)
-    if isinstance(symbol, EnumValueSymbol):
+    if isinstance(symbol, symbols.EnumValueSymbol):
         return f"{symbol.type}.{symbol.name} := {symbol.number};"
-    if isinstance(symbol, PouSymbol):
+    if isinstance(symbol, symbols.PouSymbol):
         return pou_code(snapshot, symbol)
-    if isinstance(symbol, PropertySymbol):
+    if isinstance(symbol, symbols.PropertySymbol):
         accessors = [
             word for word, found in (("GET", symbol.getter), ("SET", symbol.setter)) if found is not None
         ]
         return f"PROPERTY {symbol.name} : {symbol.type} ({', '.join(accessors) or 'no accessor'})"
-    if isinstance(symbol, TypeSymbol):
+    if isinstance(symbol, symbols.TypeSymbol):
         return type_code(symbol)
-    if isinstance(symbol, InterfaceSymbol):
+    if isinstance(symbol, symbols.InterfaceSymbol):
         heads = [head_line(method) for key, method in symbol.methods.items() if not key.startswith("__")]
         heads += [f"PROPERTY {p.name} : {p.type}" for p in symbol.properties.values()]
         return "\n".join([f"INTERFACE {symbol.name}", *(f"    {line}" for line in heads[:_MAX_LINES])])
-    if isinstance(symbol, GvlSymbol):
+    if isinstance(symbol, symbols.GvlSymbol):
         lines = [f"    {v.name} : {type_as_written(v)};" for v in list(symbol.members.values())[:_MAX_LINES]]
         return "\n".join([f"VAR_GLOBAL // {symbol.name}", *lines, "END_VAR"])
-    if isinstance(symbol, NamespaceSymbol):
+    if isinstance(symbol, symbols.NamespaceSymbol):
         return f"NAMESPACE {symbol.name}"
     return symbol.name
 
 
-def variable_code(snapshot: Snapshot, symbol: VarSymbol) -> str:
+def variable_code(snapshot: Snapshot, symbol: symbols.VarSymbol) -> str:
     """`VAR_INPUT xOn : BOOL := TRUE;`."""
     decl = symbol.decl
     section = "" if symbol.section == "RESULT" else f"{symbol.section} "
@@ -145,7 +134,7 @@ def variable_code(snapshot: Snapshot, symbol: VarSymbol) -> str:
     return f"{section}{flags}{symbol.name}{address} : {type_as_written(symbol)}{value};"
 
 
-def initial_text(symbol: VarSymbol) -> str:
+def initial_text(symbol: symbols.VarSymbol) -> str:
     """The initial value as written, '' without one; of a parameter the one that the reference gives."""
     decl = symbol.decl
     if decl is None or decl.initial is None or symbol.source is None:
@@ -166,10 +155,10 @@ def slice_of(source: Source, span: Span) -> str:
     return "\n".join([lines[0][span.column :], *lines[1:]])
 
 
-def pins(pou: PouSymbol) -> Iterator[VarSymbol]:
+def pins(pou: symbols.PouSymbol) -> Iterator[symbols.VarSymbol]:
     """Inputs, outputs and in-outs that are not hidden, inherited ones first."""
-    chain: list[PouSymbol] = []
-    block: PouSymbol | None = pou
+    chain: list[symbols.PouSymbol] = []
+    block: symbols.PouSymbol | None = pou
     while block is not None and block not in chain:
         chain.append(block)
         block = block.base
@@ -182,7 +171,7 @@ def pins(pou: PouSymbol) -> Iterator[VarSymbol]:
                 yield variable
 
 
-def head_line(pou: PouSymbol) -> str:
+def head_line(pou: symbols.PouSymbol) -> str:
     """`FUNCTION F : INT` with what it extends."""
     text = f"{pou.kind} {pou.name}"
     node = pou.pou
@@ -195,7 +184,7 @@ def head_line(pou: PouSymbol) -> str:
     return text
 
 
-def pou_code(snapshot: Snapshot, pou: PouSymbol) -> str:
+def pou_code(snapshot: Snapshot, pou: symbols.PouSymbol) -> str:
     """Head and pins with their comments."""
     lines = [head_line(pou)]
     section = ""
@@ -214,7 +203,7 @@ def pou_code(snapshot: Snapshot, pou: PouSymbol) -> str:
     return "\n".join(lines)
 
 
-def type_code(symbol: TypeSymbol) -> str:
+def type_code(symbol: symbols.TypeSymbol) -> str:
     """The definition as written, shortened when it is long."""
     decl = getattr(symbol.type, "decl", None)
     if symbol.source is not None and isinstance(decl, ast.TypeDecl) and decl.source is symbol.source:
@@ -267,16 +256,16 @@ def duration_text(ns: int, long: bool = False) -> str:
     return prefix + ("".join(parts) or "0s")
 
 
-def value_facts(symbol: Symbol) -> str:
+def value_facts(symbol: symbols.Symbol) -> str:
     """What is known about the value of a constant, in a sentence; '' otherwise."""
-    if isinstance(symbol, VarSymbol) and symbol.is_constant and symbol.constant is not None:
+    if isinstance(symbol, symbols.VarSymbol) and symbol.is_constant and symbol.constant is not None:
         return f"Value: `{constant_text(symbol.constant, symbol.type)}`"
     return ""
 
 
-def home_of(symbol: Symbol) -> str:
+def home_of(symbol: symbols.Symbol) -> str:
     """Where something is declared, in a phrase; '' if that says nothing."""
-    if isinstance(symbol, VarSymbol):
+    if isinstance(symbol, symbols.VarSymbol):
         if symbol.section in ("VAR_GLOBAL", "RESULT") or symbol.owner:
             return f"{symbol.owner}" if symbol.owner else ""
         return ""

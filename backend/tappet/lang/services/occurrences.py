@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from tappet.lang import ast
+from tappet.lang import ast, symbols
 from tappet.lang import types as t
 from tappet.lang.analysis import Analysis
 from tappet.lang.ast.fields import source_fields
@@ -15,15 +15,6 @@ from tappet.lang.parts import innermost
 from tappet.lang.services.documents import Position
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import NOWHERE, Source, Span, split_lines
-from tappet.lang.symbols import (
-    EnumValueSymbol,
-    InterfaceSymbol,
-    NamespaceSymbol,
-    PouSymbol,
-    Symbol,
-    TypeSymbol,
-    VarSymbol,
-)
 
 Role = Literal["declaration", "read", "write", "call", "address"]
 """How a place uses a name; `address`: ADR and REF=, through which it can be read and written."""
@@ -45,7 +36,7 @@ class Occurrence:
     span: Span
     role: Role
     key: Key
-    symbol: Symbol | None
+    symbol: symbols.Symbol | None
     type: t.Type | None = None
 
 
@@ -67,9 +58,9 @@ def children(node: ast.Node) -> Iterator[ast.Node]:
                             yield from (entry for entry in part if isinstance(entry, ast.Node))
 
 
-def key_of(symbol: Symbol) -> Key | None:
+def key_of(symbol: symbols.Symbol) -> Key | None:
     """Identity of a symbol; None for what no text declares."""
-    if isinstance(symbol, EnumValueSymbol) and isinstance(symbol.type, t.Enum):
+    if isinstance(symbol, symbols.EnumValueSymbol) and isinstance(symbol.type, t.Enum):
         decl = symbol.type.decl
         if decl is not None and decl.source is not None and isinstance(decl.type_ref, ast.EnumType):
             for value in decl.type_ref.values:
@@ -80,7 +71,7 @@ def key_of(symbol: Symbol) -> Key | None:
     return Key(symbol.source.uri, symbol.span.line, symbol.span.column)
 
 
-def declared_type(type_: t.Type | None) -> tuple[Key, Symbol | None] | None:
+def declared_type(type_: t.Type | None) -> tuple[Key, symbols.Symbol | None] | None:
     """Identity of the declaration of a named type."""
     if isinstance(type_, (t.Struct, t.Enum)):
         decl = type_.decl
@@ -94,23 +85,29 @@ def declared_type(type_: t.Type | None) -> tuple[Key, Symbol | None] | None:
     return None
 
 
-def _declaration_key(decl: ast.Declaration, symbol: Symbol | None = None) -> tuple[Key, Symbol | None] | None:
+def _declaration_key(
+    decl: ast.Declaration, symbol: symbols.Symbol | None = None
+) -> tuple[Key, symbols.Symbol | None] | None:
     if decl.source is None:
         return None
     return Key(decl.source.uri, decl.name_span.line, decl.name_span.column), symbol
 
 
-def find_type(analysis: Analysis, name: str) -> Symbol | None:
+def find_type(analysis: Analysis, name: str) -> symbols.Symbol | None:
     """The type, block or interface of a possibly qualified name."""
-    symbol: Symbol | None = None
+    symbol: symbols.Symbol | None = None
     for number, part in enumerate(name.upper().split(".")):
         if number == 0:
             symbol = analysis.scope.get(part)
-        elif isinstance(symbol, NamespaceSymbol):
+        elif isinstance(symbol, symbols.NamespaceSymbol):
             symbol = symbol.members.get(part)
         else:
             return None
-    return symbol if isinstance(symbol, (TypeSymbol, PouSymbol, InterfaceSymbol)) else None
+    return (
+        symbol
+        if isinstance(symbol, (symbols.TypeSymbol, symbols.PouSymbol, symbols.InterfaceSymbol))
+        else None
+    )
 
 
 class _Finder:
@@ -134,7 +131,7 @@ class _Finder:
         self,
         span: Span,
         role: Role,
-        symbol: Symbol | None,
+        symbol: symbols.Symbol | None,
         key: Key | None = None,
         type_: t.Type | None = None,
     ) -> None:
@@ -237,18 +234,22 @@ class _Finder:
         """`PLC_PRG.inst.x` of a VAR_CONFIG, and `.x` of a global variable."""
         line, column = node.name_span.line, node.name_span.column
         column += node.name.startswith(".")
-        symbol: Symbol | None = None
+        symbol: symbols.Symbol | None = None
         type_: t.Type | None = None
         for number, part in enumerate(node.name.removeprefix(".").split(".")):
             name = part.partition("[")[0]
             if number == 0:
                 symbol = self.analysis.scope.get(name.upper())
-                type_ = symbol.instance if isinstance(symbol, PouSymbol) else getattr(symbol, "type", None)
+                type_ = (
+                    symbol.instance
+                    if isinstance(symbol, symbols.PouSymbol)
+                    else getattr(symbol, "type", None)
+                )
             else:
                 inner = None if type_ is None else innermost(type_)
                 block = inner.pou.symbol if isinstance(inner, t.FunctionBlock) and inner.pou else None
-                symbol = block.locals.get(name.upper()) if isinstance(block, PouSymbol) else None
-                type_ = symbol.type if isinstance(symbol, VarSymbol) else None
+                symbol = block.locals.get(name.upper()) if isinstance(block, symbols.PouSymbol) else None
+                type_ = symbol.type if isinstance(symbol, symbols.VarSymbol) else None
             if symbol is None:
                 return
             self.add(Span(line, column, line, column + len(name)), "read", symbol)

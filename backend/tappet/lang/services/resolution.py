@@ -7,24 +7,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tappet.lang import ast
+from tappet.lang import ast, symbols
 from tappet.lang import types as t
 from tappet.lang.analysis.builtins import OPERATORS
 from tappet.lang.attributes import attribute
 from tappet.lang.services.documents import Position
 from tappet.lang.services.workspace import Snapshot, View
 from tappet.lang.source import Source, Span
-from tappet.lang.symbols import (
-    EnumValueSymbol,
-    GvlSymbol,
-    InterfaceSymbol,
-    NamespaceSymbol,
-    PouSymbol,
-    PropertySymbol,
-    Symbol,
-    TypeSymbol,
-    VarSymbol,
-)
 
 _INSIDE_ONLY = frozenset({"VAR_IN_OUT", "VAR_TEMP", "VAR_STAT", "VAR_EXTERNAL"})
 _LOCAL = frozenset({"VAR", "VAR_TEMP", "VAR_STAT", "VAR_INST"})
@@ -34,7 +23,7 @@ _LOCAL = frozenset({"VAR", "VAR_TEMP", "VAR_STAT", "VAR_INST"})
 class Meaning:
     """What an expression denotes: a symbol, a value of a type, or both."""
 
-    symbol: Symbol | None = None
+    symbol: symbols.Symbol | None = None
     type: t.Type | None = None
 
 
@@ -43,18 +32,18 @@ class Scope:
     """The names seen at a place."""
 
     snapshot: Snapshot
-    pou: PouSymbol | None
+    pou: symbols.PouSymbol | None
     """The POU, method, action or accessor around it."""
-    locals: dict[str, Symbol] = field(default_factory=dict)
+    locals: dict[str, symbols.Symbol] = field(default_factory=dict)
 
     @property
-    def block(self) -> PouSymbol | None:
+    def block(self) -> symbols.PouSymbol | None:
         """The function block or program around it."""
         if self.pou is None:
             return None
         return self.pou.owner or (self.pou if self.pou.instance is not None else None)
 
-    def lookup(self, name: str) -> Symbol | None:
+    def lookup(self, name: str) -> symbols.Symbol | None:
         """What a plain name means."""
         key = name.upper()
         found = self.locals.get(key)
@@ -68,7 +57,7 @@ def scope_at(view: View) -> Scope:
     """The names seen at the position of a view."""
     name = _pou_name(view.unit, view.position, view.source)
     pou = view.snapshot.pous.get(name.upper()) if name else None
-    local: dict[str, Symbol] = {}
+    local: dict[str, symbols.Symbol] = {}
     if pou is not None:
         if pou.owner is not None:
             local.update(pou.owner.locals)
@@ -108,9 +97,9 @@ def _contains(span: Span, position: Position, last: bool) -> bool:
     return (span.line, span.column) <= position and (last or position <= (span.end_line, span.end_column))
 
 
-def block_members(block: PouSymbol | None) -> dict[str, Symbol]:
+def block_members(block: symbols.PouSymbol | None) -> dict[str, symbols.Symbol]:
     """Methods, actions and properties of a block and its bases, by upper-case name."""
-    found: dict[str, Symbol] = {}
+    found: dict[str, symbols.Symbol] = {}
     seen: set[int] = set()
     while block is not None and id(block) not in seen:
         seen.add(id(block))
@@ -121,28 +110,28 @@ def block_members(block: PouSymbol | None) -> dict[str, Symbol]:
     return found
 
 
-def block_of(type_: t.Type | None) -> PouSymbol | None:
+def block_of(type_: t.Type | None) -> symbols.PouSymbol | None:
     """The POU of an instance type."""
     if isinstance(type_, t.FunctionBlock) and type_.pou is not None:
         symbol = type_.pou.symbol
-        return symbol if isinstance(symbol, PouSymbol) else None
+        return symbol if isinstance(symbol, symbols.PouSymbol) else None
     return None
 
 
-def interface_of(type_: t.Type | None) -> InterfaceSymbol | None:
+def interface_of(type_: t.Type | None) -> symbols.InterfaceSymbol | None:
     """The interface of an interface type."""
     if isinstance(type_, t.Interface) and type_.pou is not None:
         symbol = type_.pou.symbol
-        return symbol if isinstance(symbol, InterfaceSymbol) else None
+        return symbol if isinstance(symbol, symbols.InterfaceSymbol) else None
     return None
 
 
-def type_of(symbol: Symbol | None) -> t.Type | None:
+def type_of(symbol: symbols.Symbol | None) -> t.Type | None:
     """The type of the value a symbol denotes."""
     type_: t.Type | None = None
-    if isinstance(symbol, (VarSymbol, EnumValueSymbol, PropertySymbol)):
+    if isinstance(symbol, (symbols.VarSymbol, symbols.EnumValueSymbol, symbols.PropertySymbol)):
         type_ = symbol.type
-    elif isinstance(symbol, PouSymbol) and symbol.kind == "PROGRAM":
+    elif isinstance(symbol, symbols.PouSymbol) and symbol.kind == "PROGRAM":
         type_ = symbol.instance
     return type_.base if isinstance(type_, t.Reference) else type_
 
@@ -176,7 +165,7 @@ def resolve(scope: Scope, expression: ast.Expr | None) -> Meaning:
         return Meaning(None, base.base if isinstance(base, t.Pointer) else None)
     if isinstance(expression, ast.Call):
         callee = resolve(scope, expression.callee).symbol
-        if isinstance(callee, PouSymbol):
+        if isinstance(callee, symbols.PouSymbol):
             result = callee.return_type
             return Meaning(None, result.base if isinstance(result, t.Reference) else result)
         return Meaning()
@@ -185,14 +174,14 @@ def resolve(scope: Scope, expression: ast.Expr | None) -> Meaning:
     return Meaning()
 
 
-def members(meaning: Meaning) -> dict[str, Symbol]:
+def members(meaning: Meaning) -> dict[str, symbols.Symbol]:
     """What can follow a dot, by upper-case name, in order of declaration."""
     symbol = meaning.symbol
-    if isinstance(symbol, (NamespaceSymbol, GvlSymbol)):
+    if isinstance(symbol, (symbols.NamespaceSymbol, symbols.GvlSymbol)):
         return dict(symbol.members)
-    if isinstance(symbol, TypeSymbol):
+    if isinstance(symbol, symbols.TypeSymbol):
         return enum_values(symbol.type) if isinstance(symbol.type, t.Enum) else {}
-    if isinstance(symbol, PouSymbol) and symbol.kind not in ("PROGRAM", "FUNCTION_BLOCK"):
+    if isinstance(symbol, symbols.PouSymbol) and symbol.kind not in ("PROGRAM", "FUNCTION_BLOCK"):
         return {}
     type_ = meaning.type.base if isinstance(meaning.type, t.Reference) else meaning.type
     if isinstance(type_, t.Struct):
@@ -204,7 +193,7 @@ def members(meaning: Meaning) -> dict[str, Symbol]:
         }
     block = block_of(type_)
     if block is not None:
-        found: dict[str, Symbol] = {
+        found: dict[str, symbols.Symbol] = {
             key: variable
             for key, variable in block.locals.items()
             if variable.section not in _INSIDE_ONLY and variable.section != "RESULT"
@@ -212,41 +201,43 @@ def members(meaning: Meaning) -> dict[str, Symbol]:
         return found | block_members(block)
     interface = interface_of(type_)
     if interface is not None:
-        heads: dict[str, Symbol] = {k: m for k, m in interface.methods.items() if not k.startswith("__")}
+        heads: dict[str, symbols.Symbol] = {
+            k: m for k, m in interface.methods.items() if not k.startswith("__")
+        }
         return heads | dict(interface.properties)
     return {}
 
 
-def _plain(member: t.Member) -> VarSymbol:
-    return VarSymbol(member.name, type=member.type, section=member.section, decl=member.decl)
+def _plain(member: t.Member) -> symbols.VarSymbol:
+    return symbols.VarSymbol(member.name, type=member.type, section=member.section, decl=member.decl)
 
 
-def enum_values(type_: t.Enum) -> dict[str, Symbol]:
+def enum_values(type_: t.Enum) -> dict[str, symbols.Symbol]:
     """The values of an enumeration."""
     decl = type_.decl
-    found: dict[str, Symbol] = {}
+    found: dict[str, symbols.Symbol] = {}
     comments: dict[str, tuple[str, Span]] = {}
     source = decl.source if decl is not None else None
     if decl is not None and isinstance(decl.type_ref, ast.EnumType):
         comments = {value.name.upper(): (value.comment, value.span) for value in decl.type_ref.values}
     for name, number in type_.values.items():
         comment, span = comments.get(name.upper(), ("", None))
-        found[name.upper()] = EnumValueSymbol(name, source, span, comment, type=type_, number=number)
+        found[name.upper()] = symbols.EnumValueSymbol(name, source, span, comment, type=type_, number=number)
     return found
 
 
-def is_hidden(symbol: Symbol) -> bool:
+def is_hidden(symbol: symbols.Symbol) -> bool:
     """Whether an attribute keeps a symbol out of lists (LPRG-24, LPRG-25)."""
     if symbol.name.startswith("__"):
         return True
-    if isinstance(symbol, VarSymbol):
+    if isinstance(symbol, symbols.VarSymbol):
         return symbol.decl is not None and attribute(symbol.decl.attributes, "hide") is not None
-    if isinstance(symbol, PouSymbol) and symbol.pou is not None:
+    if isinstance(symbol, symbols.PouSymbol) and symbol.pou is not None:
         return attribute(symbol.pou.attributes, "hide") is not None
     return False
 
 
-def hides_locals(block: PouSymbol | None) -> bool:
+def hides_locals(block: symbols.PouSymbol | None) -> bool:
     """Whether the block has the attribute 'hide_all_locals'."""
     return (
         block is not None
@@ -255,14 +246,14 @@ def hides_locals(block: PouSymbol | None) -> bool:
     )
 
 
-def is_local(symbol: Symbol) -> bool:
+def is_local(symbol: symbols.Symbol) -> bool:
     """Whether a member is neither input nor output of its block."""
-    return isinstance(symbol, VarSymbol) and symbol.section in _LOCAL
+    return isinstance(symbol, symbols.VarSymbol) and symbol.section in _LOCAL
 
 
-def callable_pou(meaning: Meaning) -> PouSymbol | None:
+def callable_pou(meaning: Meaning) -> symbols.PouSymbol | None:
     """The POU that a call of something reaches."""
-    if isinstance(meaning.symbol, PouSymbol):
+    if isinstance(meaning.symbol, symbols.PouSymbol):
         return meaning.symbol
     return block_of(meaning.type)
 
