@@ -3,14 +3,13 @@
 import json
 
 import pytest
-from pydantic import BaseModel, TypeAdapter
 
 from tappet.project.data import UnknownData
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.kind_registry import kinds
 from tappet.project.model import Project, new_id
 from tappet.project.new_project import new_project
-from tappet.project.objects import any_object, changed_object, make_object
+from tappet.project.objects import changed_object, make_object
 
 
 def test_the_new_project() -> None:
@@ -89,14 +88,9 @@ def test_a_kind_without_plug_in_keeps_its_data() -> None:
     assert item.model_dump(mode="json")["data"] == data
 
 
-def test_the_shape_of_any_object_is_told_apart_by_kind() -> None:
-    adapter: TypeAdapter[BaseModel] = TypeAdapter(any_object())
+def test_an_object_survives_its_json() -> None:
     for item in new_project("x").walk():
-        again = adapter.validate_json(item.model_dump_json())
-        assert again.model_dump() == item.model_dump()
-        assert type(again).__name__ == "".join(map(str.capitalize, item.kind.split("_"))) + "Object"
         assert make_object(**json.loads(item.model_dump_json())) == item
-    assert "PouObject" in str(adapter.json_schema())
 
 
 def test_subkinds_follow_the_declaration() -> None:

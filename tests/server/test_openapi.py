@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 from fake_plc import FakePlc
+from fastapi import FastAPI
+from fastapi.testclient import TestClient
 
 from tappet.server import openapi, print_openapi
 from tappet.server.app import create_app
@@ -40,3 +42,18 @@ def test_references_resolve_and_operations_are_described() -> None:
             assert operation.get("description"), f"{method} {path} has no description"
     for shape in ("Subscribed", "StateChanged", "ForcesChanged", "ObjectChanged", "Presence", "PouObject"):
         assert shape in schemas
+
+
+def test_objects_are_answered_as_the_document_says(app: FastAPI, admin: TestClient) -> None:
+    schemas = openapi.document(app)["components"]["schemas"]
+    shapes = [schemas[shape["$ref"].rpartition("/")[2]] for shape in schemas["ObjectDetail"]["anyOf"]]
+    by_kind = {shape["properties"]["kind"].get("const"): shape for shape in shapes}
+    project = f"/api/v1/projects/{admin.post('/api/v1/projects', json={'name': 'Press'}).json()['id']}"
+    objects = admin.get(f"{project}/objects").json()
+    assert len(objects) > 5
+    for item in objects:
+        detail = admin.get(f"{project}/objects/{item['id']}").json()
+        shape = by_kind[item["kind"]]
+        data = schemas[shape["properties"]["data"]["$ref"].rpartition("/")[2]]
+        for held, described in ((detail, shape), (detail["data"], data)):
+            assert set(described.get("required", ())) <= set(held) <= set(described["properties"])

@@ -222,7 +222,7 @@ def test_the_api_document_holds_the_shape(toy: list[str]) -> None:
 
     schemas = openapi.document(create_app(ServerSettings()))["components"]["schemas"]
     assert schemas["MachineNoteData"]["properties"]["about"]
-    assert "PieceCounterObject" in str(schemas["AnyProjectObject"])
+    assert "PieceCounterObject" in str(schemas["ObjectDetail"])
 
 
 def test_a_package_that_breaks_the_contract_is_left_out(

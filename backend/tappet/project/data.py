@@ -61,9 +61,17 @@ LanguageName = Annotated[str, Field(pattern=r"^[A-Z][A-Z0-9_]{0,19}$")]
 
 
 class Data(BaseModel):
-    """Base of the data of all object kinds: frozen, and nothing unknown is swallowed."""
+    """Base of the data of all object kinds: frozen, and nothing unknown is swallowed.
 
-    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="null")
+    What is read has every field, those with defaults too, and the API document says so.
+    """
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        ser_json_inf_nan="null",
+        json_schema_serialization_defaults_required=True,
+    )
 
     @property
     def subkind(self) -> str | None:

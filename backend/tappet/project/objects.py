@@ -1,4 +1,4 @@
-"""Objects whose data fit their kind: making, changing and describing them, and the shape of any object.
+"""Objects whose data fit their kind: making, changing and describing them.
 
 The data of an object whose kind is not installed are kept as they are (CON-03); once it is, they are
 validated.
@@ -6,20 +6,14 @@ validated.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from functools import reduce
-from operator import or_
-from typing import Annotated, Any, Literal
+from typing import Any
 
-from pydantic import BaseModel, Discriminator, Tag, ValidationError, create_model
+from pydantic import BaseModel, ValidationError
 
 from tappet.project.data import SPLIT_TEXTS, Data, UnknownData
 from tappet.project.errors import InvalidDataError
 from tappet.project.kind_registry import kinds
 from tappet.project.model import ProjectObject
-from tappet.project.object_kind import ObjectKind
-
-_UNKNOWN = "unknown"
 
 
 def make_object(**fields: Any) -> ProjectObject:
@@ -73,37 +67,3 @@ def describe(error: ValidationError) -> str:
         message = problem["msg"].removeprefix("Value error, ")
         lines.append(f"{place}: {message}")
     return "; ".join(lines)
-
-
-def any_object() -> Any:
-    """The shape of any object for the API document: the kinds that are installed, distinguished by `kind`.
-
-    A kind that is not known here is an `UnknownObjectKind`.
-    """
-    installed = kinds()
-    shapes = [_shape(kind) for kind in installed.values()]
-    unknown = create_model(
-        "UnknownObjectKind",
-        __base__=ProjectObject,
-        __doc__="An object of a plug-in that is not installed; shown as such and kept unchanged (CON-03).",
-        data=(UnknownData, UnknownData()),
-    )
-    tagged = [Annotated[shape, Tag(kind)] for shape, kind in zip(shapes, installed, strict=True)]
-    union = reduce(or_, [*tagged, Annotated[unknown, Tag(_UNKNOWN)]])
-    return Annotated[union, Discriminator(lambda value: _tag(value, installed))]
-
-
-def _shape(kind: ObjectKind[Any]) -> type[BaseModel]:
-    name = "".join(word.capitalize() for word in kind.name.split("_"))
-    return create_model(
-        f"{name}Object",
-        __base__=ProjectObject,
-        __doc__=kind.description,
-        kind=(Literal[kind.name], kind.name),  # type: ignore[arg-type]
-        data=(kind.data, kind.data()),
-    )
-
-
-def _tag(value: Any, installed: Mapping[str, ObjectKind[Any]]) -> str:
-    kind = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", None)
-    return kind if isinstance(kind, str) and kind in installed else _UNKNOWN

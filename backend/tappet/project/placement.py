@@ -26,7 +26,7 @@ from tappet.project.object_kind import DEVICES_VIEW, POUS_VIEW, NameStyle, Objec
 class PlacementRule(BaseModel):
     """Where objects of one kind may be, and how they are named; what the front end gets of a kind."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, json_schema_serialization_defaults_required=True)
 
     kind: str
     places: tuple[str, ...] = Field(

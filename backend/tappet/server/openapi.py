@@ -8,7 +8,6 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import TypeAdapter
 
-from tappet.project.objects import any_object
 from tappet.server.events.shapes import EventMessage, OpenObject
 from tappet.server.online.shapes import ClientMessage, ServerMessage
 from tappet.server.problems import MEDIA_TYPE
@@ -34,7 +33,7 @@ SOCKET_SHAPES: dict[str, Any] = {
 
 def _extra_schemas() -> dict[str, Any]:
     schemas: dict[str, Any] = {}
-    for name, shape in (*SOCKET_SHAPES.items(), ("AnyProjectObject", any_object())):
+    for name, shape in SOCKET_SHAPES.items():
         schema = TypeAdapter(shape).json_schema(
             ref_template=_REF, mode="validation" if "Client" in name else "serialization"
         )

@@ -1,13 +1,19 @@
 /**
- * The thin client of the REST interface: JSON in and out, errors as `ApiError`.
+ * The client of the REST interface: openapi-fetch on the generated types, with data as answer and errors as `ApiError`.
  *
- *     const objects = await api.get<ObjectSummary[]>(`/projects/${projectId}/objects`);
- *     await api.put(`/projects/${projectId}/objects/${objectId}`, { base_revision, data });
+ *     const objects = await api.get('/api/v1/projects/{project_id}/objects', { params: { path: { project_id } } });
+ *     await api.post('/api/v1/projects', { body: { name } });
  *
+ * Paths, parameters, bodies and answers are those of `schema.ts`: what the server does not know does not compile.
  * Every request carries `X-Tappet-Client`, which a foreign page cannot set: the server refuses changes without it.
  */
-
-const BASE = '/api/v1';
+import createClient, {
+  type Client,
+  type ClientPathsWithMethod,
+  type FetchOptions,
+  type Middleware,
+} from 'openapi-fetch';
+import type { paths } from './schema';
 
 /** RFC 9457 problem details as the server sends them, with the fields of the single problem. */
 export interface Problem {
@@ -31,30 +37,15 @@ export class ApiError extends Error {
   }
 }
 
-type Query = Record<string, string | number | boolean | null | undefined>;
-
-interface RequestOptions {
-  query?: Query;
-  signal?: AbortSignal;
+/** A cancelled request is an answer of its own, not a failure. */
+export function isCancelled(error: unknown): boolean {
+  return error instanceof DOMException && error.name === 'AbortError';
 }
 
 /** Called for every answer 401, so that the frame can show the login page. */
 let onUnauthorised: () => void = () => undefined;
 export function setUnauthorisedListener(listener: () => void): void {
   onUnauthorised = listener;
-}
-
-function apiUrl(path: string, query?: Query): string {
-  const search = new URLSearchParams();
-  for (const [name, value] of Object.entries(query ?? {})) if (value != null) search.set(name, String(value));
-  const text = search.toString();
-  return BASE + path + (text ? `?${text}` : '');
-}
-
-/** Address of a WebSocket below `/api/v1`, with the page's own host and scheme. */
-export function socketUrl(path: string, query?: Query): string {
-  const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
-  return `${scheme}//${location.host}${apiUrl(path, query)}`;
 }
 
 async function problemOf(response: Response): Promise<Problem> {
@@ -68,41 +59,78 @@ async function problemOf(response: Response): Promise<Problem> {
   return fallback;
 }
 
-async function request<Answer>(
-  method: string,
-  path: string,
-  body: unknown,
-  options: RequestOptions = {},
-): Promise<Answer> {
-  const headers: Record<string, string> = { Accept: 'application/json', 'X-Tappet-Client': '1' };
-  const init: RequestInit = { method, headers, credentials: 'same-origin', signal: options.signal };
-  if (body instanceof FormData) init.body = body;
-  else if (body !== undefined) {
-    headers['Content-Type'] = 'application/json';
-    init.body = JSON.stringify(body);
-  }
-  let response: Response;
-  try {
-    response = await fetch(apiUrl(path, options.query), init);
-  } catch (cause) {
-    if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
-    throw new ApiError({ title: 'The server does not answer', status: 0 });
-  }
-  if (!response.ok) {
+const errors: Middleware = {
+  async onResponse({ response }) {
+    if (response.ok) return;
     if (response.status === 401) onUnauthorised();
     throw new ApiError(await problemOf(response));
+  },
+  onError: ({ error }) =>
+    isCancelled(error) ? undefined : new ApiError({ title: 'The server does not answer', status: 0 }),
+};
+
+/** A body as JSON; one that holds files as a form, without the fields that are null. */
+function serialised(body: unknown): BodyInit {
+  const fields = typeof body === 'object' && body !== null ? Object.entries(body) : [];
+  const values = fields.flatMap(([name, value]: [string, unknown]) =>
+    (Array.isArray(value) ? (value as unknown[]) : [value]).map((one) => ({ name, one })),
+  );
+  if (!values.some(({ one }) => one instanceof Blob)) return JSON.stringify(body);
+  const form = new FormData();
+  for (const { name, one } of values) {
+    if (one instanceof Blob) form.append(name, one);
+    else if (one != null) form.append(name, typeof one === 'string' ? one : JSON.stringify(one));
   }
-  if (response.status === 204) return undefined as Answer;
-  const type = response.headers.get('Content-Type') ?? '';
-  return (type.includes('json') ? await response.json() : await response.blob()) as Answer;
+  return form;
+}
+
+const client = createClient<paths>({
+  credentials: 'same-origin',
+  headers: { 'X-Tappet-Client': '1' },
+  bodySerializer: serialised,
+  fetch: (request) => fetch(request),
+});
+client.use(errors);
+
+type Method = 'get' | 'post' | 'put' | 'patch' | 'delete';
+type Paths<Verb extends Method> = ClientPathsWithMethod<Client<paths>, Verb>;
+type Operation<Verb extends Method, Path extends Paths<Verb>> = paths[Path][Verb];
+type Options<Of> = Pick<FetchOptions<Of>, Extract<keyof FetchOptions<Of>, 'params' | 'body' | 'signal'>>;
+type Arguments<Of> = object extends Options<Of> ? [options?: Options<Of>] : [options: Options<Of>];
+type Responses<Of> = Of extends { responses: infer All } ? All[keyof All & (200 | 201 | 204)] : never;
+type Data<Of> = Responses<Of> extends { content: infer Content } ? Content[keyof Content] : undefined;
+
+/** Paths that answer with a file. */
+type Files = { [Path in Paths<'get'>]: Data<Operation<'get', Path>> extends Blob ? Path : never }[Paths<'get'>];
+
+/** A request of one method: resolves with the data of the answer, throws `ApiError` or, when cancelled, `AbortError`. */
+function request<Verb extends Method>(verb: Verb, parseAs: 'json' | 'blob' = 'json') {
+  return async <Path extends Paths<Verb>>(
+    path: Path,
+    ...[options]: Arguments<Operation<Verb, Path>>
+  ): Promise<Data<Operation<Verb, Path>>> => {
+    const init = { ...options, parseAs, baseUrl: location.origin };
+    const { data } = await client.request(verb, path, init as never);
+    return data as Data<Operation<Verb, Path>>;
+  };
 }
 
 export const api = {
-  get: <Answer>(path: string, options?: RequestOptions) => request<Answer>('GET', path, undefined, options),
-  post: <Answer>(path: string, body?: unknown, options?: RequestOptions) =>
-    request<Answer>('POST', path, body, options),
-  put: <Answer>(path: string, body: unknown, options?: RequestOptions) => request<Answer>('PUT', path, body, options),
-  patch: <Answer>(path: string, body: unknown, options?: RequestOptions) =>
-    request<Answer>('PATCH', path, body, options),
-  delete: <Answer>(path: string, options?: RequestOptions) => request<Answer>('DELETE', path, undefined, options),
+  get: request('get'),
+  post: request('post'),
+  put: request('put'),
+  patch: request('patch'),
+  delete: request('delete'),
+  /** A file; its type is the media type that the server names. */
+  download: request('get', 'blob') as <Path extends Files>(
+    path: Path,
+    ...options: Arguments<Operation<'get', Path>>
+  ) => Promise<Blob>,
 };
+
+/** Address of a WebSocket below `/api/v1`, with the page's own host and scheme. */
+export function socketUrl(path: `/${string}`, query: Record<string, string> = {}): string {
+  const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
+  const search = new URLSearchParams(query).toString();
+  return `${scheme}//${location.host}/api/v1${path}${search ? `?${search}` : ''}`;
+}

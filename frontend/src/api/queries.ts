@@ -1,13 +1,14 @@
 /**
- * Server state by TanStack Query: keys, hooks and the acts that change objects.
+ * Server state by TanStack Query: keys, queries, hooks and the acts that change objects.
  *
- * Reading: `useObjects(projectId)` is the tree (all summaries), `useObject<TextData>(projectId, objectId)` one object
- * with its data. Writing: `saveObject(...)`; a `StaleObject` error carries both versions. The events socket
- * (`workbench/events.ts`) keeps these caches fresh when somebody else changes something.
+ * Reading: `useObjects(projectId)` is the tree (all summaries), `useObject(projectId, objectId, check)` one object with
+ * its data, in the shape that `check` demands. Writing: `saveObject(...)`; a `StaleObject` error carries what somebody
+ * else stored. The events socket (`workbench/events.ts`) keeps these caches fresh when somebody else changes something.
  */
-import { QueryClient, useQuery, type UseQueryResult } from '@tanstack/react-query';
+import { QueryClient, queryOptions, useQuery, type UseQueryResult } from '@tanstack/react-query';
 import { api, ApiError } from './client';
-import type { ObjectSummary, ProjectObject, ProjectSummary } from './types';
+import { shaped, type Check } from './objects';
+import type { ObjectOf, ObjectSummary, ProjectObject } from './types';
 
 export const queryClient = new QueryClient({
   defaultOptions: {
@@ -35,99 +36,140 @@ export const keys = {
   log: (runtimeId: string) => ['runtimes', runtimeId, 'log'] as const,
 };
 
-export function useProjects(): UseQueryResult<ProjectSummary[]> {
-  return useQuery({ queryKey: keys.projects, queryFn: () => api.get<ProjectSummary[]>('/projects') });
+export const projectsQuery = queryOptions({ queryKey: keys.projects, queryFn: () => api.get('/api/v1/projects') });
+
+export function projectQuery(projectId: string) {
+  return queryOptions({
+    queryKey: keys.project(projectId),
+    queryFn: () => api.get('/api/v1/projects/{project_id}', { params: { path: { project_id: projectId } } }),
+  });
+}
+
+export function objectQuery(projectId: string, objectId: string) {
+  const path = { project_id: projectId, object_id: objectId };
+  return queryOptions({
+    queryKey: keys.object(projectId, objectId),
+    queryFn: () => api.get('/api/v1/projects/{project_id}/objects/{object_id}', { params: { path } }),
+    staleTime: Infinity,
+  });
+}
+
+export const runtimesQuery = queryOptions({ queryKey: keys.runtimes, queryFn: () => api.get('/api/v1/runtimes') });
+
+export function runtimeQuery(runtimeId: string) {
+  return queryOptions({
+    queryKey: keys.runtime(runtimeId),
+    queryFn: () => api.get('/api/v1/runtimes/{runtime_id}', { params: { path: { runtime_id: runtimeId } } }),
+  });
+}
+
+/** The installed libraries in all their versions. */
+export const librariesQuery = queryOptions({
+  queryKey: keys.libraries,
+  queryFn: () => api.get('/api/v1/libraries'),
+  staleTime: Infinity,
+});
+
+/** A library with all its items; without a version the newest one. */
+export function libraryQuery(name: string, version = '*') {
+  return queryOptions({
+    queryKey: keys.library(name, version),
+    queryFn: () => api.get('/api/v1/libraries/{name}', { params: { path: { name }, query: { version } } }),
+    staleTime: Infinity,
+  });
 }
 
 export function useObjects(projectId: string | null): UseQueryResult<ObjectSummary[]> {
+  const path = { project_id: projectId ?? '' };
   return useQuery({
     queryKey: keys.objects(projectId ?? ''),
-    queryFn: () => api.get<ObjectSummary[]>(`/projects/${projectId}/objects`),
+    queryFn: () => api.get('/api/v1/projects/{project_id}/objects', { params: { path } }),
     enabled: projectId !== null,
     staleTime: Infinity,
   });
 }
 
-export function useObject<Data>(projectId: string, objectId: string): UseQueryResult<ProjectObject<Data>> {
-  return useQuery({
-    queryKey: keys.object(projectId, objectId),
-    queryFn: () => api.get<ProjectObject<Data>>(`/projects/${projectId}/objects/${objectId}`),
-    staleTime: Infinity,
-  });
+/** One object, in the shape that is expected of it; an object of another shape is an error. */
+export function useObject<Data extends ProjectObject['data']>(
+  projectId: string,
+  objectId: string,
+  check: Check<Data>,
+): UseQueryResult<ObjectOf<Data>> {
+  return useQuery({ ...objectQuery(projectId, objectId), select: (object) => shaped(object, check) });
 }
 
-/** Somebody else saved the object first: both versions, to compare. */
-export class StaleObject<Data> extends Error {
-  readonly current: ProjectObject<Data>;
-  readonly yours: Data;
+/** Somebody else saved the object first. */
+export class StaleObject extends Error {
+  readonly current: ProjectObject;
 
-  constructor(current: ProjectObject<Data>, yours: Data) {
+  constructor(current: ProjectObject) {
     super(`'${current.name}' was changed by somebody else`);
     this.name = 'StaleObject';
     this.current = current;
-    this.yours = yours;
   }
 }
+
+type Data = Record<string, unknown>;
 
 /**
  * Saves an object's data on top of the revision it was read at and puts the answer into the caches.
  * Throws `StaleObject` when the revision is no longer the current one, `ApiError` otherwise. Autosaves shortly after
  * each other become one revision.
  */
-export async function saveObject<Data>(
+export async function saveObject(
   projectId: string,
   objectId: string,
   baseRevision: number,
   data: Data,
   options: { autosave?: boolean } = {},
-): Promise<ProjectObject<Data>> {
+): Promise<ProjectObject> {
   try {
-    const saved = await api.put<ProjectObject<Data>>(`/projects/${projectId}/objects/${objectId}`, {
-      base_revision: baseRevision,
-      data,
-      autosave: options.autosave ?? false,
+    const saved = await api.put('/api/v1/projects/{project_id}/objects/{object_id}', {
+      params: { path: { project_id: projectId, object_id: objectId } },
+      body: { base_revision: baseRevision, data, autosave: options.autosave },
     });
     remember(projectId, saved);
     return saved;
   } catch (error) {
-    throw staleOf(error, () => data) ?? error;
+    throw staleOf(error) ?? error;
   }
 }
 
 /** What a save of several objects holds for each of them. */
-export interface ObjectContent<Data> {
+export interface ObjectContent {
   object_id: string;
   base_revision: number;
   data: Data;
 }
 
 /** As `saveObject`, for several objects as one change of the project: all of them are saved, or none. */
-export async function saveObjects<Data>(
+export async function saveObjects(
   projectId: string,
-  objects: readonly ObjectContent<Data>[],
+  objects: ObjectContent[],
   comment: string,
-): Promise<ProjectObject<Data>[]> {
+): Promise<ProjectObject[]> {
   try {
-    const saved = await api.put<ProjectObject<Data>[]>(`/projects/${projectId}/objects`, { objects, comment });
+    const saved = await api.put('/api/v1/projects/{project_id}/objects', {
+      params: { path: { project_id: projectId } },
+      body: { objects, comment },
+    });
     saved.forEach((object) => remember(projectId, object));
     return saved;
   } catch (error) {
-    throw staleOf(error, (id) => objects.find((object) => object.object_id === id)?.data as Data) ?? error;
+    throw staleOf(error) ?? error;
   }
 }
 
-function remember<Data>(projectId: string, saved: ProjectObject<Data>): void {
+function remember(projectId: string, saved: ProjectObject): void {
   queryClient.setQueryData(keys.object(projectId, saved.id), saved);
   patchSummary(projectId, saved);
 }
 
 /** The conflict of a refusal, if it is one with a version of somebody else. */
-function staleOf<Data>(error: unknown, yours: (id: string) => Data): StaleObject<Data> | null {
+function staleOf(error: unknown): StaleObject | null {
   if (!(error instanceof ApiError) || error.status !== 409) return null;
   const { current } = error.problem;
-  if (typeof current !== 'object' || current === null) return null;
-  const theirs = current as ProjectObject<Data>;
-  return new StaleObject(theirs, yours(theirs.id));
+  return typeof current === 'object' && current !== null ? new StaleObject(current as ProjectObject) : null;
 }
 
 /** Puts a changed summary into the tree's cache. */

@@ -1528,7 +1528,7 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
             /**
              * Implementation
              * @default
@@ -1545,45 +1545,35 @@ export interface components {
          * @description Get or Set of a property.
          */
         AccessorObject: {
-            /**
-             * @default {
-             *       "declaration": "",
-             *       "implementation": "",
-             *       "language": "ST"
-             *     }
-             */
             data: components["schemas"]["AccessorData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default accessor
              * @constant
              */
             kind: "accessor";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * ActionData
@@ -1595,7 +1585,7 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
             /**
              * Implementation
              * @default
@@ -1612,46 +1602,36 @@ export interface components {
          * @description An action.
          */
         ActionObject: {
-            /**
-             * @default {
-             *       "implementation": "",
-             *       "language": "ST"
-             *     }
-             */
             data: components["schemas"]["ActionData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default action
              * @constant
              */
             kind: "action";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
-        AnyProjectObject: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ApplicationData
          * @description An application: how it is checked.
@@ -1665,46 +1645,42 @@ export interface components {
              *       "with_build": true
              *     }
              */
-            static_analysis: components["schemas"]["StaticAnalysisData"];
+            static_analysis?: components["schemas"]["StaticAnalysisData"];
         };
         /**
          * ApplicationObject
          * @description An application: what is compiled and downloaded as one.
          */
         ApplicationObject: {
-            /** @default {} */
             data: components["schemas"]["ApplicationData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default application
              * @constant
              */
             kind: "application";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * AuditEntry
@@ -1790,7 +1766,7 @@ export interface components {
              */
             chosen?: string | null;
             /** Files */
-            files: string[];
+            files: Blob[];
             /**
              * Name
              * @description Another name than the one in the files.
@@ -1805,7 +1781,7 @@ export interface components {
              */
             chosen?: string | null;
             /** Files */
-            files: string[];
+            files: Blob[];
             /**
              * Place
              * @description The application or folder that takes the objects, `pous` for the POUs view.
@@ -1815,7 +1791,7 @@ export interface components {
         /** Body_import_project */
         Body_import_project: {
             /** File */
-            file: string;
+            file: Blob;
             /**
              * Name
              * @description Another name than the one in the archive.
@@ -1825,12 +1801,12 @@ export interface components {
         /** Body_install_library */
         Body_install_library: {
             /** File */
-            file: string;
+            file: Blob;
         };
         /** Body_preview_files */
         Body_preview_files: {
             /** Files */
-            files: string[];
+            files: Blob[];
             /**
              * Place
              * @description The application or folder that takes the objects, `pous` for the POUs view.
@@ -1998,7 +1974,6 @@ export interface components {
             /**
              * Runtime Id
              * @description Runtime that the active path leads to (COM-10).
-             * @default null
              */
             runtime_id: string | null;
             /**
@@ -2013,46 +1988,35 @@ export interface components {
          * @description A device of the Devices view.
          */
         DeviceObject: {
-            /**
-             * @default {
-             *       "description": "",
-             *       "device_type": "tappet.softplc",
-             *       "runtime_id": null,
-             *       "simulated": false
-             *     }
-             */
             data: components["schemas"]["DeviceData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default device
              * @constant
              */
             kind: "device";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Diagnostic
@@ -2108,7 +2072,7 @@ export interface components {
              * @description Start after a download; an online change never stops.
              * @default true
              */
-            start: boolean;
+            start?: boolean;
         };
         /**
          * DownloadReport
@@ -2139,50 +2103,42 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
         };
         /**
          * DutObject
          * @description A data unit type: structure, enumeration, alias, union, subrange.
          */
         DutObject: {
-            /**
-             * @default {
-             *       "declaration": ""
-             *     }
-             */
             data: components["schemas"]["DutData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default dut
              * @constant
              */
             kind: "dut";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Element
@@ -2216,7 +2172,6 @@ export interface components {
                 number | components["schemas"]["Linear"],
                 number | components["schemas"]["Linear"]
             ];
-            /** @default null */
             repeat: components["schemas"]["Repetition"] | null;
             /**
              * Shape
@@ -2241,10 +2196,7 @@ export interface components {
              * @default
              */
             text: string;
-            /**
-             * Value
-             * @default null
-             */
+            /** Value */
             value: string | null;
             /**
              * Visible
@@ -2261,7 +2213,7 @@ export interface components {
              * Line
              * @description Line in the file, from 1; null: the file as a whole.
              */
-            line?: number | null;
+            line: number | null;
             /**
              * Object
              * @description The object, such as FB_Motor.Start; empty: none.
@@ -2272,7 +2224,7 @@ export interface components {
              * Object Id
              * @description The object in the project; null: none.
              */
-            object_id?: string | null;
+            object_id: string | null;
             /**
              * Outcome
              * @description imported: as it was; changed: with a difference that the text describes; kept: stored unchanged but not compiled; refused: not in the project.
@@ -2370,39 +2322,35 @@ export interface components {
          * @description Groups objects; says nothing to the compiler.
          */
         FolderObject: {
-            /** @default {} */
             data: components["schemas"]["NoData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default folder
              * @constant
              */
             kind: "folder";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Forces
@@ -2449,50 +2397,42 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
         };
         /**
          * GvlObject
          * @description A global variable list, or the parameter list of a library.
          */
         GvlObject: {
-            /**
-             * @default {
-             *       "declaration": ""
-             *     }
-             */
             data: components["schemas"]["GvlData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default gvl
              * @constant
              */
             kind: "gvl";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Health
@@ -2589,7 +2529,7 @@ export interface components {
          */
         ImportReport: {
             /** Entries */
-            entries?: components["schemas"]["Entry"][];
+            entries: components["schemas"]["Entry"][];
         };
         /**
          * ImportResult
@@ -2614,50 +2554,42 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
         };
         /**
          * InterfaceObject
          * @description An interface; its methods and properties are its children.
          */
         InterfaceObject: {
-            /**
-             * @default {
-             *       "declaration": ""
-             *     }
-             */
             data: components["schemas"]["InterfaceData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default interface
              * @constant
              */
             kind: "interface";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * InvalidField
@@ -2839,43 +2771,35 @@ export interface components {
          * @description The list of libraries of an application or of the POUs view.
          */
         LibraryManagerObject: {
-            /**
-             * @default {
-             *       "references": []
-             *     }
-             */
             data: components["schemas"]["LibraryManagerData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default library_manager
              * @constant
              */
             kind: "library_manager";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * LibraryParameterData
@@ -2917,19 +2841,18 @@ export interface components {
              * @description Parameters of the library that have another value here.
              * @default []
              */
-            parameters: components["schemas"]["LibraryParameterData"][];
+            parameters?: components["schemas"]["LibraryParameterData"][];
             /**
              * Placeholder
              * @description Name of the placeholder: libraries that ask for it get this library.
-             * @default null
              */
-            placeholder: string | null;
+            placeholder?: string | null;
             /**
              * Qualified Only
              * @description Names of the library are used behind the namespace only, also where the library itself allows them without.
              * @default false
              */
-            qualified_only: boolean;
+            qualified_only?: boolean;
             /**
              * Version
              * @description A version, or * for the newest installed one.
@@ -3087,7 +3010,7 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
             /**
              * Implementation
              * @default
@@ -3104,45 +3027,35 @@ export interface components {
          * @description A method.
          */
         MethodObject: {
-            /**
-             * @default {
-             *       "declaration": "",
-             *       "implementation": "",
-             *       "language": "ST"
-             *     }
-             */
             data: components["schemas"]["MethodData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default method
              * @constant
              */
             kind: "method";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * NamedValue
@@ -3165,30 +3078,30 @@ export interface components {
              * Company
              * @default
              */
-            company: string;
+            company?: string;
             /**
              * Description
              * @default
              */
-            description: string;
+            description?: string;
             /**
              * Name
              * @description That of the project when empty.
              * @default
              */
-            name: string;
+            name?: string;
             /**
              * Namespace
              * @description Prefix of its names; the name when empty.
              * @default
              */
-            namespace: string;
+            namespace?: string;
             /**
              * Qualified Only
              * @description Its names are used behind that prefix only.
              * @default false
              */
-            qualified_only: boolean;
+            qualified_only?: boolean;
             /**
              * Version
              * @description Such as 1.2.0.0.
@@ -3238,7 +3151,7 @@ export interface components {
              * Description
              * @default
              */
-            description: string;
+            description?: string;
             /** Name */
             name: string;
             /**
@@ -3246,7 +3159,7 @@ export interface components {
              * @default standard
              * @enum {string}
              */
-            template: "standard" | "empty";
+            template?: "standard" | "empty";
         };
         /**
          * NewRuntime
@@ -3337,39 +3250,9 @@ export interface components {
         };
         /**
          * ObjectDetail
-         * @description An object with its data, whose shape depends on `kind` (see /placement and the data schemas).
+         * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: {
-            /** Data */
-            data: {
-                [key: string]: unknown;
-            };
-            /**
-             * Excluded
-             * @description From the build.
-             */
-            excluded: boolean;
-            /** Id */
-            id: string;
-            /**
-             * Index
-             * @description Order among the siblings, from 0.
-             */
-            index: number;
-            /** Kind */
-            kind: string;
-            /** Name */
-            name: string;
-            /** Parent Id */
-            parent_id: string | null;
-            /** Revision */
-            revision: number;
-            /**
-             * Subkind
-             * @description What the declaration says: `program`, `struct` ...
-             */
-            subkind: string | null;
-        };
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -3405,14 +3288,14 @@ export interface components {
              * @description Saved by the editor, not the user: such revisions shortly after each other become one.
              * @default false
              */
-            autosave: boolean;
+            autosave?: boolean;
             /** Base Revision */
             base_revision: number;
             /**
              * Comment
              * @default
              */
-            comment: string;
+            comment?: string;
             /** Data */
             data: {
                 [key: string]: unknown;
@@ -3458,7 +3341,7 @@ export interface components {
              * Comment
              * @default
              */
-            comment: string;
+            comment?: string;
             /** Objects */
             objects: components["schemas"]["ObjectContent"][];
         };
@@ -3538,50 +3421,42 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
         };
         /**
          * PersistentObject
          * @description The list of persistent variables of an application.
          */
         PersistentObject: {
-            /**
-             * @default {
-             *       "declaration": ""
-             *     }
-             */
             data: components["schemas"]["PersistentData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default persistent
              * @constant
              */
             kind: "persistent";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Pin
@@ -3665,39 +3540,35 @@ export interface components {
          * @description The node below a programmable device that holds its applications.
          */
         PlcLogicObject: {
-            /** @default {} */
             data: components["schemas"]["NoData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default plc_logic
              * @constant
              */
             kind: "plc_logic";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * PouData
@@ -3714,7 +3585,7 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
             /**
              * Implementation
              * @default
@@ -3731,45 +3602,35 @@ export interface components {
          * @description A program, function block or function.
          */
         PouObject: {
-            /**
-             * @default {
-             *       "declaration": "",
-             *       "implementation": "",
-             *       "language": "ST"
-             *     }
-             */
             data: components["schemas"]["PouData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default pou
              * @constant
              */
             kind: "pou";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Presence
@@ -3809,7 +3670,7 @@ export interface components {
              * @description With `invalid-request`.
              * @default null
              */
-            errors: components["schemas"]["InvalidField"][] | null;
+            errors?: components["schemas"]["InvalidField"][] | null;
             /** Status */
             status: number;
             /** Title */
@@ -3894,50 +3755,42 @@ export interface components {
              * @description The compiler does not get this object, nor what is below it.
              * @default false
              */
-            exclude_from_build: boolean;
+            exclude_from_build?: boolean;
         };
         /**
          * PropertyObject
          * @description A property; its accessors are its children.
          */
         PropertyObject: {
-            /**
-             * @default {
-             *       "declaration": ""
-             *     }
-             */
             data: components["schemas"]["PropertyData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default property
              * @constant
              */
             kind: "property";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * ReadOrder
@@ -4011,7 +3864,7 @@ export interface components {
              * Comment
              * @default
              */
-            comment: string;
+            comment?: string;
             /** Revision */
             revision: number;
         };
@@ -4135,7 +3988,6 @@ export interface components {
          * @description Elements in the order they are drawn.
          */
         Scene: {
-            /** @default null */
             camera: components["schemas"]["Camera"] | null;
             /**
              * Elements
@@ -4161,45 +4013,35 @@ export interface components {
          * @description A 3D scene of the machine, bound to variables of the application.
          */
         SceneObject: {
-            /**
-             * @default {
-             *       "camera": null,
-             *       "elements": [],
-             *       "unit": 0.001
-             *     }
-             */
             data: components["schemas"]["Scene"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default scene
              * @constant
              */
             kind: "scene";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * SceneOrder
@@ -4210,13 +4052,13 @@ export interface components {
              * Dark
              * @default false
              */
-            dark: boolean;
+            dark?: boolean;
             /**
              * Runtime Id
              * @description Runtime whose values move the scene.
              * @default local
              */
-            runtime_id: string;
+            runtime_id?: string;
         };
         /**
          * Severity
@@ -4277,21 +4119,21 @@ export interface components {
              * Limits
              * @description Limits of sizes, by what they limit.
              */
-            limits?: {
+            limits: {
                 [key: string]: number;
             };
             /**
              * Prefixes
              * @description What names begin with, by kind of object or type.
              */
-            prefixes?: {
+            prefixes: {
                 [key: string]: string;
             };
             /**
              * Rules
              * @description Rules that are switched on, by code, and what their findings are.
              */
-            rules?: {
+            rules: {
                 [key: string]: "warning" | "error";
             };
             /**
@@ -4314,7 +4156,7 @@ export interface components {
              * Interval Ms
              * @default 100
              */
-            interval_ms: number;
+            interval_ms?: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -4363,39 +4205,35 @@ export interface components {
          * @description Holds the tasks of an application.
          */
         TaskConfigurationObject: {
-            /** @default {} */
             data: components["schemas"]["NoData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default task_configuration
              * @constant
              */
             kind: "task_configuration";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * TaskData
@@ -4445,52 +4283,35 @@ export interface components {
          * @description A task.
          */
         TaskObject: {
-            /**
-             * @default {
-             *       "event": "",
-             *       "interval": "T#20ms",
-             *       "pous": [],
-             *       "priority": 1,
-             *       "type": "cyclic",
-             *       "watchdog": {
-             *         "enabled": false,
-             *         "sensitivity": 1,
-             *         "time": "T#100ms"
-             *       }
-             *     }
-             */
             data: components["schemas"]["TaskData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /**
              * Kind
-             * @default task
              * @constant
              */
             kind: "task";
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * TaskState
@@ -4568,13 +4389,13 @@ export interface components {
              * @description Only tests with this in suite.test; * is any text.
              * @default
              */
-            filter: string;
+            filter?: string;
             /**
              * Only
              * @description Only these tests, as suite.test; empty: all.
              * @default []
              */
-            only: string[];
+            only?: string[];
         };
         /**
          * TestReport
@@ -4692,7 +4513,7 @@ export interface components {
              * @description Give the variables back what they held before.
              * @default false
              */
-            restore: boolean;
+            restore?: boolean;
         };
         /**
          * UnknownData
@@ -4703,38 +4524,35 @@ export interface components {
         };
         /**
          * UnknownObjectKind
-         * @description An object of a plug-in that is not installed; shown as such and kept unchanged (CON-03).
+         * @description An object whose kind is not installed, or whose data do not fit it; kept unchanged (CON-03).
          */
         UnknownObjectKind: {
-            /** @default {} */
             data: components["schemas"]["UnknownData"];
             /**
-             * Id
-             * @description uuid4 as 32 hexadecimal digits.
+             * Excluded
+             * @description From the build.
              */
+            excluded: boolean;
+            /** Id */
             id: string;
             /**
              * Index
-             * @description Order among the children of one parent (roots: of one view), from 0.
-             * @default 0
+             * @description Order among the siblings, from 0.
              */
             index: number;
             /** Kind */
             kind: string;
             /** Name */
             name: string;
-            /**
-             * Parent Id
-             * @description None for the roots of the Devices and the POUs view.
-             * @default null
-             */
+            /** Parent Id */
             parent_id: string | null;
-            /**
-             * Revision
-             * @description Number of the last save in the store; 0 = never stored.
-             * @default 0
-             */
+            /** Revision */
             revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * Unsubscribe
@@ -5627,7 +5445,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description The request was refused */
@@ -6544,7 +6362,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description The request was refused */
@@ -6587,7 +6405,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/xml": string;
+                    "application/xml": Blob;
                 };
             };
             /** @description The request was refused */
@@ -6630,7 +6448,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description The request was refused */

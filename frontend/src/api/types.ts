@@ -4,7 +4,7 @@
  */
 import type { components } from './schema';
 
-type Schemas = components['schemas'];
+export type Schemas = components['schemas'];
 
 export type Role = Schemas['Role'];
 export type User = Schemas['Me'];
@@ -16,50 +16,31 @@ export type ProjectSummary = Schemas['ProjectSummary'];
 export type Revision = Schemas['Revision'];
 
 /** An object in the tree. Its kind may be one that a plug-in of the server brought. */
-export type ObjectSummary = Omit<Schemas['ObjectSummary'], 'excluded'> & {
-  /** From the build. */
-  excluded?: boolean;
+export type ObjectSummary = Schemas['ObjectSummary'];
+/** An object with its data, whose shape depends on the kind. */
+export type ProjectObject = Schemas['ObjectDetail'];
+/** An object whose data have a known shape. */
+export type ObjectOf<Data extends ProjectObject['data']> = ObjectSummary & { data: Data };
+/** The data of objects by kind, of the kinds that the server describes; others come with plug-ins. */
+export type DataOfKind = {
+  [One in ProjectObject as string extends One['kind'] ? never : One['kind']]: One['data'];
 };
-export type ProjectObject<Data = Record<string, unknown>> = ObjectSummary & { data: Data };
 export type BodyLanguage = Schemas['BodyLanguage'];
 export type PlacementRule = Schemas['PlacementRule'];
 
-/** Data of every object that is text: pou, method, action, accessor, interface, dut, gvl, persistent. */
-export interface TextData {
-  declaration: string;
-  implementation: string;
-  language?: string;
-}
 export type TaskData = Schemas['TaskData'];
 export type TaskType = TaskData['type'];
 export type TaskPou = Schemas['ProgramCall'];
 export type LibraryParameter = Schemas['LibraryParameterData'];
-export type LibraryReference = Omit<
-  Schemas['LibraryReferenceData'],
-  'placeholder' | 'parameters' | 'qualified_only'
-> & {
-  qualified_only?: boolean;
-  placeholder?: string | null;
-  parameters?: LibraryParameter[];
-};
-export interface LibraryManagerData {
-  references: LibraryReference[];
-}
-export interface ApplicationData {
-  static_analysis?: StaticAnalysisData;
-}
-export type StaticAnalysisData = Required<Schemas['StaticAnalysisData']>;
+export type LibraryReference = Schemas['LibraryReferenceData'];
+export type StaticAnalysisData = Schemas['StaticAnalysisData'];
 export type CodingRule = Schemas['CodingRule'];
-export type DeviceData = Schemas['DeviceData'];
 
 export type ImportFormats = Schemas['ImportFormats'];
 export type ImportNode = Schemas['ImportNode'];
 export type ImportEntry = Schemas['Entry'];
-export interface ImportReport {
-  entries: ImportEntry[];
-}
-export type ImportPreview = Omit<Schemas['ImportPreview'], 'report'> & { report: ImportReport };
-export type ImportResult = Omit<Schemas['ImportResult'], 'report'> & { report: ImportReport };
+export type ImportPreview = Schemas['ImportPreview'];
+export type ImportResult = Schemas['ImportResult'];
 
 export type Severity = Schemas['Severity'];
 export type Diagnostic = Schemas['Diagnostic'];

@@ -2,7 +2,6 @@ import { QueryClientProvider, useQuery } from '@tanstack/react-query';
 import { useEffect } from 'react';
 import { api, setUnauthorisedListener } from '@/api/client';
 import { queryClient } from '@/api/queries';
-import type { AuthStatus } from '@/api/types';
 import { DialogHost } from '@/ui/dialogs';
 import { Workbench } from '@/workbench/frame/Workbench';
 import { Failed, Loading } from '@/ui/Empty';
@@ -38,7 +37,7 @@ function Page() {
   const route = useRoute();
   const status = useQuery({
     queryKey: ['auth', 'status', user?.id ?? ''],
-    queryFn: () => api.get<AuthStatus>('/auth/status'),
+    queryFn: () => api.get('/api/v1/auth/status'),
     staleTime: Infinity,
     retry: false,
   });

@@ -28,7 +28,7 @@ const BODIES = import.meta.glob<LanguageBody>('../../tests/fixtures/languages/*/
 });
 
 const links: ObjectSummary = {
-  id: 'Links', kind: 'action', subkind: null, name: 'Links', parent_id: null, index: 0, revision: 1,
+  id: 'Links', kind: 'action', subkind: null, name: 'Links', parent_id: null, index: 0, revision: 1, excluded: false,
 }; // prettier-ignore
 const rule: PlacementRule = {
   kind: 'pou', places: ['pous_view.*'], once: false,

@@ -12,10 +12,10 @@ const folders = readdirSync(import.meta.dirname, { withFileTypes: true }).flatMa
 /** Kinds that the server describes, by the models of their objects. */
 function serverKinds(): string[] {
   const { components } = JSON.parse(readFileSync(join(SRC, 'api/openapi.json'), 'utf8')) as {
-    components: { schemas: Record<string, { oneOf?: { $ref: string }[]; properties?: { kind?: { const?: string } } }> };
+    components: { schemas: Record<string, { anyOf?: { $ref: string }[]; properties?: { kind?: { const?: string } } }> };
   };
   const of = components.schemas;
-  return (of.AnyProjectObject?.oneOf ?? []).flatMap(
+  return (of.ObjectDetail?.anyOf ?? []).flatMap(
     ({ $ref }) => of[$ref.split('/').at(-1)!]?.properties?.kind?.const ?? [],
   );
 }
@@ -71,7 +71,7 @@ const allowed = new Map(
 
 /** Quoted words that are kinds; roles and arguments of functions that take a role are none. */
 function namedKinds(code: string): string[] {
-  const plain = code.replace(/(hasRole|kindWithRole|named|nearest)\(([^()]|\([^()]*\))*\)/g, '');
+  const plain = code.replace(/(hasRole|ofRole|kindWithRole|named|nearest)\(([^()]|\([^()]*\))*\)/g, '');
   return [...new Set([...plain.matchAll(/(['"`])([a-z_]+)\1/g)].map((match) => match[2]!))].filter((word) =>
     folders.includes(word),
   );

@@ -4,15 +4,18 @@ import { t } from '@/i18n';
 import { notify } from '@/ui/notices';
 import { clearPrepared, preparedValues, type PreparedValue } from './prepared';
 
-function order(values: readonly PreparedValue[]) {
-  return { values: values.map(({ expression, literal }) => ({ expression, value: literal })) };
+function order(runtimeId: string, values: readonly PreparedValue[]) {
+  return {
+    params: { path: { runtime_id: runtimeId } },
+    body: { values: values.map(({ expression, literal }) => ({ expression, value: literal })) },
+  };
 }
 
 /** Writes all prepared values together at the beginning of a cycle. */
 export async function writePrepared(runtimeId: string): Promise<void> {
   const values = preparedValues(runtimeId);
   if (values.length === 0) return;
-  await api.post(`/runtimes/${runtimeId}/values/write`, order(values));
+  await api.post('/api/v1/runtimes/{runtime_id}/values/write', order(runtimeId, values));
   clearPrepared(runtimeId, values);
 }
 
@@ -20,16 +23,15 @@ export async function writePrepared(runtimeId: string): Promise<void> {
 export async function forcePrepared(runtimeId: string): Promise<void> {
   const values = preparedValues(runtimeId);
   if (values.length === 0) return;
-  await api.post(`/runtimes/${runtimeId}/values/force`, order(values));
+  await api.post('/api/v1/runtimes/{runtime_id}/values/force', order(runtimeId, values));
   clearPrepared(runtimeId, values);
 }
 
 /** Releases forced variables, all when none are named; `restore` gives them back what they held before (WAT-09). */
-export async function releaseForces(
-  runtimeId: string,
-  expressions: readonly string[] | null,
-  restore = false,
-): Promise<void> {
-  await api.post(`/runtimes/${runtimeId}/values/unforce`, { expressions, restore });
+export async function releaseForces(runtimeId: string, expressions: string[] | null, restore = false): Promise<void> {
+  await api.post('/api/v1/runtimes/{runtime_id}/values/unforce', {
+    params: { path: { runtime_id: runtimeId } },
+    body: { expressions, restore },
+  });
   if (expressions === null) notify({ tone: 'ok', title: t('online.unforcedAll') });
 }

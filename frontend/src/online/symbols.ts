@@ -5,17 +5,10 @@
  * all instances of a function block are found from the types alone.
  */
 import { api } from '@/api/client';
+import type { Schemas } from '@/api/types';
 
 /** What lies below a path, as the server lists it. */
-export interface SymbolChild {
-  readonly name: string;
-  readonly path: string;
-  readonly type: string;
-  readonly kind: string;
-  readonly leaf: boolean;
-  readonly section?: string;
-  readonly flags?: readonly string[];
-}
+export type SymbolChild = Readonly<Schemas['Symbol']>;
 
 export type SymbolSource = (path: string) => Promise<readonly SymbolChild[]>;
 
@@ -88,7 +81,9 @@ export function symbolTree(runtimeId: string, codeId: string | null): SymbolTree
   const known = trees.get(runtimeId);
   if (known !== undefined && known.codeId === codeId) return known.tree;
   const tree = new SymbolTree((path) =>
-    api.get<readonly SymbolChild[]>(`/runtimes/${runtimeId}/symbols`, { query: { path } }),
+    api.get('/api/v1/runtimes/{runtime_id}/symbols', {
+      params: { path: { runtime_id: runtimeId }, query: { path } },
+    }),
   );
   trees.set(runtimeId, { codeId, tree });
   return tree;

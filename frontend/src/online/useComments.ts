@@ -1,9 +1,8 @@
 import { holdsValues } from '@/project/kinds';
 import { useQueries } from '@tanstack/react-query';
 import { useMemo } from 'react';
-import { api } from '@/api/client';
-import { keys, useObjects } from '@/api/queries';
-import type { ProjectObject, TextData } from '@/api/types';
+import { dataText } from '@/api/objects';
+import { objectQuery, useObjects } from '@/api/queries';
 import { joinComments } from '@/iec/declaration/comments';
 import { parseDeclaration } from '@/iec/declaration/parse';
 
@@ -12,17 +11,13 @@ export function useComments(projectId: string | null): (expression: string) => s
   const { data: objects } = useObjects(projectId);
   const owners = useMemo(() => (objects ?? []).filter(holdsValues), [objects]);
   const texts = useQueries({
-    queries: owners.map((o) => ({
-      queryKey: keys.object(projectId ?? '', o.id),
-      queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${projectId ?? ''}/objects/${o.id}`),
-      staleTime: Infinity,
-    })),
+    queries: owners.map((o) => objectQuery(projectId ?? '', o.id)),
     combine: (answers) => answers.flatMap((answer) => answer.data ?? []),
   });
   return useMemo(() => {
     const comments = new Map<string, string>();
     for (const text of texts) {
-      for (const row of parseDeclaration(text.data.declaration).rows) {
+      for (const row of parseDeclaration(dataText(text, 'declaration')).rows) {
         const comment = joinComments(row.comments.map((cell) => cell.text));
         if (comment !== '') comments.set(`${text.name}.${row.name.text}`.toUpperCase(), comment);
       }

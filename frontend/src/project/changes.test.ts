@@ -10,6 +10,7 @@ const object = (id: string, parent_id: string | null, index: number, revision = 
   name: id,
   index,
   revision,
+  excluded: false,
 });
 const event = (change: ObjectEvent['change'], changed: ObjectSummary): ObjectEvent => ({
   op: 'object',

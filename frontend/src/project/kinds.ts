@@ -7,7 +7,8 @@
  * A kind without a folder (a plug-in brought it) has a neutral icon, its own name as title, and a read-only view of its data.
  */
 import type { ComponentType, LazyExoticComponent } from 'react';
-import type { ObjectSummary } from '@/api/types';
+import type { Check } from '@/api/objects';
+import type { ObjectOf, ObjectSummary, Schemas } from '@/api/types';
 import { textOf } from '@/i18n';
 import type { ACCESS_SPECIFIERS } from '@/iec/grammar';
 import type { IconComponent } from '@/icons/IconComponent';
@@ -120,6 +121,19 @@ export function kindOf(kind: string): ObjectKindDescriptor | undefined {
 }
 
 type Kinded = Pick<ObjectSummary, 'kind'>;
+
+/** The data of objects of a role, as the server describes them. */
+interface DataOfRole {
+  application: Schemas['ApplicationData'];
+  device: Schemas['DeviceData'];
+  folder: Schemas['NoData'];
+  libraries: Schemas['LibraryManagerData'];
+}
+
+/** Whether an object has the data of a role. */
+export function ofRole<Named extends Role>(role: Named): Check<DataOfRole[Named]> {
+  return (object): object is ObjectOf<DataOfRole[Named]> => hasRole(object, role);
+}
 
 export function hasRole(object: Kinded | undefined, role: Role): boolean {
   return object !== undefined && kindOf(object.kind)?.role === role;

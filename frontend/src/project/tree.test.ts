@@ -10,6 +10,7 @@ const object = (id: string, parent_id: string | null, index = 0, kind: string = 
   name: id,
   index,
   revision: 1,
+  excluded: false,
 });
 
 const objects = [

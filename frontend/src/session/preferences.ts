@@ -87,15 +87,21 @@ export async function chooseLanguage(language: Language): Promise<void> {
   if (useSession.getState().user) await saveSetting('language', language);
 }
 
-/** A personal setting kept on the server; null when it was never saved. */
-export function loadSetting<Value>(key: string): Promise<Value | null> {
+/** A personal setting kept on the server; null when it was never saved. Another version may have stored it. */
+export function loadSetting(key: string): Promise<unknown> {
   return queryClient.fetchQuery({
     queryKey: ['settings', key],
-    queryFn: () => api.get<Value | null>(`/me/settings/${key}`),
+    queryFn: () => api.get('/api/v1/me/settings/{key}', { params: { path: { key } } }),
     staleTime: 0,
   });
 }
 
 export async function saveSetting(key: string, value: unknown): Promise<void> {
-  await api.put(`/me/settings/${key}`, value);
+  await api.put('/api/v1/me/settings/{key}', { params: { path: { key } }, body: value });
+}
+
+/** A list of names or ids as a setting; null where it is none. */
+export async function loadNames(key: string): Promise<readonly string[] | null> {
+  const stored = await loadSetting(key);
+  return Array.isArray(stored) ? stored.filter((one) => typeof one === 'string') : null;
 }

@@ -20,7 +20,7 @@ export function settingsOf<Values extends object>(key: string, defaults: Values)
   let changed: Partial<Values> = {};
 
   const load = () => {
-    loaded ??= loadSetting<Partial<Values>>(key).then(
+    loaded ??= loadSetting(key).then(
       (stored) => use.setState({ ...sound(defaults, stored), ...changed }),
       () => undefined,
     );
@@ -37,8 +37,8 @@ export function settingsOf<Values extends object>(key: string, defaults: Values)
 }
 
 /** Keeps only what has the right type: settings may come from another version. */
-function sound<Values extends object>(defaults: Values, stored: Partial<Values> | null): Partial<Values> {
-  const known = Object.entries(defaults) as [keyof Values, unknown][];
-  const right = known.filter(([key, value]) => typeof stored?.[key] === typeof value);
-  return Object.fromEntries(right.map(([key]) => [key, stored?.[key]])) as Partial<Values>;
+function sound<Values extends object>(defaults: Values, stored: unknown): Partial<Values> {
+  const values = new Map<string, unknown>(Object.entries(stored ?? {}));
+  const right = Object.entries(defaults).filter(([key, value]) => typeof values.get(key) === typeof value);
+  return Object.fromEntries(right.map(([key]) => [key, values.get(key)])) as Partial<Values>;
 }

@@ -5,9 +5,9 @@
 import { QueryObserver } from '@tanstack/react-query';
 import { createStore, type StoreApi } from 'zustand';
 import type { editor } from 'monaco-editor/editor/editor.api';
-import { api } from '@/api/client';
-import { keys, queryClient, saveObject, StaleObject } from '@/api/queries';
-import type { ProjectObject, TextData } from '@/api/types';
+import { dataText } from '@/api/objects';
+import { objectQuery, queryClient, saveObject, StaleObject } from '@/api/queries';
+import type { ProjectObject } from '@/api/types';
 import { useSession } from '@/session/session';
 import { smallestChange } from '@/iec/declaration/text';
 import { indentation, useEditorSettings } from './settings';
@@ -40,8 +40,8 @@ const RETRY_MS = 5000;
 const DRAFT_MS = 250;
 
 /** The two texts of an object; actions have no declaration of their own, types and lists no implementation. */
-function partsOf(data: Partial<TextData>): TextParts {
-  return { declaration: data.declaration ?? '', implementation: data.implementation ?? '' };
+function partsOf(object: ProjectObject): TextParts {
+  return { declaration: dataText(object, 'declaration'), implementation: dataText(object, 'implementation') };
 }
 
 let draftStore: Drafts | null = null;
@@ -54,7 +54,7 @@ function drafts(): Drafts {
 }
 
 /** Brings data on top of a revision to the server and answers with the object as it is stored then. */
-export type Put = (baseRevision: number, data: TextData) => Promise<ProjectObject<TextData>>;
+export type Put = (baseRevision: number, data: Record<string, unknown>) => Promise<ProjectObject>;
 
 export class TextDocument {
   readonly models: Readonly<Record<Part, editor.ITextModel>>;
@@ -69,10 +69,10 @@ export class TextDocument {
   constructor(
     monaco: Monaco,
     readonly projectId: string,
-    private object: ProjectObject<TextData>,
+    private object: ProjectObject,
     private readonly forget: () => void,
   ) {
-    const base: StoredVersion = { revision: object.revision, parts: partsOf(object.data) };
+    const base: StoredVersion = { revision: object.revision, parts: partsOf(object) };
     const draft = drafts().read(this.user, projectId, object.id);
     const state = draft === null ? opened(base) : withDraft(opened(base), draft);
     this.store = createStore(() => state);
@@ -112,7 +112,7 @@ export class TextDocument {
 
   /** Language of the body, as the server calls it; undefined for objects without one. */
   get language(): string | undefined {
-    return this.object.data.language;
+    return dataText(this.object, 'language') || undefined;
   }
 
   get phase(): DocumentPhase {
@@ -135,7 +135,7 @@ export class TextDocument {
   /** Stores now what is not stored; resolves when the server has answered, whatever it said. */
   save(autosave = false): Promise<void> {
     return this.saveBy((baseRevision, data) =>
-      saveObject<TextData>(this.projectId, this.objectId, baseRevision, data, { autosave }),
+      saveObject(this.projectId, this.objectId, baseRevision, data, { autosave }),
     );
   }
 
@@ -192,7 +192,7 @@ export class TextDocument {
       const data = { ...this.object.data, ...Object.fromEntries(texts) };
       const answer = await put(state.base.revision, data);
       this.object = answer;
-      this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer.data) }));
+      this.change((now) => saved(now, { revision: answer.revision, parts: partsOf(answer) }));
     } catch (error) {
       this.refused(error);
     }
@@ -204,8 +204,7 @@ export class TextDocument {
 
   private refused(error: unknown): void {
     if (error instanceof StaleObject && error.current.id === this.objectId) {
-      const current = error.current as ProjectObject<TextData>;
-      const theirs = { revision: current.revision, parts: partsOf(current.data) };
+      const theirs = { revision: error.current.revision, parts: partsOf(error.current) };
       this.change((now) => newerVersion({ ...now, sent: null }, theirs));
     } else {
       this.change((now) => savingFailed(now, error));
@@ -214,15 +213,11 @@ export class TextDocument {
 
   /** Newer versions reach the query cache by the events socket. */
   private follow(): () => void {
-    const observer = new QueryObserver<ProjectObject<TextData>>(queryClient, {
-      queryKey: keys.object(this.projectId, this.objectId),
-      queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${this.projectId}/objects/${this.objectId}`),
-      staleTime: Infinity,
-    });
+    const observer = new QueryObserver(queryClient, objectQuery(this.projectId, this.objectId));
     return observer.subscribe(({ data }) => {
       if (data === undefined || data.revision <= this.object.revision) return;
       this.object = data;
-      this.change((state) => newerVersion(state, { revision: data.revision, parts: partsOf(data.data) }));
+      this.change((state) => newerVersion(state, { revision: data.revision, parts: partsOf(data) }));
     });
   }
 
@@ -284,10 +279,7 @@ export async function openDocument(monaco: Monaco, projectId: string, objectId: 
   let known = open.get(id);
   if (known === undefined) {
     known = queryClient
-      .fetchQuery({
-        queryKey: keys.object(projectId, objectId),
-        queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${projectId}/objects/${objectId}`),
-      })
+      .fetchQuery(objectQuery(projectId, objectId))
       .then((object) => new TextDocument(monaco, projectId, object, () => open.delete(id)));
     open.set(id, known);
     known.catch(() => open.delete(id));

@@ -30,7 +30,7 @@ describe('texts stored together', () => {
     save.mockResolvedValue([
       { id: 'b', revision: 8 },
       { id: 'a', revision: 4 },
-    ] as ProjectObject<unknown>[]);
+    ] as ProjectObject[]);
     await saveTogether(
       'p',
       [a, unchanged, b].map((one) => one.document),

@@ -1,6 +1,5 @@
 /** Texts of several objects stored as one change of the project: all of them, or none. */
 import { saveObjects, type ObjectContent } from '@/api/queries';
-import type { TextData } from '@/api/types';
 import type { TextDocument } from './documents';
 
 /** Throws what the server refused the save with; then nothing is stored, and the texts are still changed. */
@@ -9,14 +8,12 @@ export async function saveTogether(
   documents: readonly TextDocument[],
   comment: string,
 ): Promise<void> {
-  const contents: ObjectContent<TextData>[] = [];
+  const contents: ObjectContent[] = [];
   let send = (): void => undefined;
   const collected = new Promise<void>((resolve) => {
     send = resolve;
   });
-  const stored = collected.then(() =>
-    contents.length === 0 ? [] : saveObjects<TextData>(projectId, contents, comment),
-  );
+  const stored = collected.then(() => (contents.length === 0 ? [] : saveObjects(projectId, contents, comment)));
   const settled = documents.map((document) =>
     document.saveBy(async (base_revision, data) => {
       contents.push({ object_id: document.objectId, base_revision, data });

@@ -3,12 +3,13 @@
  *
  * `commandContext()` builds it now; components that show commands use `useCommandContext()`.
  */
-import { keys, queryClient } from '@/api/queries';
-import type { DeviceData, ObjectSummary, ProjectObject, Role } from '@/api/types';
+import { keys, objectQuery, queryClient } from '@/api/queries';
+import type { ObjectSummary, Role } from '@/api/types';
 import { useSession } from '@/session/session';
 import { useOnline, type OnlineSession } from './onlineSession';
 import { useProject } from '@/project/openProject';
 import { useSelection } from './selection';
+import { ofRole } from '@/project/kinds';
 import { deviceOf } from '@/project/tree';
 
 export interface ActiveEditor {
@@ -49,15 +50,14 @@ export function commandContext(): CommandContext {
   const selection = useSelection.getState();
   const editor = selection.editors.find((entry) => entry.panelId === selection.activeEditor);
   const device = deviceOf(objects, applicationId);
-  const deviceData =
-    projectId && device && queryClient.getQueryData<ProjectObject<DeviceData>>(keys.object(projectId, device.id));
+  const stored = projectId && device && queryClient.getQueryData(objectQuery(projectId, device.id).queryKey);
   const chosen = new Set(selection.objectIds);
   return {
     role: useSession.getState().user?.role ?? null,
     projectId,
     applicationId,
     deviceId: device?.id ?? null,
-    runtimeId: deviceData ? deviceData.data.runtime_id : null,
+    runtimeId: stored && ofRole('device')(stored) ? stored.data.runtime_id : null,
     selection: chosen.size ? objects.filter((object) => chosen.has(object.id)) : NO_OBJECTS,
     activeEditor: editor
       ? {

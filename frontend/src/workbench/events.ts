@@ -4,8 +4,8 @@
 import { create } from 'zustand';
 import { socketUrl } from '@/api/client';
 import { ReconnectingSocket } from '@/api/socket';
-import { keys, queryClient } from '@/api/queries';
-import type { ObjectSummary, ProjectObject } from '@/api/types';
+import { keys, objectQuery, queryClient } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
 import { applyChange, type ObjectEvent } from '@/project/changes';
 
 export interface PresentUser {
@@ -64,10 +64,10 @@ function receive(projectId: string, message: EventMessage): void {
     keys.objects(projectId),
     (objects) => objects && applyChange(objects, message),
   );
-  const key = keys.object(projectId, message.object.id);
+  const key = objectQuery(projectId, message.object.id).queryKey;
   if (message.change === 'deleted') queryClient.removeQueries({ queryKey: key });
   else {
-    const known = queryClient.getQueryData<ProjectObject>(key);
+    const known = queryClient.getQueryData(key);
     if (known && known.revision < message.object.revision) void queryClient.invalidateQueries({ queryKey: key });
   }
 }

@@ -1,7 +1,8 @@
-import { keys, queryClient } from '@/api/queries';
-import type { DeviceData, ObjectSummary, ProjectObject } from '@/api/types';
+import { keys, objectQuery, queryClient } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
 import { onlineTone, type OnlineSession, type OnlineTone } from './onlineSession';
 import { useProject } from '@/project/openProject';
+import { ofRole } from '@/project/kinds';
 import { deviceOf } from '@/project/tree';
 
 /** Whether the device that carries an application is set to simulation, as far as it has been read. */
@@ -10,8 +11,8 @@ export function isSimulated(applicationId: string): boolean {
   if (!projectId) return false;
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
   const device = deviceOf(objects, applicationId);
-  const data = device && queryClient.getQueryData<ProjectObject<DeviceData>>(keys.object(projectId, device.id));
-  return data?.data.simulated ?? false;
+  const stored = device && queryClient.getQueryData(objectQuery(projectId, device.id).queryKey);
+  return stored !== undefined && ofRole('device')(stored) && stored.data.simulated;
 }
 
 /** How an application looks online; undefined while it is logged out. */

@@ -31,7 +31,7 @@ class ExchangeError(ProjectError):
 class Entry(BaseModel):
     """One line of a report."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, json_schema_serialization_defaults_required=True)
 
     source: str = Field(description="The file, by the name it was given under.")
     line: int | None = Field(default=None, description="Line in the file, from 1; null: the file as a whole.")
@@ -51,6 +51,8 @@ class Entry(BaseModel):
 
 class ImportReport(BaseModel):
     """Everything an import has to say."""
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
 
     entries: list[Entry] = Field(default_factory=list)
 

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import reduce
+from operator import or_
+from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import BaseModel, Field, GetJsonSchemaHandler, TypeAdapter, create_model
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
+from tappet.project.data import UnknownData
+from tappet.project.kind_registry import kinds
 from tappet.server.projects.shapes import Name
 from tappet.server.shapes import Reply, Request
 
@@ -24,9 +30,38 @@ class ObjectSummary(Reply):
 
 
 class ObjectDetail(ObjectSummary):
-    """An object with its data, whose shape depends on `kind` (see /placement and the data schemas)."""
+    """An object with its data, whose shape depends on `kind`."""
 
     data: dict[str, Any]
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """One of the shapes that the installed kinds give. They are documented and not checked: data that
+        were stored by another version of a plug-in are answered as they are (CON-03)."""
+        schema = handler(TypeAdapter(_any_detail()).core_schema)
+        return {"title": cls.__name__, "description": cls.__doc__, **schema}
+
+
+def _any_detail() -> Any:
+    shapes: list[type[BaseModel]] = [
+        create_model(
+            f"{''.join(word.capitalize() for word in kind.name.split('_'))}Object",
+            __base__=ObjectSummary,
+            __doc__=kind.description,
+            kind=(Literal[kind.name], ...),  # type: ignore[arg-type]
+            data=(kind.data, ...),
+        )
+        for kind in kinds().values()
+    ]
+    return reduce(or_, [*shapes, UnknownObjectKind])
+
+
+class UnknownObjectKind(ObjectSummary):
+    """An object whose kind is not installed, or whose data do not fit it; kept unchanged (CON-03)."""
+
+    data: UnknownData
 
 
 class NewObject(Request):

@@ -1,7 +1,6 @@
 import { useState, type FormEvent } from 'react';
 import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
-import type { User } from '@/api/types';
 import { useText } from '@/i18n';
 import { refusalOf } from '@/ui/notices';
 import { Button } from '@/ui/Button';
@@ -34,7 +33,7 @@ export function FirstAccountPage() {
     if (busy || missing) return;
     setBusy(true);
     try {
-      const user = await api.post<User>('/auth/first-account', { token: token.trim(), username, password });
+      const user = await api.post('/api/v1/auth/first-account', { body: { token: token.trim(), username, password } });
       history.replaceState(null, '', location.pathname);
       await queryClient.invalidateQueries({ queryKey: ['auth'] });
       setUser(user);

@@ -1,6 +1,5 @@
 import { useState, type FormEvent } from 'react';
 import { api, ApiError } from '@/api/client';
-import type { User } from '@/api/types';
 import { useText } from '@/i18n';
 import { explain } from '@/ui/notices';
 import { Button } from '@/ui/Button';
@@ -23,7 +22,7 @@ export function LoginPage() {
     if (busy || username === '' || password === '') return;
     setBusy(true);
     try {
-      const user = await api.post<User>('/auth/login', { username, password });
+      const user = await api.post('/api/v1/auth/login', { body: { username, password } });
       await adoptPreferences(user);
       setUser(user);
     } catch (error) {

@@ -2,7 +2,7 @@ import { useQuery } from '@tanstack/react-query';
 import { Boxes, Download, Ellipsis, FileUp, FilePlus, FolderOpen, Trash2 } from 'lucide-react';
 import { useEffect, useState, type DragEvent } from 'react';
 import { api } from '@/api/client';
-import { keys, queryClient, useProjects } from '@/api/queries';
+import { keys, projectsQuery, queryClient } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
 import { secondText } from '@/workbench/clock';
@@ -10,7 +10,7 @@ import { kindWithRole } from '@/project/kinds';
 import { ObjectIcon } from '@/project/ObjectIcon';
 import { TappetMark } from '@/icons/TappetMark';
 import { confirm, openDialog } from '@/ui/dialogs';
-import { downloadUrl } from '@/workbench/downloadFile';
+import { saveBlob } from '@/workbench/downloadFile';
 import { UserMenu } from '@/workbench/frame/UserMenu';
 import { droppedFiles, type NamedFile } from '@/workbench/exchange/dropped';
 import { ImportDialog } from '@/workbench/exchange/ImportDialog';
@@ -20,7 +20,7 @@ import { Button, IconButton } from '@/ui/Button';
 import { Empty, Failed, Loading } from '@/ui/Empty';
 import { TextInput } from '@/ui/Field';
 import { DropdownMenu, type MenuEntry } from '@/ui/Menu';
-import { loadSetting } from '@/session/preferences';
+import { loadNames } from '@/session/preferences';
 import { go } from '@/session/route';
 import { useSession } from '@/session/session';
 import { newProject } from '@/workbench/projectInfo/NewProjectDialog';
@@ -30,10 +30,10 @@ import styles from './StartPage.module.css';
 /** All projects: open, make, import. */
 export function StartPage() {
   const t = useText();
-  const projects = useProjects();
+  const projects = useQuery(projectsQuery);
   const recent = useQuery({
     queryKey: ['settings', 'recent'],
-    queryFn: () => loadSetting<string[]>('recent'),
+    queryFn: () => loadNames('recent'),
     retry: false,
   });
   const role = useSession((state) => state.user?.role ?? null);
@@ -173,7 +173,7 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
       key: 'export',
       text: t('start.export'),
       icon: Download,
-      run: () => void guard(() => downloadUrl(`/projects/${project.id}/export`, `${project.name}.zip`)),
+      run: () => void guard(() => exportArchive(project)),
     },
     { kind: 'line', key: 'line' },
     {
@@ -216,9 +216,14 @@ async function deleteProject(project: ProjectSummary, t: ReturnType<typeof useTe
   });
   if (!sure) return;
   await guard(async () => {
-    await api.delete(`/projects/${project.id}`);
+    await api.delete('/api/v1/projects/{project_id}', { params: { path: { project_id: project.id } } });
     await queryClient.invalidateQueries({ queryKey: keys.projects });
   });
+}
+
+async function exportArchive({ id, name }: ProjectSummary): Promise<void> {
+  const params = { path: { project_id: id } };
+  saveBlob(await api.download('/api/v1/projects/{project_id}/export', { params }), `${name}.zip`);
 }
 
 /** Makes a project of files: our own archive, or those of other systems. */

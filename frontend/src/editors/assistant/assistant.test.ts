@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { ObjectSummary } from '@/api/types';
+import type { Library, ObjectSummary } from '@/api/types';
 import {
   asReferenced,
   isQualifiedOnly,
@@ -9,15 +9,19 @@ import {
   referenced,
   search,
   variableEntries,
-  type LibraryDetail,
 } from './catalog';
 
 const object = (name: string, kind: string, subkind: string | null) =>
   ({ id: name, name, kind, subkind }) as ObjectSummary;
-const library: LibraryDetail = {
+const library: Library = {
   name: 'Standard',
   version: '1',
   namespace: 'Standard',
+  company: '',
+  description: '',
+  removable: false,
+  requires: [],
+  replaces: [],
   qualified_only: false,
   items: ['TON', 'LEN'].map((name) => ({
     name,
@@ -27,6 +31,7 @@ const library: LibraryDetail = {
     outputs: [],
     in_out: [],
     members: [],
+    methods: [],
     values: [],
     returns: null,
   })),
@@ -67,7 +72,7 @@ describe('input assistant', () => {
   });
 
   it('puts the namespace in front where the library or its reference asks for it', () => {
-    const inserts = (detail: LibraryDetail) => libraryEntries(detail).map((entry) => entry.insert);
+    const inserts = (detail: Library) => libraryEntries(detail).map((entry) => entry.insert);
     const reference = { name: 'Standard', version: '*', namespace: 'Std' };
     expect(inserts(asReferenced(library, reference))).toEqual(['TON', 'TON', 'LEN']);
     expect(inserts(asReferenced(library, { ...reference, qualified_only: true }))).toEqual([

@@ -3,7 +3,7 @@
  * Gathered from the project's declarations and the libraries its library manager names. Pure functions.
  */
 import { kindOf, valuesOf } from '@/project/kinds';
-import type { LibraryReference, ObjectSummary } from '@/api/types';
+import type { Library, LibraryReference, ObjectSummary } from '@/api/types';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { joinComments } from '@/iec/declaration/comments';
 import {
@@ -29,34 +29,6 @@ export interface Entry {
   /** Heading under which it is shown: the POU, list or library it comes from. */
   readonly group: string;
   readonly category: Category;
-}
-
-export interface Pin {
-  name: string;
-  type: string;
-  default: string;
-  comment: string;
-}
-
-export interface LibraryItem {
-  name: string;
-  kind: string;
-  summary: string;
-  inputs: Pin[];
-  outputs: Pin[];
-  in_out: Pin[];
-  members: Pin[];
-  values: { name: string; value: string; comment: string }[];
-  returns: string | null;
-}
-
-export interface LibraryDetail {
-  name: string;
-  version: string;
-  namespace: string;
-  /** Its names are used behind the namespace only. */
-  qualified_only: boolean;
-  items: LibraryItem[];
 }
 
 const TYPE_KINDS = new Set(['function_block', 'struct', 'union', 'enum', 'alias', 'interface', 'type']);
@@ -108,7 +80,7 @@ export function objectEntries(objects: readonly ObjectSummary[], group: string):
 }
 
 /** A library as a reference shows it: under the namespace and with the access of the reference. */
-export function asReferenced(library: LibraryDetail, reference: LibraryReference | undefined): LibraryDetail {
+export function asReferenced(library: Library, reference: LibraryReference | undefined): Library {
   return {
     ...library,
     namespace: reference?.namespace || library.namespace,
@@ -116,7 +88,7 @@ export function asReferenced(library: LibraryDetail, reference: LibraryReference
   };
 }
 
-export function libraryEntries(library: LibraryDetail): Entry[] {
+export function libraryEntries(library: Library): Entry[] {
   const prefix = library.qualified_only ? `${library.namespace}.` : '';
   return library.items.flatMap((item) => {
     const entry = (category: Category): Entry => ({

@@ -1,9 +1,9 @@
-import { hasRole, valuesOf } from '@/project/kinds';
+import { hasRole, ofRole, valuesOf } from '@/project/kinds';
 import { useQueries, useQuery } from '@tanstack/react-query';
 import { useMemo } from 'react';
-import { api } from '@/api/client';
-import { keys, useObjects } from '@/api/queries';
-import type { LibraryManagerData, ObjectSummary, ProjectObject, TextData } from '@/api/types';
+import { dataText, shaped } from '@/api/objects';
+import { librariesQuery, libraryQuery, objectQuery, useObjects } from '@/api/queries';
+import type { Library, ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { applicationOf } from '@/project/tree';
 import {
@@ -15,27 +15,19 @@ import {
   referenced,
   variableEntries,
   type Entry,
-  type LibraryDetail,
 } from './catalog';
 
-function objectQuery<Data>(projectId: string, id: string) {
-  return {
-    queryKey: keys.object(projectId, id),
-    queryFn: () => api.get<ProjectObject<Data>>(`/projects/${projectId}/objects/${id}`),
-    staleTime: Infinity,
-  };
-}
-
 /** The libraries that are visible at this object, with all their items. */
-export function useLibraries(projectId: string, object: ObjectSummary | undefined): readonly LibraryDetail[] {
+export function useLibraries(projectId: string, object: ObjectSummary | undefined): readonly Library[] {
   const { data: objects } = useObjects(projectId);
   const application = object && objects ? applicationOf(objects, object.id) : undefined;
   const manager = objects?.find(
     (o) => hasRole(o, 'libraries') && (application === undefined || o.parent_id === application.id),
   );
-  const installed = useQuery({ queryKey: keys.libraries, queryFn: () => api.get<{ name: string }[]>('/libraries') });
+  const installed = useQuery(librariesQuery);
   const chosen = useQuery({
-    ...objectQuery<LibraryManagerData>(projectId, manager?.id ?? ''),
+    ...objectQuery(projectId, manager?.id ?? ''),
+    select: (found) => shaped(found, ofRole('libraries')),
     enabled: manager !== undefined,
   });
   const references = manager === undefined ? null : (chosen.data?.data.references ?? []);
@@ -44,11 +36,7 @@ export function useLibraries(projectId: string, object: ObjectSummary | undefine
     (installed.data ?? []).map((library) => library.name),
   );
   return useQueries({
-    queries: names.map((name) => ({
-      queryKey: keys.library(name),
-      queryFn: () => api.get<LibraryDetail>(`/libraries/${encodeURIComponent(name)}`),
-      staleTime: Infinity,
-    })),
+    queries: names.map((name) => libraryQuery(name)),
     combine: (answers) =>
       answers.flatMap(({ data }) =>
         data
@@ -69,22 +57,19 @@ export function useCatalog(projectId: string, object: ObjectSummary | undefined)
   const owners = useMemo(() => ownersOf(objects ?? [], object), [objects, object]);
   const lists = useMemo(() => (objects ?? []).filter((o) => valuesOf(o) === 'global'), [objects]);
   const texts = useQueries({
-    queries: [...owners, ...lists].map((o) => objectQuery<TextData>(projectId, o.id)),
+    queries: [...owners, ...lists].map((o) => objectQuery(projectId, o.id)),
     combine: (answers) => answers.flatMap((answer) => answer.data ?? []),
   });
   return useMemo(() => {
     const local = owners.flatMap((owner) => {
       const text = texts.find((candidate) => candidate.id === owner.id);
-      return text === undefined ? [] : variableEntries(text.data.declaration, owner.name, '');
+      return text === undefined ? [] : variableEntries(dataText(text, 'declaration'), owner.name, '');
     });
     const global = lists.flatMap((list) => {
       const text = texts.find((candidate) => candidate.id === list.id);
       if (text === undefined) return [];
-      return variableEntries(
-        text.data.declaration,
-        list.name,
-        isQualifiedOnly(text.data.declaration) ? `${list.name}.` : '',
-      );
+      const declaration = dataText(text, 'declaration');
+      return variableEntries(declaration, list.name, isQualifiedOnly(declaration) ? `${list.name}.` : '');
     });
     return [
       ...local,

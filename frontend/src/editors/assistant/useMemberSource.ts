@@ -1,9 +1,8 @@
 import { kindOf, valuesOf } from '@/project/kinds';
 import { useQueries } from '@tanstack/react-query';
 import { useMemo } from 'react';
-import { api } from '@/api/client';
-import { keys, useObjects } from '@/api/queries';
-import type { ProjectObject, TextData } from '@/api/types';
+import { dataText } from '@/api/objects';
+import { objectQuery, useObjects } from '@/api/queries';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { baseName, parseArrayType, type DeclaredMember, type MemberSource } from '@/iec/declaration/types';
 import { useLibraries } from './useCatalog';
@@ -40,11 +39,7 @@ export function useMemberSource(projectId: string, type: string): MemberSource {
   // Components of components are not known before: all data types of the project are few and cached.
   const wanted = mentioned(type) === '' ? [] : candidates;
   const texts = useQueries({
-    queries: wanted.map((o) => ({
-      queryKey: keys.object(projectId, o.id),
-      queryFn: () => api.get<ProjectObject<TextData>>(`/projects/${projectId}/objects/${o.id}`),
-      staleTime: Infinity,
-    })),
+    queries: wanted.map((o) => objectQuery(projectId, o.id)),
     combine: (answers) => answers.flatMap((answer) => answer.data ?? []),
   });
   return useMemo(() => {
@@ -57,7 +52,7 @@ export function useMemberSource(projectId: string, type: string): MemberSource {
         known.set(name.toUpperCase(), members.length > 0 ? members : null);
       }
     }
-    for (const text of texts) known.set(text.name.toUpperCase(), membersOf(text.data.declaration));
+    for (const text of texts) known.set(text.name.toUpperCase(), membersOf(dataText(text, 'declaration')));
     return (name: string) => known.get(name.toUpperCase()) ?? null;
   }, [libraries, texts]);
 }

@@ -1,8 +1,9 @@
 import { useQuery } from '@tanstack/react-query';
 import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
+import { dataText } from '@/api/objects';
 import { keys, queryClient } from '@/api/queries';
-import type { ProjectObject, TextData } from '@/api/types';
+import type { Revision } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
 import { guard } from '@/ui/notices';
 import { Button } from '@/ui/Button';
@@ -15,15 +16,6 @@ import type { TextDocument } from '@/text/documents';
 import type { Part } from '@/project/partUri';
 import { PartTabs } from './PartTabs';
 
-interface Revision {
-  revision: number;
-  at: string;
-  author: string;
-  comment: string;
-  autosave: boolean;
-  action: string;
-}
-
 interface RevisionsDialogProps {
   monaco: Monaco;
   document: TextDocument;
@@ -35,10 +27,10 @@ interface RevisionsDialogProps {
 /** All stored versions of an object: what each looked like beside today's text, and going back to it. */
 export function RevisionsDialog({ monaco, document, parts, mayRevert, close }: RevisionsDialogProps) {
   const t = useText();
-  const base = `/projects/${document.projectId}/objects/${document.objectId}`;
+  const path = { project_id: document.projectId, object_id: document.objectId };
   const list = useQuery({
     queryKey: [...keys.object(document.projectId, document.objectId), 'revisions'],
-    queryFn: () => api.get<Revision[]>(`${base}/revisions`),
+    queryFn: () => api.get('/api/v1/projects/{project_id}/objects/{object_id}/revisions', { params: { path } }),
     staleTime: 0,
   });
   const [chosen, setChosen] = useState<number | null>(null);
@@ -48,20 +40,26 @@ export function RevisionsDialog({ monaco, document, parts, mayRevert, close }: R
   const shown = chosen ?? revisions[1]?.revision ?? revisions[0]?.revision ?? null;
   const old = useQuery({
     queryKey: [...keys.object(document.projectId, document.objectId), 'revisions', shown],
-    queryFn: () => api.get<ProjectObject<TextData>>(`${base}/revisions/${String(shown)}`),
+    queryFn: () =>
+      api.get('/api/v1/projects/{project_id}/objects/{object_id}/revisions/{revision}', {
+        params: { path: { ...path, revision: shown ?? 0 } },
+      }),
     enabled: shown !== null,
     staleTime: Infinity,
   });
   const revert = async () => {
+    if (shown === null) return;
     const done = await guard(async () => {
       await document.save();
-      await api.post(`${base}/revert`, { revision: shown });
+      await api.post('/api/v1/projects/{project_id}/objects/{object_id}/revert', {
+        params: { path },
+        body: { revision: shown },
+      });
       await queryClient.invalidateQueries({ queryKey: keys.object(document.projectId, document.objectId) });
       return true as const;
     });
     if (done) close(true);
   };
-  const data = old.data?.data;
   const reason = mayRevert ?? (shown === null || shown === current.base.revision ? t('doc.currentRevision') : null);
   return (
     <Dialog
@@ -88,10 +86,10 @@ export function RevisionsDialog({ monaco, document, parts, mayRevert, close }: R
               <span>{t('doc.revision', { revision: shown ?? 0 })}</span>
               <span>{t('doc.textNow')}</span>
             </div>
-            {data === undefined ? (
+            {old.data === undefined ? (
               <Loading />
             ) : (
-              <DiffView monaco={monaco} left={data[part] ?? ''} right={current.text[part]} />
+              <DiffView monaco={monaco} left={dataText(old.data, part)} right={current.text[part]} />
             )}
           </div>
         </div>

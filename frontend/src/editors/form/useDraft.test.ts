@@ -2,18 +2,22 @@
 import { act, createElement, useEffect } from 'react';
 import { createRoot, type Root } from 'react-dom/client';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { ProjectObject } from '@/api/types';
+import { ofKind } from '@/api/objects';
+import type { Schemas } from '@/api/types';
 import { useSelection } from '@/workbench/selection';
 import { useDraft, type Draft } from './useDraft';
 
-type Data = { name: string };
+type Data = Schemas['DeviceData'];
 type Send = { revision: number; data: Data; answer: () => Promise<void> };
 
-const { sent, stored } = vi.hoisted(() => ({ sent: [] as Send[], stored: { revision: 7, data: { name: 'stored' } } }));
+const { sent, stored } = vi.hoisted(() => ({
+  sent: [] as Send[],
+  stored: { revision: 7, data: { description: 'stored' } },
+}));
 
 vi.mock('@/api/queries', () => ({
   StaleObject: class StaleObject extends Error {},
-  useObject: () => ({ data: stored as ProjectObject<Data>, error: null }),
+  useObject: () => ({ data: stored, error: null }),
   saveObject: (_project: string, _object: string, revision: number, data: Data) =>
     new Promise((resolve) => {
       const answer = async () => {
@@ -39,20 +43,21 @@ let draft: Draft<Data>;
 let root: Root;
 
 function Form() {
-  const present = useDraft<Data>('panel', 'project', 'object', () => true);
+  const present = useDraft('panel', 'project', 'object', ofKind('device'), () => true);
   useEffect(() => {
     draft = present;
   });
   return null;
 }
 
+const described = (description: string) => ({ description }) as Data;
 const isDirty = () => useSelection.getState().dirty.has('panel');
 
 beforeEach(() => {
   (globalThis as Record<string, unknown>).IS_REACT_ACT_ENVIRONMENT = true;
   vi.useFakeTimers();
   sent.length = 0;
-  Object.assign(stored, { revision: 7, data: { name: 'stored' } });
+  Object.assign(stored, { revision: 7, data: { description: 'stored' } });
   root = createRoot(document.createElement('div'));
   act(() => root.render(createElement(Form)));
 });
@@ -63,16 +68,16 @@ afterEach(() => {
 
 describe('a form', () => {
   it('is saved a moment after the change, on the revision it shows', async () => {
-    act(() => draft.change({ name: 'a' }));
+    act(() => draft.change(described('a')));
     expect(isDirty()).toBe(true);
     act(() => void vi.advanceTimersByTime(700));
-    expect(sent.map(({ revision, data }) => [revision, data.name])).toEqual([[7, 'a']]);
+    expect(sent.map(({ revision, data }) => [revision, data.description])).toEqual([[7, 'a']]);
     await sent[0]!.answer();
     expect(isDirty()).toBe(false);
   });
 
   it('sends one request at a time: Save while it saves itself is no conflict with oneself', async () => {
-    act(() => draft.change({ name: 'a' }));
+    act(() => draft.change(described('a')));
     act(() => void vi.advanceTimersByTime(700));
     let done = false;
     const saved = save().then(() => (done = true));
@@ -84,25 +89,25 @@ describe('a form', () => {
   });
 
   it('brings what was typed meanwhile on top of the revision just made', async () => {
-    act(() => draft.change({ name: 'a' }));
+    act(() => draft.change(described('a')));
     const first = save();
     await act(() => Promise.resolve());
-    act(() => draft.change({ name: 'b' }));
+    act(() => draft.change(described('b')));
     const second = save();
     await sent[0]!.answer();
     await act(() => first);
     expect(isDirty()).toBe(true);
-    expect(sent.map(({ revision, data }) => [revision, data.name])).toEqual([
+    expect(sent.map(({ revision, data }) => [revision, data.description])).toEqual([
       [7, 'a'],
       [8, 'b'],
     ]);
     await sent[1]!.answer();
     await act(() => second);
-    expect(draft.data).toEqual({ name: 'b' });
+    expect(draft.data).toEqual({ description: 'b' });
   });
 
   it('is known to be stored when Save has ended, for what asks right then', async () => {
-    act(() => draft.change({ name: 'a' }));
+    act(() => draft.change(described('a')));
     const dirtyAfterSave = save().then(isDirty);
     await act(() => Promise.resolve());
     await sent[0]!.answer();

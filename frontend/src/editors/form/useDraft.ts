@@ -1,6 +1,7 @@
 import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import { saveObject, StaleObject, useObject } from '@/api/queries';
-import type { ProjectObject } from '@/api/types';
+import type { Check } from '@/api/objects';
+import type { ObjectSummary, ProjectObject } from '@/api/types';
 import { t } from '@/i18n';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { confirm } from '@/ui/dialogs';
@@ -19,7 +20,7 @@ interface Unsaved<Data> {
 }
 
 export interface Draft<Data> {
-  object: ProjectObject<Data> | undefined;
+  object: ObjectSummary | undefined;
   /** What the form shows: the stored data with the changes made here. */
   data: Data | undefined;
   /** Why nothing can be changed, or null. */
@@ -31,16 +32,17 @@ export interface Draft<Data> {
 }
 
 /**
- * The data of an object being edited in a form. Changes are saved by themselves a moment later, and at once by
+ * The data of an object being edited in a form; `check` demands their shape. Changes are saved by themselves a moment later, and at once by
  * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through the changes of this visit.
  */
-export function useDraft<Data>(
+export function useDraft<Data extends ProjectObject['data']>(
   panelId: string,
   projectId: string,
   objectId: string,
+  check: Check<Data>,
   valid: (data: Data) => boolean,
 ): Draft<Data> {
-  const { data: object, error } = useObject<Data>(projectId, objectId);
+  const { data: object, error } = useObject(projectId, objectId, check);
   const [draft, setDraft] = useState<Unsaved<Data> | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
   const [history, setHistory] = useState<{ past: readonly Data[]; future: readonly Data[] }>({ past: [], future: [] });
@@ -73,13 +75,12 @@ export function useDraft<Data>(
       keep(now === null || now.data === present.data ? null : { ...now, revision: saved.revision });
     } catch (failure) {
       if (failure instanceof StaleObject) {
-        const stale = failure as StaleObject<Data>;
         const mine = await confirm({
-          title: t('conflict.title', { name: stale.current.name }),
+          title: t('conflict.title', { name: failure.current.name }),
           text: t('conflict.text'),
           action: t('conflict.overwrite'),
         });
-        keep(mine ? { data: present.data, revision: stale.current.revision } : null);
+        keep(mine ? { data: present.data, revision: failure.current.revision } : null);
       } else {
         setRefused(explain(failure).text ?? explain(failure).title);
         notifyError(failure);

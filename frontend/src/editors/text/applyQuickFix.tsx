@@ -1,8 +1,9 @@
 /** Applies a quick fix: edits of texts, a declaration, a library reference, new methods and properties. */
-import { hasRole, kindOf } from '@/project/kinds';
+import { hasRole, kindOf, ofRole } from '@/project/kinds';
 import { api } from '@/api/client';
-import { keys, queryClient, saveObject } from '@/api/queries';
-import type { LibraryReference, ObjectSummary, ProjectObject } from '@/api/types';
+import { shaped } from '@/api/objects';
+import { keys, objectQuery, queryClient, saveObject } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
 import { APPLY_QUICK_FIX, titleOfAction, type NewMember, type ServerAction } from '@/lsp/codeActions';
 import { parsePartUri, type PartAddress } from '@/project/partUri';
@@ -81,9 +82,8 @@ async function addLibrary({ projectId, objectId }: PartAddress, name: string): P
     notify({ tone: 'warn', title: t('fix.noLibraryManager'), text: t('fix.noLibraryManagerText', { name }) });
     return;
   }
-  const current = await api.get<ProjectObject<{ references: LibraryReference[] }>>(
-    `/projects/${projectId}/objects/${manager.id}`,
-  );
+  const stored = await queryClient.fetchQuery({ ...objectQuery(projectId, manager.id), staleTime: 0 });
+  const current = shaped(stored, ofRole('libraries'));
   const references = [...current.data.references, { name, version: '*', namespace: '' }];
   await saveObject(projectId, manager.id, current.revision, { ...current.data, references });
   notify({ tone: 'ok', title: t('fix.libraryAdded', { name }) });
@@ -100,7 +100,10 @@ async function implement(projectId: string, owner: string, members: readonly New
     const surplus = objectsOf(projectId).filter(
       (object) => object.parent_id === made.id && !accessors.includes(object.name),
     );
-    for (const accessor of surplus) await api.delete(`/projects/${projectId}/objects/${accessor.id}`);
+    for (const { id } of surplus) {
+      const path = { project_id: projectId, object_id: id };
+      await api.delete('/api/v1/projects/{project_id}/objects/{object_id}', { params: { path } });
+    }
   }
   await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
   notify({ tone: 'ok', title: t('fix.implemented', { names: members.map((member) => member.name).join(', ') }) });

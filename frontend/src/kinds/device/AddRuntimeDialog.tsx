@@ -21,7 +21,7 @@ export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => v
   const add = async () => {
     if (missing) return;
     try {
-      close(await api.post<RuntimeState>('/runtimes', { name: name.trim(), url, token }));
+      close(await api.post('/api/v1/runtimes', { body: { name: name.trim(), url, token } }));
     } catch (error) {
       setRefused(refusalOf(error));
     }

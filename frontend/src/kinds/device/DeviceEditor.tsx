@@ -1,7 +1,6 @@
 import { useQuery } from '@tanstack/react-query';
-import { api } from '@/api/client';
-import { keys } from '@/api/queries';
-import type { DeviceData, RuntimeState } from '@/api/types';
+import { ofKind } from '@/api/objects';
+import { runtimesQuery } from '@/api/queries';
 import { useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
@@ -18,12 +17,8 @@ const DeviceIcon = objectIcon('device');
 /** Communication settings of a device: which runtime it stands for, its state, simulation. */
 export default function DeviceEditor({ panelId, projectId, objectId, visible }: EditorProps) {
   const t = useText();
-  const draft = useDraft<DeviceData>(panelId, projectId, objectId, () => true);
-  const runtimes = useQuery({
-    queryKey: keys.runtimes,
-    queryFn: () => api.get<RuntimeState[]>('/runtimes'),
-    refetchInterval: visible ? POLL_MS : false,
-  });
+  const draft = useDraft(panelId, projectId, objectId, ofKind('device'), () => true);
+  const runtimes = useQuery({ ...runtimesQuery, refetchInterval: visible ? POLL_MS : false });
   const disabled = draft.readOnly !== null;
   return (
     <FormPage draft={draft}>

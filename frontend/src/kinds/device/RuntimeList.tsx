@@ -43,7 +43,7 @@ export function RuntimeList({ runtimes, error, chosen, readOnly, onChoose }: Run
     });
     if (!sure) return;
     await guard(async () => {
-      await api.delete(`/runtimes/${runtime.id}`);
+      await api.delete('/api/v1/runtimes/{runtime_id}', { params: { path: { runtime_id: runtime.id } } });
       await queryClient.invalidateQueries({ queryKey: keys.runtimes });
     });
   };

@@ -1,6 +1,7 @@
 import { Library as LibraryIcon, LibraryBig, Pencil, Plus, Trash2 } from 'lucide-react';
 import { useMemo, useState } from 'react';
-import type { LibraryItem, LibraryManagerData, LibraryReference } from '@/api/types';
+import { ofKind } from '@/api/objects';
+import type { LibraryItem, LibraryReference } from '@/api/types';
 import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
 import type { EditorProps } from '@/project/editorProps';
@@ -28,7 +29,7 @@ import { keyOf, rowsOf } from './model';
  */
 export default function LibraryManagerEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
-  const draft = useDraft<LibraryManagerData>(panelId, projectId, objectId, () => true);
+  const draft = useDraft(panelId, projectId, objectId, ofKind('library_manager'), () => true);
   const installed = useLibraries();
   const [selected, setSelected] = useState<string | null>(null);
   const [open, toggle] = useToggleSet<string>();

@@ -1,5 +1,6 @@
 import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
+import { ofKind } from '@/api/objects';
 import { useObject } from '@/api/queries';
 import { usePreferences } from '@/session/preferences';
 import { useText } from '@/i18n';
@@ -8,19 +9,22 @@ import type { EditorProps } from '@/project/editorProps';
 import { useOnline } from '@/workbench/onlineSession';
 import { Empty, Failed, Loading } from '@/ui/Empty';
 import styles from './Scene.module.css';
-import { runtimeOf, type SceneData } from './model';
+import { runtimeOf } from './model';
 
 /** A 3D scene of the machine, drawn by the server and moved by the values of the runtime. */
 export default function SceneEditor({ projectId, objectId, visible }: EditorProps) {
   const t = useText();
   const dark = usePreferences((state) => state.shown === 'dark');
   const runtimeId = useOnline((state) => runtimeOf(Object.values(state.sessions)));
-  const object = useObject<SceneData>(projectId, objectId);
+  const object = useObject(projectId, objectId, ofKind('scene'));
   const revision = object.data?.revision;
   const view = useQuery({
     queryKey: ['scene', projectId, objectId, revision, runtimeId, dark],
     queryFn: () =>
-      api.post<{ path: string }>(`/projects/${projectId}/objects/${objectId}/view`, { runtime_id: runtimeId, dark }),
+      api.post('/api/v1/projects/{project_id}/objects/{object_id}/view', {
+        params: { path: { project_id: projectId, object_id: objectId } },
+        body: { runtime_id: runtimeId, dark },
+      }),
     enabled: visible && revision !== undefined,
     staleTime: Infinity,
     retry: false,

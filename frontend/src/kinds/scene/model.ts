@@ -1,11 +1,6 @@
 import { LOCAL_RUNTIME } from '@/workbench/online/acts';
 import type { OnlineSession } from '@/workbench/onlineSession';
 
-/** What the front end needs of a scene; the server draws it. */
-export interface SceneData {
-  elements: readonly unknown[];
-}
-
 /** The runtime whose values move the scene: the one logged in to, else the server's own. */
 export function runtimeOf(sessions: readonly OnlineSession[]): string {
   return sessions[0]?.runtimeId ?? LOCAL_RUNTIME;

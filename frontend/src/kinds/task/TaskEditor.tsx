@@ -1,3 +1,4 @@
+import { ofKind } from '@/api/objects';
 import { useObjects } from '@/api/queries';
 import type { TaskData, TaskType } from '@/api/types';
 import { useText } from '@/i18n';
@@ -17,7 +18,7 @@ const TaskIcon = objectIcon('task');
 /** Priority, type, watchdog and the programs of one task. */
 export default function TaskEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
-  const draft = useDraft<TaskData>(panelId, projectId, objectId, canStore);
+  const draft = useDraft(panelId, projectId, objectId, ofKind('task'), canStore);
   const { data: objects } = useObjects(projectId);
   const disabled = draft.readOnly !== null;
   return (

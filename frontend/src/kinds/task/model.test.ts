@@ -88,6 +88,7 @@ describe('programs', () => {
       subkind: kind === 'pou' ? 'program' : null,
       index: 0,
       revision: 1,
+      excluded: false,
     });
     const objects = [
       object('App', 'application', null),

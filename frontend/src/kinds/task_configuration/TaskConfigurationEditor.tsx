@@ -1,8 +1,8 @@
 import { Plus } from 'lucide-react';
 import { useMemo, useState } from 'react';
 import { useQueries } from '@tanstack/react-query';
-import { api } from '@/api/client';
-import { keys, useObjects } from '@/api/queries';
+import { ofKind, shaped } from '@/api/objects';
+import { objectQuery, useObjects } from '@/api/queries';
 import type { ObjectSummary, ProjectObject, TaskData } from '@/api/types';
 import { useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
@@ -73,12 +73,11 @@ function Overview({
   );
   const data = useQueries({
     queries: tasks.map((task) => ({
-      queryKey: keys.object(projectId, task.id),
-      queryFn: () => api.get<ProjectObject<TaskData>>(`/projects/${projectId}/objects/${task.id}`),
-      staleTime: Infinity,
+      ...objectQuery(projectId, task.id),
+      select: (object: ProjectObject) => shaped(object, ofKind('task')).data,
     })),
   });
-  const lines = tasks.map((object, at): TaskLine => ({ object, task: data[at]?.data?.data }));
+  const lines = tasks.map((object, at): TaskLine => ({ object, task: data[at]?.data }));
   const allowed = mayEdit(useCommandContext());
   const refused = allowed === true ? null : reasonText(allowed);
   const add = () => void runCommand('project.addObject', { kind: 'task', parentId: objectId, view: 'devices' });

@@ -34,9 +34,14 @@ const newId = () => `w${String((serial += 1))}-${String(Date.now())}`;
 /** Stored form: only the expressions, since the ids mean something in this page alone. */
 type Stored = Partial<Record<WatchList, readonly string[]>>;
 
-function fromStored(stored: Stored | null): Lists {
-  const list = (number: WatchList) =>
-    (stored?.[number] ?? []).filter((e) => typeof e === 'string').map((expression) => ({ id: newId(), expression }));
+function fromStored(stored: unknown): Lists {
+  const kept = new Map<string, unknown>(Object.entries(stored ?? {}));
+  const list = (number: WatchList) => {
+    const expressions = kept.get(String(number));
+    return (Array.isArray(expressions) ? expressions : [])
+      .filter((one) => typeof one === 'string')
+      .map((expression) => ({ id: newId(), expression }));
+  };
   return { 1: list(1), 2: list(2), 3: list(3), 4: list(4) };
 }
 
@@ -55,7 +60,7 @@ export function followProject(): void {
     useWatchLists.setState({ projectId, lists: EMPTY });
     const mine = (latest += 1);
     if (projectId === null) return;
-    const stored = await loadSetting<Stored>(keyOf(projectId)).catch(() => null);
+    const stored = await loadSetting(keyOf(projectId)).catch(() => null);
     // What was added while loading is not lost.
     if (mine === latest) useWatchLists.setState((now) => ({ lists: joined(fromStored(stored), now.lists) }));
   };

@@ -2,7 +2,7 @@ import { useQuery } from '@tanstack/react-query';
 import { useRef, useState, type KeyboardEvent } from 'react';
 import { api, ApiError } from '@/api/client';
 import { keys } from '@/api/queries';
-import type { BodyLanguage, PlacementRule, ProjectObject } from '@/api/types';
+import type { PlacementRule, ProjectObject } from '@/api/types';
 import { textOf, useText } from '@/i18n';
 import { ACCESS_SPECIFIERS } from '@/iec/grammar';
 import {
@@ -42,7 +42,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
   const t = useText();
   const languages = useQuery({
     queryKey: keys.languages,
-    queryFn: () => api.get<BodyLanguage[]>('/languages'),
+    queryFn: () => api.get('/api/v1/languages'),
     staleTime: Infinity,
   });
   const kinds = placeableKinds(rules, forest, parentId, view);

@@ -55,7 +55,7 @@ const commands: Command[] = [
     enabled: () => (useSession.getState().user ? true : 'reason.notHere'),
     run: async () => {
       if (!(await leaveProject())) return;
-      await api.post('/auth/logout');
+      await api.post('/api/v1/auth/logout');
       queryClient.clear();
       setUser(null);
     },

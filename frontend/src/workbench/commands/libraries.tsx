@@ -1,7 +1,5 @@
 import { LibraryBig, PackageCheck } from 'lucide-react';
-import { api } from '@/api/client';
-import { keys, queryClient } from '@/api/queries';
-import type { LibrarySummary, ProjectSummary } from '@/api/types';
+import { librariesQuery, projectQuery, queryClient } from '@/api/queries';
 import { t } from '@/i18n';
 import { registerCommands, type Command } from '../commands';
 import { openDialog } from '@/ui/dialogs';
@@ -18,11 +16,8 @@ const commands: Command[] = [
       !context.projectId ? 'reason.noProject' : atLeast(context.role, 'engineer') ? true : 'reason.engineer',
     run: async (context) => {
       if (!(await saveEditors(context.dirtyPanels))) return;
-      const project = await api.get<ProjectSummary>(`/projects/${context.projectId}`);
-      const installed = await queryClient.fetchQuery({
-        queryKey: keys.libraries,
-        queryFn: () => api.get<LibrarySummary[]>('/libraries'),
-      });
+      const project = await queryClient.fetchQuery({ ...projectQuery(context.projectId!), staleTime: 0 });
+      const installed = await queryClient.fetchQuery({ ...librariesQuery, staleTime: 0 });
       const { SaveLibraryDialog } = await import('../libraries/SaveLibraryDialog');
       await openDialog((close) => (
         <SaveLibraryDialog

@@ -45,7 +45,10 @@ function excludable(context: CommandContext): Enablement {
 async function excludeObjects(projectId: string, objects: readonly ObjectSummary[]): Promise<void> {
   const excluded = !objects.every((object) => object.excluded);
   for (const { id } of objects) {
-    const changed = await api.patch<ProjectObject>(`/projects/${projectId}/objects/${id}`, { excluded });
+    const changed = await api.patch('/api/v1/projects/{project_id}/objects/{object_id}', {
+      params: { path: { project_id: projectId, object_id: id } },
+      body: { excluded },
+    });
     queryClient.setQueryData(keys.object(projectId, id), changed);
     patchSummary(projectId, changed);
   }

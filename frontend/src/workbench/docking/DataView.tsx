@@ -1,4 +1,5 @@
-import { useObject } from '@/api/queries';
+import { useQuery } from '@tanstack/react-query';
+import { objectQuery } from '@/api/queries';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/project/editorProps';
 import { Failed, Loading } from '@/ui/Empty';
@@ -7,7 +8,7 @@ import styles from './DataView.module.css';
 /** The data of an object whose kind has no editor here, to read: a plug-in of the server may bring such kinds. */
 export function DataView({ projectId, objectId }: EditorProps) {
   const t = useText();
-  const { data: object, error, refetch } = useObject(projectId, objectId);
+  const { data: object, error, refetch } = useQuery(objectQuery(projectId, objectId));
   if (error) return <Failed error={error} retry={() => void refetch()} />;
   if (!object) return <Loading />;
   return (

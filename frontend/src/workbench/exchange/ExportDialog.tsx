@@ -1,7 +1,8 @@
 import { useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { downloadUrl } from '../downloadFile';
+import { api } from '@/api/client';
+import { saveBlob } from '../downloadFile';
 import { guard } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
@@ -9,7 +10,11 @@ import { Field, Select } from '@/ui/Field';
 
 const FORMATS = ['archive', 'plcopen', 'st'] as const;
 type Format = (typeof FORMATS)[number];
-const PATHS: Record<Format, string> = { archive: '', plcopen: '/plcopen', st: '/st' };
+const PATHS = {
+  archive: '/api/v1/projects/{project_id}/export',
+  plcopen: '/api/v1/projects/{project_id}/export/plcopen',
+  st: '/api/v1/projects/{project_id}/export/st',
+} as const satisfies Record<Format, string>;
 
 interface ExportDialogProps {
   projectId: string;
@@ -25,12 +30,12 @@ export function ExportDialog({ projectId, projectName, selection, close }: Expor
   const [scope, setScope] = useState<'whole' | 'selection'>('whole');
   const save = async () => {
     const objects = scope === 'selection' ? selection : [];
-    const query = objects.map(({ id }) => `object=${id}`).join('&');
     const single = objects.length === 1 ? objects[0] : undefined;
     const name = single?.name ?? projectName;
     const done = await guard(async () => {
-      const path = `/projects/${projectId}/export${PATHS[format]}`;
-      await downloadUrl(query ? `${path}?${query}` : path, (type) => `${name}.${endingOf(format, type)}`);
+      const params = { path: { project_id: projectId }, query: { object: objects.map(({ id }) => id) } };
+      const blob = await api.download(PATHS[format], { params });
+      saveBlob(blob, `${name}.${endingOf(format, blob.type)}`);
       return true;
     });
     if (done) close();

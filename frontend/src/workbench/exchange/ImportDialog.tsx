@@ -1,5 +1,5 @@
 import { useMemo, useState } from 'react';
-import { api } from '@/api/client';
+import { api, isCancelled } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ImportEntry, ImportPreview, ImportResult, ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
@@ -8,7 +8,7 @@ import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { Loading } from '@/ui/Empty';
 import { Field, Select, TextInput } from '@/ui/Field';
-import { formOf, type NamedFile } from './dropped';
+import { filesToSend, type NamedFile } from './dropped';
 import styles from './Exchange.module.css';
 import { FilesStep } from './FilesStep';
 import { ImportTree } from './ImportTree';
@@ -60,30 +60,30 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
     try {
       await act(controller.signal);
     } catch (error) {
-      if (!(error instanceof DOMException && error.name === 'AbortError')) notifyError(error);
+      if (!isCancelled(error)) notifyError(error);
     } finally {
       setAbort(null);
     }
   };
   const preview = () =>
     run(async (signal) => {
-      const form = formOf(files);
-      if (here) {
-        form.set('project_id', here.projectId);
-        form.set('place', place);
-      }
-      const found = await api.post<ImportPreview>('/projects/preview-files', form, { signal });
+      const target = here && { project_id: here.projectId, place };
+      const body = { files: filesToSend(files), ...target };
+      const found = await api.post('/api/v1/projects/preview-files', { body, signal });
       setChosen(new Set(found.nodes.map((node) => node.key)));
       setStep({ at: 'choose', preview: found });
     });
   const importNow = (found: ImportPreview) =>
     run(async (signal) => {
-      const form = formOf(files);
-      if (chosen.size < found.nodes.length) form.set('chosen', JSON.stringify([...chosen]));
-      if (here) form.set('place', place);
-      else if (name.trim()) form.set('name', name.trim());
-      const path = here ? `/projects/${here.projectId}/import-files` : '/projects/import-files';
-      const result = await api.post<ImportResult>(path, form, { signal });
+      const all = chosen.size === found.nodes.length;
+      const order = { files: filesToSend(files), chosen: all ? null : JSON.stringify([...chosen]) };
+      const result = await (here
+        ? api.post('/api/v1/projects/{project_id}/import-files', {
+            params: { path: { project_id: here.projectId } },
+            body: { ...order, place },
+            signal,
+          })
+        : api.post('/api/v1/projects/import-files', { body: { ...order, name: name.trim() || null }, signal }));
       await queryClient.invalidateQueries({ queryKey: here ? keys.objects(here.projectId) : keys.projects });
       setStep({ at: 'report', result });
     });

@@ -32,7 +32,7 @@ export async function chosenFiles(files: Iterable<File>): Promise<NamedFile[]> {
 function formats(): Promise<ImportFormats> {
   return queryClient.fetchQuery({
     queryKey: keys.importFormats,
-    queryFn: () => api.get<ImportFormats>('/import-formats'),
+    queryFn: () => api.get('/api/v1/import-formats'),
     staleTime: Infinity,
   });
 }
@@ -74,9 +74,7 @@ function fileOf(entry: FileSystemFileEntry): Promise<File> {
   return new Promise((resolve, reject) => entry.file(resolve, reject));
 }
 
-/** The files as a form for the server, with their paths. */
-export function formOf(files: readonly NamedFile[]): FormData {
-  const form = new FormData();
-  for (const { path, file } of files) form.append('files', file, path);
-  return form;
+/** The files as the server gets them: called by their paths. */
+export function filesToSend(files: readonly NamedFile[]): File[] {
+  return files.map(({ path, file }) => new File([file], path, { type: file.type }));
 }

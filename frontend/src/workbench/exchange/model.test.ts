@@ -74,6 +74,7 @@ const object = (id: string, kind: string, parent_id: string | null, index = 0): 
   subkind: null,
   index,
   revision: 1,
+  excluded: false,
 });
 const objects = [
   object('plc', 'device', null),

@@ -2,10 +2,9 @@ import { hasRole } from '@/project/kinds';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef, useState } from 'react';
 import type { SerializedDockview } from 'dockview-react';
-import { api } from '@/api/client';
-import { keys, useObjects } from '@/api/queries';
+import { projectQuery, useObjects } from '@/api/queries';
 import type { ObjectSummary, ProjectSummary } from '@/api/types';
-import { loadSetting, saveSetting } from '@/session/preferences';
+import { loadNames, loadSetting, saveSetting } from '@/session/preferences';
 import { go } from '@/session/route';
 import { useText } from '@/i18n';
 import { warnBeforeLeaving } from '../docking/close';
@@ -33,10 +32,7 @@ import styles from './Workbench.module.css';
 /** The whole frame around one open project. */
 export function Workbench({ projectId }: { projectId: string }) {
   const t = useText();
-  const project = useQuery({
-    queryKey: keys.project(projectId),
-    queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`),
-  });
+  const project = useQuery(projectQuery(projectId));
   const objects = useObjects(projectId);
   usePlacement();
   const failed = project.error ?? objects.error;
@@ -139,10 +135,13 @@ function useActiveApplication(projectId: string, objects: readonly ObjectSummary
   const applicationId = useProject((state) => state.applicationId);
   useEffect(() => {
     useProject.setState({ projectId });
-    void loadSetting<string>(`application.${projectId}`)
+    void loadSetting(`application.${projectId}`)
       .catch(() => null)
       .then((stored) => {
-        if (stored && objects.some((object) => object.id === stored && hasRole(object, 'application')))
+        if (
+          typeof stored === 'string' &&
+          objects.some((object) => object.id === stored && hasRole(object, 'application'))
+        )
           useProject.setState({ applicationId: stored });
       });
     // eslint-disable-next-line react-hooks/exhaustive-deps -- the stored choice is read once per project
@@ -159,8 +158,7 @@ const RECENT = 12;
 
 /** Puts the project at the head of the recent ones. */
 async function rememberVisit(projectId: string): Promise<void> {
-  const stored = await loadSetting<string[]>('recent').catch(() => null);
-  const recent = Array.isArray(stored) ? stored : [];
+  const recent = (await loadNames('recent').catch(() => null)) ?? [];
   await saveSetting('recent', [projectId, ...recent.filter((id) => id !== projectId)].slice(0, RECENT)).catch(
     () => undefined,
   );

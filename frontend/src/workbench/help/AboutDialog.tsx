@@ -5,13 +5,9 @@ import { TappetMark } from '@/icons/TappetMark';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 
-interface Health {
-  version?: string;
-}
-
 export function AboutDialog({ close }: { close: () => void }) {
   const t = useText();
-  const { data } = useQuery({ queryKey: ['health'], queryFn: () => api.get<Health>('/health') });
+  const { data } = useQuery({ queryKey: ['health'], queryFn: () => api.get('/api/v1/health') });
   return (
     <Dialog
       title={t('command.about')}

@@ -27,10 +27,14 @@ interface HistoryDialogProps {
 /** All saves, newest first; going back makes a new revision, so nothing is ever lost. */
 export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) {
   const t = useText();
-  const path = object ? `/projects/${projectId}/objects/${object.id}` : `/projects/${projectId}`;
+  const path = { project_id: projectId };
+  const objectPath = object && { ...path, object_id: object.id };
   const { data, error, refetch } = useQuery({
-    queryKey: ['revisions', path],
-    queryFn: () => api.get<Revision[]>(`${path}/revisions`),
+    queryKey: ['revisions', projectId, object?.id],
+    queryFn: () =>
+      objectPath
+        ? api.get('/api/v1/projects/{project_id}/objects/{object_id}/revisions', { params: { path: objectPath } })
+        : api.get('/api/v1/projects/{project_id}/revisions', { params: { path } }),
     staleTime: 0,
     gcTime: 0,
   });
@@ -102,7 +106,10 @@ export function HistoryDialog({ projectId, object, close }: HistoryDialogProps) 
     });
     if (!sure) return;
     await guard(async () => {
-      await api.post(`${path}/revert`, { revision: selected.revision });
+      const body = { revision: selected.revision };
+      await (objectPath
+        ? api.post('/api/v1/projects/{project_id}/objects/{object_id}/revert', { params: { path: objectPath }, body })
+        : api.post('/api/v1/projects/{project_id}/revert', { params: { path }, body }));
       await queryClient.invalidateQueries({ queryKey: keys.project(projectId) });
       notify({ tone: 'ok', title: t('history.reverted', { revision: selected.revision }) });
       close();

@@ -2,10 +2,10 @@ import { Download, PackagePlus, Trash2 } from 'lucide-react';
 import { useRef, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
-import type { LibrarySummary, LibraryUse } from '@/api/types';
+import type { LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { confirm } from '@/ui/dialogs';
-import { downloadUrl } from '../downloadFile';
+import { saveBlob } from '../downloadFile';
 import { guard, notify } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
@@ -17,8 +17,11 @@ import styles from './Libraries.module.css';
 import { idOf } from './model';
 import { useLibraries } from './useLibraries';
 
-const urlOf = ({ name, version }: LibrarySummary) =>
-  `/libraries/${encodeURIComponent(name)}/${encodeURIComponent(version)}`;
+const at = ({ name, version }: LibrarySummary) => ({ params: { path: { name, version } } });
+
+async function saveFile(library: LibrarySummary): Promise<void> {
+  saveBlob(await api.download('/api/v1/libraries/{name}/{version}/file', at(library)), `${idOf(library)}.tappetlib`);
+}
 
 /** All installed libraries: installing a file, saving one as a file, uninstalling a version (LIB-08). */
 export function RepositoryDialog({ readOnly, close }: { readOnly: string | null; close: () => void }) {
@@ -31,9 +34,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
 
   const install = async (files: readonly File[]) => {
     for (const one of files) {
-      const form = new FormData();
-      form.set('file', one);
-      const added = await guard(() => api.post<LibrarySummary>('/libraries', form));
+      const added = await guard(() => api.post('/api/v1/libraries', { body: { file: one } }));
       if (!added) continue;
       await queryClient.invalidateQueries({ queryKey: keys.libraries });
       setSelected(idOf(added));
@@ -41,7 +42,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
     }
   };
   const uninstall = async (library: LibrarySummary) => {
-    const uses = await guard(() => api.get<LibraryUse[]>(`${urlOf(library)}/projects`));
+    const uses = await guard(() => api.get('/api/v1/libraries/{name}/{version}/projects', at(library)));
     if (!uses) return;
     const projects = [...new Set(uses.map((use) => use.project_name))];
     const sure = await confirm({
@@ -53,7 +54,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
       danger: true,
     });
     if (!sure) return;
-    await guard(() => api.delete(urlOf(library)));
+    await guard(() => api.delete('/api/v1/libraries/{name}/{version}', at(library)));
     await queryClient.invalidateQueries({ queryKey: keys.libraries });
   };
 
@@ -108,9 +109,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
           <Button
             icon={Download}
             disabledReason={chosen ? null : t('library.chooseOne')}
-            onClick={() =>
-              chosen && void guard(() => downloadUrl(`${urlOf(chosen)}/file`, `${idOf(chosen)}.tappetlib`))
-            }
+            onClick={() => chosen && void guard(() => saveFile(chosen))}
           >
             {t('libraries.saveFile')}
           </Button>

@@ -37,7 +37,10 @@ export function SaveLibraryDialog({ projectId, projectName, description, install
     if (saving || Object.values(faults).some(Boolean)) return;
     setSaving(true);
     try {
-      const saved = await api.post<LibrarySummary>(`/projects/${projectId}/library`, facts);
+      const saved = await api.post('/api/v1/projects/{project_id}/library', {
+        params: { path: { project_id: projectId } },
+        body: facts,
+      });
       await queryClient.invalidateQueries({ queryKey: keys.libraries });
       notify({ tone: 'ok', title: t('libraries.saved', { name: idOf(saved) }) });
       close();

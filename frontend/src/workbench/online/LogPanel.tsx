@@ -47,10 +47,8 @@ function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
     queryKey: keys.log(runtimeId),
     queryFn: async () => {
       const known = queryClient.getQueryData<LogEntry[]>(keys.log(runtimeId)) ?? [];
-      return merged(
-        known,
-        await api.get<LogEntry[]>(`/runtimes/${runtimeId}/log`, { query: { since: known.at(-1)?.id ?? 0 } }),
-      );
+      const params = { path: { runtime_id: runtimeId }, query: { since: known.at(-1)?.id ?? 0 } };
+      return merged(known, await api.get('/api/v1/runtimes/{runtime_id}/log', { params }));
     },
     refetchInterval: POLL_MS,
     retry: false,

@@ -115,7 +115,11 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
   const reset = (names: readonly string[]) =>
     void guard(async () => {
       await Promise.all(
-        names.map((name) => api.post(`/runtimes/${runtimeId}/tasks/${encodeURIComponent(name)}/reset`)),
+        names.map((task) =>
+          api.post('/api/v1/runtimes/{runtime_id}/tasks/{task}/reset', {
+            params: { path: { runtime_id: runtimeId, task } },
+          }),
+        ),
       );
       await queryClient.invalidateQueries({ queryKey: keys.tasks(runtimeId) });
     });

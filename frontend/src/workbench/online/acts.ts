@@ -1,7 +1,8 @@
 /** What the online commands do: build, find the runtime, log in by relation, download, start, stop, reset. */
-import { api } from '@/api/client';
-import { keys, queryClient } from '@/api/queries';
-import type { BuildReport, DeviceData, LoginAnswer, ObjectSummary, ProjectObject, RuntimeState } from '@/api/types';
+import { api, isCancelled } from '@/api/client';
+import { shaped } from '@/api/objects';
+import { keys, objectQuery, queryClient, runtimesQuery } from '@/api/queries';
+import type { BuildReport, LoginAnswer, ObjectSummary, RuntimeState } from '@/api/types';
 import { language, t } from '@/i18n';
 import { saveObject } from '@/api/queries';
 import { commandContext, type CommandContext } from '../context';
@@ -10,6 +11,7 @@ import { showPanel } from '../docking/dock';
 import { buildFinished } from '../messages/store';
 import { notify } from '@/ui/notices';
 import { loggedIn, loggedOut, relationChanged, runtimePolled } from '../onlineSession';
+import { ofRole } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
 import { atLeast } from '../rights';
 import { askDownload, askLogin, askRuntime } from './dialogs';
@@ -29,28 +31,28 @@ async function busy<Answer>(text: string, act: (signal: AbortSignal) => Promise<
   }
 }
 
-/** A cancelled request is an answer of its own, not a failure. */
-function isCancelled(error: unknown): boolean {
-  return error instanceof DOMException && error.name === 'AbortError';
-}
-
 function nameOf(context: CommandContext): string {
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(context.projectId!)) ?? [];
   return objects.find((object) => object.id === context.applicationId)?.name ?? '';
 }
 
+/** Place of the active application in requests. */
+function applicationPath({ projectId, applicationId }: CommandContext) {
+  return { project_id: projectId!, application_id: applicationId! };
+}
+
+function inLanguage(context: CommandContext, signal: AbortSignal) {
+  return { params: { path: applicationPath(context), query: { language: language() } }, signal };
+}
+
 /** Saves what is open and builds the active application. Null when it was cancelled or something could not be saved. */
 export async function build(context: CommandContext): Promise<BuildReport | null> {
-  const { projectId, applicationId } = context;
+  const { applicationId } = context;
   if (!(await saveEditors(context.dirtyPanels))) return null;
   const applicationName = nameOf(context);
   try {
     const report = await busy(t('busy.build', { name: applicationName }), (signal) =>
-      api.post<BuildReport>(
-        `/projects/${projectId}/applications/${applicationId}/build?language=${language()}`,
-        undefined,
-        { signal },
-      ),
+      api.post('/api/v1/projects/{project_id}/applications/{application_id}/build', inLanguage(context, signal)),
     );
     buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
     if (!report.ok) showPanel('messages', false);
@@ -64,15 +66,14 @@ export async function build(context: CommandContext): Promise<BuildReport | null
 
 /** Checks the active application with all coding rules it has chosen. Null when it was cancelled. */
 export async function analyse(context: CommandContext): Promise<BuildReport | null> {
-  const { projectId, applicationId } = context;
+  const { applicationId } = context;
   if (!(await saveEditors(context.dirtyPanels))) return null;
   const applicationName = nameOf(context);
   try {
     const report = await busy(t('busy.analysis', { name: applicationName }), (signal) =>
-      api.post<BuildReport>(
-        `/projects/${projectId}/applications/${applicationId}/static-analysis?language=${language()}`,
-        undefined,
-        { signal },
+      api.post(
+        '/api/v1/projects/{project_id}/applications/{application_id}/static-analysis',
+        inLanguage(context, signal),
       ),
     );
     buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
@@ -96,15 +97,9 @@ function compare(context: CommandContext, runtimeId: string): Promise<LoginAnswe
 
 /** The runtime that the active application's device leads to; asks when none has been chosen. Null when cancelled. */
 async function findRuntime(context: CommandContext): Promise<RuntimeState | null> {
-  const device = await queryClient.ensureQueryData({
-    queryKey: keys.object(context.projectId!, context.deviceId!),
-    queryFn: () => api.get<ProjectObject<DeviceData>>(`/projects/${context.projectId}/objects/${context.deviceId}`),
-  });
-  const runtimes = await queryClient.fetchQuery({
-    queryKey: keys.runtimes,
-    queryFn: () => api.get<RuntimeState[]>('/runtimes'),
-    staleTime: 0,
-  });
+  const stored = await queryClient.ensureQueryData(objectQuery(context.projectId!, context.deviceId!));
+  const device = shaped(stored, ofRole('device'));
+  const runtimes = await queryClient.fetchQuery({ ...runtimesQuery, staleTime: 0 });
   const wanted = device.data.simulated ? LOCAL_RUNTIME : device.data.runtime_id;
   const found = runtimes.find((runtime) => runtime.id === wanted);
   if (found) return found;
@@ -160,22 +155,23 @@ async function load(
 ): Promise<void> {
   const name = nameOf(context);
   await busy(t(mode === 'download' ? 'busy.download' : 'busy.onlineChange', { name }), () =>
-    api.post(`/projects/${context.projectId}/applications/${context.applicationId}/download`, {
-      runtime_id: runtimeId,
-      mode,
-      start,
+    api.post('/api/v1/projects/{project_id}/applications/{application_id}/download', {
+      params: { path: applicationPath(context) },
+      body: { runtime_id: runtimeId, mode, start },
     }),
   );
   if (commandContext().online?.runtimeId === runtimeId) relationChanged(context.applicationId!, 'same');
   else loggedIn(context.applicationId!, runtimeId, 'same');
-  runtimePolled(runtimeId, await api.get<RuntimeState>(`/runtimes/${runtimeId}`));
+  runtimePolled(runtimeId, await api.get('/api/v1/runtimes/{runtime_id}', runtimeAt(runtimeId)));
   notify({ tone: 'ok', title: t(mode === 'download' ? 'login.downloaded' : 'login.changed', { name }) });
 }
 
 /** Ends showing values; the controller keeps running. */
 export async function logout(context: CommandContext): Promise<void> {
   loggedOut(context.applicationId!);
-  await api.post(`/projects/${context.projectId}/applications/${context.applicationId}/logout`);
+  await api.post('/api/v1/projects/{project_id}/applications/{application_id}/logout', {
+    params: { path: applicationPath(context) },
+  });
 }
 
 /** Download while logged in: builds and asks before it stops the machine. */
@@ -207,14 +203,25 @@ export async function onlineChange(context: CommandContext): Promise<void> {
   }
 }
 
-export async function runtimeAct(context: CommandContext, act: 'start' | 'stop' | 'single-cycle'): Promise<void> {
+const ACTS = {
+  start: '/api/v1/runtimes/{runtime_id}/start',
+  stop: '/api/v1/runtimes/{runtime_id}/stop',
+  'single-cycle': '/api/v1/runtimes/{runtime_id}/single-cycle',
+} as const;
+
+function runtimeAt(runtimeId: string) {
+  return { params: { path: { runtime_id: runtimeId } } };
+}
+
+export async function runtimeAct(context: CommandContext, act: keyof typeof ACTS): Promise<void> {
   const runtimeId = context.online!.runtimeId;
-  runtimePolled(runtimeId, await api.post<RuntimeState>(`/runtimes/${runtimeId}/${act}`));
+  runtimePolled(runtimeId, await api.post(ACTS[act], runtimeAt(runtimeId)));
 }
 
 export async function reset(context: CommandContext, kind: 'warm' | 'cold' | 'origin'): Promise<void> {
   const runtimeId = context.online!.runtimeId;
-  runtimePolled(runtimeId, await api.post<RuntimeState>(`/runtimes/${runtimeId}/reset`, { kind }));
+  const order = { ...runtimeAt(runtimeId), body: { kind } };
+  runtimePolled(runtimeId, await api.post('/api/v1/runtimes/{runtime_id}/reset', order));
   // Reset origin unloads the application: there is nothing left to be logged in to.
   if (kind === 'origin') loggedOut(context.applicationId!);
 }

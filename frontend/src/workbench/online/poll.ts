@@ -2,8 +2,8 @@
 import { useQuery, type UseQueryResult } from '@tanstack/react-query';
 import { useEffect } from 'react';
 import { api, ApiError } from '@/api/client';
-import { keys } from '@/api/queries';
-import type { RuntimeState, TaskState } from '@/api/types';
+import { keys, runtimeQuery } from '@/api/queries';
+import type { TaskState } from '@/api/types';
 import { connectionLost, runtimePolled } from '../onlineSession';
 
 const STATE_MS = 2000;
@@ -12,8 +12,7 @@ const TASKS_MS = 1000;
 /** Follows a runtime's state; the online socket is quicker, this also works without it. */
 export function useRuntimeState(runtimeId: string | null): void {
   const { data, error, dataUpdatedAt } = useQuery({
-    queryKey: keys.runtime(runtimeId ?? ''),
-    queryFn: () => api.get<RuntimeState>(`/runtimes/${runtimeId}`),
+    ...runtimeQuery(runtimeId ?? ''),
     enabled: runtimeId !== null,
     refetchInterval: STATE_MS,
     retry: false,
@@ -28,9 +27,10 @@ export function useRuntimeState(runtimeId: string | null): void {
 
 /** Statistics of the tasks, once a second while somebody looks. */
 export function useTasks(runtimeId: string | null): UseQueryResult<TaskState[]> {
+  const path = { runtime_id: runtimeId ?? '' };
   return useQuery({
     queryKey: keys.tasks(runtimeId ?? ''),
-    queryFn: () => api.get<TaskState[]>(`/runtimes/${runtimeId}/tasks`),
+    queryFn: () => api.get('/api/v1/runtimes/{runtime_id}/tasks', { params: { path } }),
     enabled: runtimeId !== null,
     refetchInterval: TASKS_MS,
     retry: false,

@@ -11,8 +11,10 @@ export type Compare = (session: OnlineSession) => Promise<LoginAnswer>;
 
 /** Asks the server how the stored application relates to the one in the runtime; nothing is loaded. */
 export function compareLogin(projectId: string, applicationId: string, runtimeId: string): Promise<LoginAnswer> {
-  const path = `/projects/${projectId}/applications/${applicationId}/login`;
-  return api.post<LoginAnswer>(path, { runtime_id: runtimeId });
+  return api.post('/api/v1/projects/{project_id}/applications/{application_id}/login', {
+    params: { path: { project_id: projectId, application_id: applicationId } },
+    body: { runtime_id: runtimeId },
+  });
 }
 
 export interface RelationFollower {

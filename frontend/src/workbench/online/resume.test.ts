@@ -19,10 +19,10 @@ const held = { 'tappet.online.p': '{"app":"local"}' };
 const settled = () => new Promise((resolve) => setTimeout(resolve));
 
 function server(state: RuntimeState, relation: LoginAnswer['relation'] | Error): void {
-  vi.spyOn(api, 'get').mockResolvedValue(state);
+  vi.spyOn(api, 'get').mockResolvedValue(state as never);
   const post = vi.spyOn(api, 'post');
   if (relation instanceof Error) post.mockRejectedValue(relation);
-  else post.mockResolvedValue({ relation, reasons: [] });
+  else post.mockResolvedValue({ relation, reasons: [] } as never);
 }
 
 beforeEach(() => useOnline.setState({ sessions: {} }));

@@ -1,6 +1,6 @@
 /** A reloaded page takes up the logins it had: the tab remembers them, the project's end forgets them. */
 import { api } from '@/api/client';
-import type { LoginRelation, RuntimeState } from '@/api/types';
+import type { LoginRelation } from '@/api/types';
 import { loggedIn, runtimePolled, useOnline } from '../onlineSession';
 import { compareLogin } from './relation';
 
@@ -32,7 +32,7 @@ export function rememberedLogins(store: TabStore, projectId: string): Record<str
 export function resumeLogins(projectId: string, store: TabStore = sessionStorage): Resumption {
   let closed = false;
   const resume = async (applicationId: string, runtimeId: string) => {
-    const runtime = await api.get<RuntimeState>(`/runtimes/${runtimeId}`);
+    const runtime = await api.get('/api/v1/runtimes/{runtime_id}', { params: { path: { runtime_id: runtimeId } } });
     if (!runtime.connected || runtime.state === 'empty') return;
     const relation = await compareLogin(projectId, applicationId, runtimeId).then(
       (answer) => answer.relation,

@@ -34,7 +34,7 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
   const create = async () => {
     if (fault) return;
     try {
-      const project = await api.post<ProjectSummary>('/projects', { name: name.trim(), template });
+      const project = await api.post('/api/v1/projects', { body: { name: name.trim(), template } });
       void queryClient.invalidateQueries({ queryKey: keys.projects });
       close(project);
     } catch (error) {

@@ -1,7 +1,7 @@
 import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';
 import { api } from '@/api/client';
-import { keys, queryClient, useObjects } from '@/api/queries';
+import { keys, projectQuery, queryClient, useObjects } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { secondText } from '../clock';
@@ -18,10 +18,7 @@ import fields from '@/ui/Field.module.css';
 /** Name, description and size of the project. */
 export function ProjectInfoDialog({ projectId, close }: { projectId: string; close: () => void }) {
   const t = useText();
-  const { data, error } = useQuery({
-    queryKey: keys.project(projectId),
-    queryFn: () => api.get<ProjectSummary>(`/projects/${projectId}`),
-  });
+  const { data, error } = useQuery(projectQuery(projectId));
   if (error || !data) {
     return (
       <Dialog title={t('command.projectInformation')} onClose={close}>
@@ -43,7 +40,10 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
   const save = async () => {
     if (fault) return;
     const saved = await guard(() =>
-      api.patch<ProjectSummary>(`/projects/${project.id}`, { name: name.trim(), description }),
+      api.patch('/api/v1/projects/{project_id}', {
+        params: { path: { project_id: project.id } },
+        body: { name: name.trim(), description },
+      }),
     );
     if (!saved) return;
     queryClient.setQueryData(keys.project(project.id), saved);

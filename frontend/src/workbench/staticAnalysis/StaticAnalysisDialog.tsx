@@ -2,9 +2,11 @@ import { useQuery } from '@tanstack/react-query';
 import { ChevronRight, Search } from 'lucide-react';
 import { useRef, useState } from 'react';
 import { api } from '@/api/client';
-import { saveObject, useObject } from '@/api/queries';
-import type { ApplicationData, CodingRule, ObjectSummary, ProjectObject, StaticAnalysisData } from '@/api/types';
+import { shaped } from '@/api/objects';
+import { objectQuery, queryClient, saveObject, useObject } from '@/api/queries';
+import type { CodingRule, ObjectOf, ObjectSummary, Schemas, StaticAnalysisData } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
+import { ofRole } from '@/project/kinds';
 import { guard } from '@/ui/notices';
 import { useToggleSet } from '@/ui/toggleSet';
 import { Button } from '@/ui/Button';
@@ -31,10 +33,10 @@ export function StaticAnalysisDialog(props: StaticAnalysisDialogProps) {
   const t = useText();
   const language = useLanguage();
   const [applicationId, setApplicationId] = useState(props.applicationId);
-  const application = useObject<ApplicationData>(projectId, applicationId);
+  const application = useObject(projectId, applicationId, ofRole('application'));
   const rules = useQuery({
     queryKey: ['static-analysis', 'rules', language],
-    queryFn: () => api.get<CodingRule[]>(`/static-analysis/rules?language=${language}`),
+    queryFn: () => api.get('/api/v1/static-analysis/rules', { params: { query: { language } } }),
     staleTime: Infinity,
   });
   const error = application.error ?? rules.error;
@@ -61,7 +63,7 @@ export function StaticAnalysisDialog(props: StaticAnalysisDialogProps) {
 
 interface SettingsFormProps {
   projectId: string;
-  application: ProjectObject<ApplicationData>;
+  application: ObjectOf<Schemas['ApplicationData']>;
   applications: readonly ObjectSummary[];
   rules: readonly CodingRule[];
   readOnly: string | null;
@@ -202,15 +204,18 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
   );
 }
 
+async function applicationNow(projectId: string, applicationId: string) {
+  const stored = await queryClient.fetchQuery({ ...objectQuery(projectId, applicationId), staleTime: 0 });
+  return shaped(stored, ofRole('application'));
+}
+
 /** Stores the choice on top of what the application is now. */
 async function saveSettings(projectId: string, applicationId: string, chosen: StaticAnalysisData): Promise<void> {
-  const path = `/projects/${projectId}/objects/${applicationId}`;
-  const now = await api.get<ProjectObject<ApplicationData>>(path);
+  const now = await applicationNow(projectId, applicationId);
   await saveObject(projectId, applicationId, now.revision, { ...now.data, static_analysis: chosen });
 }
 
 /** The stored choice of an application. */
 export async function storedRules(projectId: string, applicationId: string): Promise<StaticAnalysisData> {
-  const path = `/projects/${projectId}/objects/${applicationId}`;
-  return (await api.get<ProjectObject<ApplicationData>>(path)).data.static_analysis ?? NO_RULES;
+  return (await applicationNow(projectId, applicationId)).data.static_analysis ?? NO_RULES;
 }

@@ -49,14 +49,15 @@ async function run(context: CommandContext, only: readonly string[]): Promise<vo
   const { projectId, applicationId } = context;
   if (!projectId || !applicationId || !(await saveEditors(context.dirtyPanels))) return;
   showPanel('tests', false);
-  const path = `/projects/${projectId}/applications/${applicationId}/tests`;
-  const cancel = () => void api.delete(path).catch(() => undefined); // it may have ended by itself
+  const path = '/api/v1/projects/{project_id}/applications/{application_id}/tests';
+  const params = { path: { project_id: projectId, application_id: applicationId } };
+  const cancel = () => void api.delete(path, { params }).catch(() => undefined); // it may have ended by itself
   useProject.setState({ busy: { text: t('tests.running'), cancel } });
   const begun = performance.now();
   try {
     const before = lastRunOf(projectId)?.report;
     const filter = only.length > 0 ? '' : useTests.getState().filter;
-    const now = await api.post<TestReport>(path, { filter, only });
+    const now = await api.post(path, { params, body: { filter, only: [...only] } });
     const report = before && only.length > 0 ? withOthers(before, now, only) : now;
     const seconds = (performance.now() - begun) / 1000;
     useTests.setState({ last: { projectId, applicationId, report, seconds } });

@@ -22,7 +22,7 @@ export function NewUserDialog({ close }: { close: (account?: Account) => void })
   const create = async () => {
     if (missing) return;
     try {
-      close(await api.post<Account>('/users', { username, password, role }));
+      close(await api.post('/api/v1/users', { body: { username, password, role } }));
     } catch (error) {
       setRefused(refusalOf(error));
     }

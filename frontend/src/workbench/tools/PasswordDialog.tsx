@@ -19,7 +19,7 @@ export function PasswordDialog({ close }: { close: () => void }) {
   const save = async () => {
     if (missing) return;
     try {
-      await api.post('/auth/password', { current, new: next });
+      await api.post('/api/v1/auth/password', { body: { current, new: next } });
       notify({ tone: 'ok', title: t('password.changed') });
       close();
     } catch (error) {

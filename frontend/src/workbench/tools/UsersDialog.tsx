@@ -19,18 +19,19 @@ import { NewUserDialog } from './NewUserDialog';
 
 const ROLES: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
 const KEY = ['users'];
+const at = ({ id }: Account) => ({ params: { path: { user_id: id } } });
 
 /** Accounts of this server, for administrators. */
 export function UsersDialog({ close }: { close: () => void }) {
   const t = useText();
   const me = useSession((state) => state.user?.id);
-  const { data, error, refetch } = useQuery({ queryKey: KEY, queryFn: () => api.get<Account[]>('/users') });
+  const { data, error, refetch } = useQuery({ queryKey: KEY, queryFn: () => api.get('/api/v1/users') });
   const [selected, setSelected] = useState<string | null>(null);
 
   const columns = useMemo((): Column<Account>[] => {
     const change = (account: Account, role: Role) =>
       void guard(async () => {
-        await api.patch(`/users/${account.id}`, { role });
+        await api.patch('/api/v1/users/{user_id}', { ...at(account), body: { role } });
         await queryClient.invalidateQueries({ queryKey: KEY });
       });
     const remove = async (account: Account) => {
@@ -42,7 +43,7 @@ export function UsersDialog({ close }: { close: () => void }) {
       });
       if (!sure) return;
       await guard(async () => {
-        await api.delete(`/users/${account.id}`);
+        await api.delete('/api/v1/users/{user_id}', at(account));
         await queryClient.invalidateQueries({ queryKey: KEY });
       });
     };

@@ -15,14 +15,13 @@ import { Empty, Failed, Loading } from '@/ui/Empty';
 import { Panel } from '@/ui/Panel';
 import { forestOf, rootsOf, rowsOf, type TreeView } from '@/project/tree';
 import { ObjectTree } from './ObjectTree';
-import type { PlacementRule } from '@/api/types';
 import { TreeFilter } from './TreeFilter';
 
 /** The placement rules; they do not change while the server runs. */
 export function usePlacement() {
   return useQuery({
     queryKey: keys.placement,
-    queryFn: () => api.get<PlacementRule[]>('/placement'),
+    queryFn: () => api.get('/api/v1/placement'),
     staleTime: Infinity,
   });
 }

@@ -2,7 +2,7 @@
 import { kindOf } from '@/project/kinds';
 import { api } from '@/api/client';
 import { keys, patchSummary, queryClient, summaryOf } from '@/api/queries';
-import type { ObjectSummary, ProjectObject } from '@/api/types';
+import type { ObjectSummary, ProjectObject, Schemas } from '@/api/types';
 import { closePanelsOf } from '../docking/dock';
 import { applyChange, moved, renamed, without } from '@/project/changes';
 
@@ -33,17 +33,12 @@ function put(projectId: string, change: 'created' | 'moved', object: ObjectSumma
   );
 }
 
-export interface NewObject {
-  parent_id: string | null;
-  kind: string;
-  name: string;
-  subkind?: string;
-  data?: Record<string, unknown>;
-}
-
 /** Creates an object; what the server creates below it is read as well. */
-export async function createObject(projectId: string, order: NewObject): Promise<ProjectObject> {
-  const created = await api.post<ProjectObject>(`/projects/${projectId}/objects`, order);
+export async function createObject(projectId: string, order: Schemas['NewObject']): Promise<ProjectObject> {
+  const created = await api.post('/api/v1/projects/{project_id}/objects', {
+    params: { path: { project_id: projectId } },
+    body: order,
+  });
   put(projectId, 'created', created);
   if (kindOf(order.kind)?.add?.bringsChildren ?? true) {
     await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
@@ -51,12 +46,19 @@ export async function createObject(projectId: string, order: NewObject): Promise
   return created;
 }
 
+/** Renames or moves an object that nobody else has changed. */
+function arrange(projectId: string, { id, revision }: ObjectSummary, change: Schemas['ObjectMove']) {
+  return api.patch('/api/v1/projects/{project_id}/objects/{object_id}', {
+    params: { path: { project_id: projectId, object_id: id } },
+    body: { base_revision: revision, ...change },
+  });
+}
+
 export async function renameObject(projectId: string, object: ObjectSummary, name: string): Promise<void> {
   const answer = await optimistic(
     projectId,
     (objects) => renamed(objects, object.id, name),
-    () =>
-      api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, { base_revision: object.revision, name }),
+    () => arrange(projectId, object, { name }),
   );
   patchSummary(projectId, answer);
   // The declaration carries the name, too.
@@ -72,19 +74,15 @@ export async function moveObject(
   const answer = await optimistic(
     projectId,
     (objects) => moved(objects, object.id, parentId, index),
-    () =>
-      api.patch<ProjectObject>(`/projects/${projectId}/objects/${object.id}`, {
-        base_revision: object.revision,
-        parent_id: parentId,
-        index,
-      }),
+    () => arrange(projectId, object, { parent_id: parentId, index }),
   );
   put(projectId, 'moved', answer);
 }
 
 export async function copyObject(projectId: string, objectId: string, parentId: string | null): Promise<ProjectObject> {
-  const copy = await api.post<ProjectObject>(`/projects/${projectId}/objects/${objectId}/copy`, {
-    parent_id: parentId,
+  const copy = await api.post('/api/v1/projects/{project_id}/objects/{object_id}/copy', {
+    params: { path: { project_id: projectId, object_id: objectId } },
+    body: { parent_id: parentId },
   });
   put(projectId, 'created', copy);
   await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
@@ -97,7 +95,14 @@ export async function deleteObjects(projectId: string, ids: readonly string[]): 
   await optimistic(
     projectId,
     (objects) => without(objects, ids),
-    () => Promise.all(ids.map((id) => api.delete(`/projects/${projectId}/objects/${id}`))),
+    () =>
+      Promise.all(
+        ids.map((id) =>
+          api.delete('/api/v1/projects/{project_id}/objects/{object_id}', {
+            params: { path: { project_id: projectId, object_id: id } },
+          }),
+        ),
+      ),
   );
   const left = new Set(without(before, ids).map((object) => object.id));
   closePanelsOf(before.filter((object) => !left.has(object.id)).map((object) => object.id));

@@ -10,6 +10,7 @@ const object = (id: string, kind: string, parent_id: string | null, subkind: str
   name: id,
   index: 0,
   revision: 1,
+  excluded: false,
 });
 const objects = [
   object('App', 'application', null),

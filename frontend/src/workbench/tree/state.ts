@@ -1,6 +1,6 @@
 /** What the trees remember: which objects are open, what is cut or copied, which one is being renamed. */
 import { create } from 'zustand';
-import { loadSetting, saveSetting } from '@/session/preferences';
+import { loadNames, saveSetting } from '@/session/preferences';
 import type { ObjectSummary } from '@/api/types';
 import { kindOf } from '@/project/kinds';
 
@@ -28,10 +28,8 @@ let serial = 0;
 
 /** Reads which objects were open at the last visit; at the first one the device is open down to the tasks. */
 export async function startTree(projectId: string, objects: readonly ObjectSummary[]): Promise<void> {
-  const stored = await loadSetting<string[]>(`tree.${projectId}`).catch(() => null);
-  const ids = Array.isArray(stored)
-    ? stored
-    : objects.filter((object) => kindOf(object.kind)?.tree?.openAtFirst).map((object) => object.id);
+  const stored = await loadNames(`tree.${projectId}`).catch(() => null);
+  const ids = stored ?? objects.filter((object) => kindOf(object.kind)?.tree?.openAtFirst).map((object) => object.id);
   project = projectId;
   useTree.setState({ expanded: new Set(ids), renaming: null, clipboard: null, reveal: null });
 }
