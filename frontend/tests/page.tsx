@@ -4,8 +4,10 @@ import type { IDockviewPanelProps } from 'dockview-react';
 import type { ReactElement } from 'react';
 import { createRoot, type Root } from 'react-dom/client';
 import { queryClient } from '@/api/queries';
-import type { ObjectSummary } from '@/api/types';
+import type { ObjectSummary, PlacementRule } from '@/api/types';
+import { forestOf } from '@/project/tree';
 import { TooltipProvider } from '@/ui/Tooltip';
+import { AddObjectDialog } from '@/workbench/addObject/AddObjectDialog';
 import { EditorPanel } from '@/workbench/docking/EditorPanel';
 
 let root: Root | undefined;
@@ -58,4 +60,12 @@ export function tab(object: ObjectSummary): ReactElement {
   };
   const props = { api, params: { objectId: object.id, instance: null, reveal: null } };
   return <EditorPanel {...(props as unknown as IDockviewPanelProps<never>)} />;
+}
+
+/** Add Object at the root of the POUs view of an empty project. */
+export function addObject(rules: readonly PlacementRule[]): ReactElement {
+  const nothing = () => undefined;
+  return (
+    <AddObjectDialog projectId="p" forest={forestOf([])} rules={rules} view="pous" parentId={null} close={nothing} />
+  );
 }

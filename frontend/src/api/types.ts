@@ -1,6 +1,6 @@
 /**
- * Shapes of `/api/v1` under the names that the user interface uses. All of them come from `schema.ts`, which
- * `npm run generate` makes from the server's OpenAPI document.
+ * Shapes of `/api/v1` that are used in several places; others are `Schemas['...']` where they are used. All of them
+ * come from `schema.ts`, which `npm run generate` makes from the server's OpenAPI document.
  */
 import type { components } from './schema';
 
@@ -10,7 +10,6 @@ export type Role = Schemas['Role'];
 export type User = Schemas['Me'];
 /** An account, as administrators see it. */
 export type Account = Schemas['User'];
-export type AuthStatus = Schemas['AuthStatus'];
 
 export type ProjectSummary = Schemas['ProjectSummary'];
 export type Revision = Schemas['Revision'];
@@ -25,11 +24,9 @@ export type ObjectOf<Data extends ProjectObject['data']> = ObjectSummary & { dat
 export type DataOfKind = {
   [One in ProjectObject as string extends One['kind'] ? never : One['kind']]: One['data'];
 };
-export type BodyLanguage = Schemas['BodyLanguage'];
 export type PlacementRule = Schemas['PlacementRule'];
 
 export type TaskData = Schemas['TaskData'];
-export type TaskType = TaskData['type'];
 export type TaskPou = Schemas['ProgramCall'];
 export type LibraryParameter = Schemas['LibraryParameterData'];
 export type LibraryReference = Schemas['LibraryReferenceData'];
@@ -39,8 +36,6 @@ export type CodingRule = Schemas['CodingRule'];
 export type ImportFormats = Schemas['ImportFormats'];
 export type ImportNode = Schemas['ImportNode'];
 export type ImportEntry = Schemas['Entry'];
-export type ImportPreview = Schemas['ImportPreview'];
-export type ImportResult = Schemas['ImportResult'];
 
 export type Severity = Schemas['Severity'];
 export type Diagnostic = Schemas['Diagnostic'];
@@ -57,11 +52,9 @@ export type LoginAnswer = Schemas['LoginReport'];
 
 export type TestReport = Schemas['TestReport'];
 export type TestSuite = Schemas['TestSuite'];
-export type TestResult = Schemas['TestResult'];
 export type TestFailure = Schemas['TestFailure'];
 
 export type LibrarySummary = Schemas['LibrarySummary'];
-export type LibraryUse = Schemas['LibraryUse'];
 export type LibraryItem = Schemas['LibraryItem'];
 export type Library = Schemas['LibraryDetail'];
 export type Pin = Schemas['Pin'];

@@ -1,15 +1,13 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { keys, queryClient } from '@/api/queries';
-import type { BodyLanguage, ObjectSummary, PlacementRule } from '@/api/types';
-import { forestOf } from '@/project/tree';
+import type { ObjectSummary, PlacementRule, Schemas } from '@/api/types';
 import { useProject } from '@/project/openProject';
 import { bodyOf, valueTokens, type LanguageBody } from '@/text/bodies';
 import { monacoLanguage, textLanguages, type LanguageDescriptor } from '@/text/languages';
 import { loadMonaco } from '@/text/monacoLoader';
-import { AddObjectDialog } from '@/workbench/addObject/AddObjectDialog';
 import { useRegistry } from '@/workbench/commands';
-import { clear, show, tab, until } from '../../tests/page';
+import { addObject, clear, show, tab, until } from '../../tests/page';
 import { registerLanguages } from './register';
 import { registerBodies } from './textObject/bodies';
 
@@ -34,7 +32,7 @@ const rule: PlacementRule = {
   kind: 'pou', places: ['pous_view.*'], once: false,
   naming: 'identifier', names: [], proposal: 'POU', first: '', unique: 'scope', subkinds: ['program'], languages: ['ST', 'CHAIN'],
 }; // prettier-ignore
-const chain = { name: 'CHAIN', title: 'Chain of elements' } as BodyLanguage;
+const chain = { name: 'CHAIN', title: 'Chain of elements' } as Schemas['BodyLanguage'];
 
 beforeEach(() => {
   registerLanguages(DESCRIPTORS);
@@ -49,16 +47,7 @@ afterEach(clear);
 
 describe('a language whose folder is found by its place', () => {
   it('is offered by Add Object', async () => {
-    const page = show(
-      <AddObjectDialog
-        projectId="p"
-        forest={forestOf([])}
-        rules={[rule]}
-        view="pous"
-        parentId={null}
-        close={() => undefined}
-      />,
-    );
+    const page = show(addObject([rule]));
     await until(page, () => page.querySelector('option[value=CHAIN]') !== null);
     expect(page.querySelector('option[value=CHAIN]')?.textContent).toBe('Chain of elements');
   });

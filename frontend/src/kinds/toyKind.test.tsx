@@ -6,10 +6,9 @@ import type { ObjectSummary, PlacementRule } from '@/api/types';
 import { registerKind, type ObjectKindDescriptor } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
 import { forestOf, rowsOf, rootsOf } from '@/project/tree';
-import { AddObjectDialog } from '@/workbench/addObject/AddObjectDialog';
 import { PropertiesDialog } from '@/workbench/properties/PropertiesDialog';
 import { TreeRow } from '@/workbench/tree/Row';
-import { clear, reads, show, tab } from '../../tests/page';
+import { addObject, clear, reads, show, tab } from '../../tests/page';
 import { registerKinds } from './register';
 
 const FIXTURES = import.meta.glob<ObjectKindDescriptor>('../../tests/fixtures/kinds/*/index.tsx', {
@@ -70,16 +69,7 @@ describe('a kind whose folder is found by its place', () => {
   });
 
   it('is offered by Add Object with its options', async () => {
-    const page = show(
-      <AddObjectDialog
-        projectId="p"
-        forest={forestOf([])}
-        rules={[rule]}
-        view="pous"
-        parentId={null}
-        close={() => undefined}
-      />,
-    );
+    const page = show(addObject([rule]));
     await reads(page, 'Return type');
     expect(page.querySelector('[role=radio]')?.textContent).toBe('conveyor');
   });

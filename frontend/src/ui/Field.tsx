@@ -1,6 +1,6 @@
 import { Check, ChevronDown } from 'lucide-react';
 import { Checkbox as RadixCheckbox, Select as RadixSelect } from 'radix-ui';
-import { useId, type InputHTMLAttributes, type ReactNode, type Ref } from 'react';
+import { useId, type InputHTMLAttributes, type ReactNode, type Ref, type TextareaHTMLAttributes } from 'react';
 import type { IconComponent } from '@/icons/IconComponent';
 import styles from './Field.module.css';
 import menu from './Menu.module.css';
@@ -55,6 +55,15 @@ export function TextInput({ onValue, className, ...rest }: TextInputProps) {
       onChange={onValue && ((event) => onValue(event.target.value))}
     />
   );
+}
+
+interface TextAreaProps extends Omit<TextareaHTMLAttributes<HTMLTextAreaElement>, 'onChange'> {
+  onValue: (value: string) => void;
+}
+
+/** A text of several lines. */
+export function TextArea({ onValue, ...rest }: TextAreaProps) {
+  return <textarea className={styles.input} rows={4} {...rest} onChange={(event) => onValue(event.target.value)} />;
 }
 
 export interface Choice<Value extends string> {

@@ -1,35 +1,26 @@
-import { useState, type FormEvent } from 'react';
+import { useState } from 'react';
 import { api, ApiError } from '@/api/client';
 import { useText } from '@/i18n';
 import { explain } from '@/ui/notices';
-import { Button } from '@/ui/Button';
-import { Field, TextInput } from '@/ui/Field';
 import { PasswordField } from '@/ui/PasswordField';
 import { adoptPreferences } from '@/session/preferences';
 import { setUser } from '@/session/session';
-import styles from './Login.module.css';
+import { LoginForm, UsernameField } from './LoginForm';
 import { LoginFrame } from './LoginFrame';
 
 export function LoginPage() {
   const t = useText();
   const [username, setUsername] = useState('');
   const [password, setPassword] = useState('');
-  const [refused, setRefused] = useState<string | null>(null);
-  const [busy, setBusy] = useState(false);
 
-  const signIn = async (event: FormEvent) => {
-    event.preventDefault();
-    if (busy || username === '' || password === '') return;
-    setBusy(true);
+  const signIn = async () => {
     try {
       const user = await api.post('/api/v1/auth/login', { body: { username, password } });
       await adoptPreferences(user);
       setUser(user);
     } catch (error) {
-      setRefused(wrong(error));
       setPassword('');
-    } finally {
-      setBusy(false);
+      throw error;
     }
   };
   /** A wrong password is no signed-out session: the server's own words count here. */
@@ -40,24 +31,13 @@ export function LoginPage() {
 
   return (
     <LoginFrame title={t('signIn.title')} text={t('signIn.text')}>
-      <form className={styles.form} onSubmit={(event) => void signIn(event)}>
-        {refused && (
-          <div className={styles.error} role="alert">
-            {refused}
-          </div>
-        )}
-        <Field label={t('signIn.username')}>
-          {(attributes) => (
-            <TextInput
-              {...attributes}
-              autoFocus
-              autoComplete="username"
-              name="username"
-              value={username}
-              onValue={setUsername}
-            />
-          )}
-        </Field>
+      <LoginForm
+        action={t('signIn.action')}
+        missing={username === '' || password === '' ? t('signIn.fillIn') : null}
+        send={signIn}
+        refusal={wrong}
+      >
+        <UsernameField autoFocus value={username} onValue={setUsername} />
         <PasswordField
           label={t('signIn.password')}
           autoComplete="current-password"
@@ -65,14 +45,7 @@ export function LoginPage() {
           value={password}
           onValue={setPassword}
         />
-        <Button
-          type="submit"
-          variant="primary"
-          disabledReason={username === '' || password === '' ? t('signIn.fillIn') : null}
-        >
-          {t('signIn.action')}
-        </Button>
-      </form>
+      </LoginForm>
     </LoginFrame>
   );
 }

@@ -9,6 +9,7 @@ import { Grid, type GridColumn } from '@/ui/grid/Grid';
 import { cursorAfterKey } from '@/ui/grid/cursor';
 import { useGridSelection } from '@/ui/grid/useGridSelection';
 import { CATEGORIES, search, type Category } from './catalog';
+import list from '@/ui/List.module.css';
 import styles from './InputAssistant.module.css';
 import { useCatalog } from './useCatalog';
 
@@ -83,7 +84,7 @@ export function InputAssistant({ projectId, object, category = null, typed = '',
               type="button"
               role="tab"
               aria-selected={chosen === one}
-              className={styles.category}
+              className={`${list.entry} ${styles.category}`}
               onClick={() => {
                 setChosen(one);
                 selection.clear();

@@ -10,7 +10,7 @@ import { useToggleSet } from '@/ui/toggleSet';
 import { IconButton } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
 import { TextInput } from '@/ui/Field';
-import { FilterToggle } from '@/ui/FilterToggle';
+import { FilterInput, FilterToggles } from '@/ui/Filter';
 import { Panel, PanelBar, PanelRest } from '@/ui/Panel';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
@@ -142,18 +142,10 @@ export default function CrossReferencePanel() {
           disabledReason={question === null ? t('crossReferences.nameNeeded') : null}
           onClick={() => void guard(refreshCrossReferences)}
         />
-        {ACCESSES.map((access) => (
-          <FilterToggle key={access} shown={!hidden.has(access)} onToggle={() => toggle(access)}>
-            {t(`crossReferences.${access}`)} {rows.filter((row) => row.access === access).length}
-          </FilterToggle>
-        ))}
-        <TextInput
-          className={styles.filter}
-          value={filter}
-          onValue={setFilter}
-          placeholder={t('crossReferences.filter')}
-          aria-label={t('crossReferences.filter')}
-        />
+        <FilterToggles kinds={ACCESSES} hidden={hidden} toggle={toggle}>
+          {(access) => `${t(`crossReferences.${access}`)} ${rows.filter((row) => row.access === access).length}`}
+        </FilterToggles>
+        <FilterInput className={styles.filter} label={t('crossReferences.filter')} value={filter} onValue={setFilter} />
       </PanelBar>
       <PanelRest>
         <Table

@@ -2,6 +2,7 @@ import { useState } from 'react';
 import { useText } from '@/i18n';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
+import { TextArea } from '@/ui/Field';
 import styles from './Dialogs.module.css';
 
 interface AttributesDialogProps {
@@ -32,7 +33,7 @@ export function AttributesDialog({ value, close }: AttributesDialogProps) {
         </>
       }
     >
-      <textarea
+      <TextArea
         className={styles.code}
         aria-label={t('decl.attributesTitle')}
         rows={7}
@@ -40,7 +41,7 @@ export function AttributesDialog({ value, close }: AttributesDialogProps) {
         data-autofocus
         value={text}
         placeholder="attribute 'hide'"
-        onChange={(event) => setText(event.target.value)}
+        onValue={setText}
         onKeyDown={(event) => {
           if (event.key === 'Enter' && event.ctrlKey) submit();
         }}

@@ -3,7 +3,7 @@ import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
-import { Field, Select, TextInput } from '@/ui/Field';
+import { Field, Select, TextArea, TextInput } from '@/ui/Field';
 import { identifierProblem } from '@/iec/keywords';
 import { AttributesDialog } from './AttributesDialog';
 import styles from './Dialogs.module.css';
@@ -63,12 +63,12 @@ export function HeaderDialog({ values, close }: HeaderDialogProps) {
         </Field>
         <Field label={t('decl.column.comment')}>
           {({ id }) => (
-            <textarea
+            <TextArea
               id={id}
               className={styles.code}
               rows={4}
               value={comment}
-              onChange={(event) => setComment(event.target.value)}
+              onValue={setComment}
               onKeyDown={(event) => {
                 if (event.key === 'Enter') event.stopPropagation();
               }}

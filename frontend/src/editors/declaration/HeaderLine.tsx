@@ -1,3 +1,4 @@
+import type { ReactNode } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
@@ -33,18 +34,12 @@ export function HeaderLine({ object, document, model, locked }: HeaderLineProps)
     if (next.name !== values.name) await rename(document, object, next.name);
   };
   return (
-    <button
-      type="button"
-      className={styles.header}
-      title={locked ? t('decl.locked') : t('decl.editHeader')}
-      aria-disabled={locked}
-      onClick={() => !locked && void edit()}
-    >
+    <HeaderButton title={t('decl.editHeader')} locked={locked} edit={edit}>
       <b>{values.keyword}</b>
       <span>{values.name}</span>
       <i>{rest}</i>
       <i>{values.comment.split('\n')[0]}</i>
-    </button>
+    </HeaderButton>
   );
 }
 
@@ -62,17 +57,11 @@ function ListHeader({ object, document, model, locked }: HeaderLineProps) {
     document.replaceText('declaration', setListAttributes(model.text, next));
   };
   return (
-    <button
-      type="button"
-      className={styles.header}
-      title={locked ? t('decl.locked') : t('decl.editAttributes')}
-      aria-disabled={locked}
-      onClick={() => !locked && void edit()}
-    >
+    <HeaderButton title={t('decl.editAttributes')} locked={locked} edit={edit}>
       <b>{model.blocks[0]?.scope ?? ''}</b>
       <span>{object.name}</span>
       <i>{lines.map((line) => `{${line}}`).join(' ')}</i>
-    </button>
+    </HeaderButton>
   );
 }
 
@@ -80,4 +69,27 @@ function ListHeader({ object, document, model, locked }: HeaderLineProps) {
 async function rename(document: TextDocument, object: ObjectSummary, name: string): Promise<void> {
   await document.save();
   await guard(() => renameObject(document.projectId, object, name));
+}
+
+interface HeaderButtonProps {
+  title: string;
+  locked: boolean;
+  edit: () => Promise<void>;
+  children: ReactNode;
+}
+
+/** The line of a declaration that a click edits in a dialog. */
+function HeaderButton({ title, locked, edit, children }: HeaderButtonProps) {
+  const t = useText();
+  return (
+    <button
+      type="button"
+      className={styles.header}
+      title={locked ? t('decl.locked') : title}
+      aria-disabled={locked}
+      onClick={() => !locked && void edit()}
+    >
+      {children}
+    </button>
+  );
 }

@@ -11,6 +11,7 @@ import { Dialog } from '@/ui/Dialog';
 import { Failed, Loading } from '@/ui/Empty';
 import type { Monaco } from '@/text/monacoLoader';
 import { DiffView } from './DiffView';
+import entries from '@/ui/List.module.css';
 import styles from './DocumentBars.module.css';
 import type { TextDocument } from '@/text/documents';
 import type { Part } from '@/project/partUri';
@@ -113,14 +114,14 @@ function RevisionList({ revisions, current, shown, onShow }: RevisionListProps) 
     [language],
   );
   return (
-    <div className={styles.revisions} role="listbox" aria-label={t('doc.revisions')}>
+    <div className={entries.list} role="listbox" aria-label={t('doc.revisions')}>
       {revisions.map((one) => (
         <button
           key={one.revision}
           type="button"
           role="option"
           aria-selected={one.revision === shown}
-          className={styles.revision}
+          className={`${entries.entry} ${styles.revision}`}
           onClick={() => onShow(one.revision)}
         >
           <b>{t('doc.revision', { revision: one.revision })}</b>

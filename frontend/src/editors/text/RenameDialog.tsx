@@ -5,6 +5,7 @@ import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { Field, TextInput } from '@/ui/Field';
 import { identifierProblem } from '@/iec/keywords';
+import list from '@/ui/List.module.css';
 import styles from './RenameDialog.module.css';
 
 const SHOWN = 200;
@@ -67,7 +68,7 @@ export function RenameDialog({ name, places, nameOf, rename, close }: RenameDial
       {places.length > 0 && (
         <>
           <span className={styles.count}>{t('st.renamePlaces', { places: places.length, objects })}</span>
-          <ul className={styles.places} aria-label={t('st.renamePreview')} tabIndex={0}>
+          <ul className={`${list.list} ${styles.places}`} aria-label={t('st.renamePreview')} tabIndex={0}>
             {places.slice(0, SHOWN).map((place) => (
               <li
                 key={`${place.uri} ${place.range.start.line} ${place.range.start.character}`}

@@ -10,6 +10,7 @@ import { useOnline } from '@/workbench/onlineSession';
 import { setActiveApplication, useProject } from '@/project/openProject';
 import { runCommand } from '@/workbench/run';
 import { forestOf, subtree } from '@/project/tree';
+import { Facts } from '@/ui/Facts';
 import { Button } from '@/ui/Button';
 import { Loading } from '@/ui/Empty';
 import { Section } from '@/editors/form/FormPage';
@@ -71,18 +72,18 @@ export default function ApplicationEditor({ projectId, objectId }: EditorProps) 
           </Button>
         </div>
         <Section title={t('application.contents')}>
-          <dl className={styles.facts}>
+          <Facts>
             {Object.entries(counts).map(([what, count]) => (
               <div key={what} style={{ display: 'contents' }}>
                 <dt>{t(`application.${what as keyof typeof counts}`)}</dt>
                 <dd className="digits">{count}</dd>
               </div>
             ))}
-          </dl>
+          </Facts>
         </Section>
         <Section title={t('application.build')}>
           {build ? (
-            <dl className={styles.facts}>
+            <Facts>
               <dt>{t('application.result')}</dt>
               <dd>{`${t('messages.error', { count: messages.error })}, ${t('messages.warning', { count: messages.warning })}`}</dd>
               <dt>{t('application.code')}</dt>
@@ -91,14 +92,14 @@ export default function ApplicationEditor({ projectId, objectId }: EditorProps) 
               <dd>{build.report.data_size === null ? '–' : bytesText(build.report.data_size)}</dd>
               <dt>{t('application.codeId')}</dt>
               <dd className="code">{build.report.code_id?.slice(0, 16) ?? '–'}</dd>
-            </dl>
+            </Facts>
           ) : (
             <p className={styles.note}>{t('application.notBuilt')}</p>
           )}
         </Section>
         <Section title={t('application.controller')}>
           {session?.runtime ? (
-            <dl className={styles.facts}>
+            <Facts>
               <dt>{t('runtime.name')}</dt>
               <dd>{session.runtime.name}</dd>
               <dt>{t('tasks.status')}</dt>
@@ -111,7 +112,7 @@ export default function ApplicationEditor({ projectId, objectId }: EditorProps) 
                   <dd>{session.runtime.scheduling}</dd>
                 </>
               )}
-            </dl>
+            </Facts>
           ) : (
             <p className={styles.note}>{t('status.offline')}</p>
           )}

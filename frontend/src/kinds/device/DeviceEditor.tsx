@@ -4,8 +4,7 @@ import { runtimesQuery } from '@/api/queries';
 import { useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
-import { Checkbox, Field } from '@/ui/Field';
-import fields from '@/ui/Field.module.css';
+import { Checkbox, Field, TextArea } from '@/ui/Field';
 import { FormPage, Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { useDraft } from '@/editors/form/useDraft';
@@ -51,13 +50,11 @@ export default function DeviceEditor({ panelId, projectId, objectId, visible }: 
           <Section title={t('device.information')}>
             <Field label={t('project.description')}>
               {(attributes) => (
-                <textarea
+                <TextArea
                   {...attributes}
-                  className={fields.input}
-                  rows={4}
                   disabled={disabled}
                   value={device.description}
-                  onChange={(event) => draft.change({ ...device, description: event.target.value })}
+                  onValue={(description) => draft.change({ ...device, description })}
                 />
               )}
             </Field>

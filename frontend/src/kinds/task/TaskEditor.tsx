@@ -1,6 +1,6 @@
 import { ofKind } from '@/api/objects';
 import { useObjects } from '@/api/queries';
-import type { TaskData, TaskType } from '@/api/types';
+import type { TaskData } from '@/api/types';
 import { useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
@@ -12,7 +12,7 @@ import { callablePrograms, canStore, taskFaults } from './model';
 import { ProgramList } from './ProgramList';
 import { TimeField } from './TimeField';
 
-const TYPES: readonly TaskType[] = ['cyclic', 'freewheeling', 'event', 'status', 'external'];
+const TYPES: readonly TaskData['type'][] = ['cyclic', 'freewheeling', 'event', 'status', 'external'];
 const TaskIcon = objectIcon('task');
 
 /** Priority, type, watchdog and the programs of one task. */
@@ -53,7 +53,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                 </Field>
                 <Field row label={t('task.type')} hint={t(`taskType.${task.type}Text`)}>
                   {(attributes) => (
-                    <Select<TaskType>
+                    <Select<TaskData['type']>
                       {...attributes}
                       disabled={disabled}
                       value={task.type}

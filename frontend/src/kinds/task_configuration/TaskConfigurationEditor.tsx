@@ -14,6 +14,7 @@ import { useOnline } from '@/workbench/onlineSession';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText, runCommand } from '@/workbench/run';
 import { applicationOf } from '@/project/tree';
+import { Facts } from '@/ui/Facts';
 import { Button } from '@/ui/Button';
 import { Empty, Loading } from '@/ui/Empty';
 import { Table } from '@/ui/Table';
@@ -150,14 +151,14 @@ function Overview({
           </div>
         </Section>
         <Section title={t('taskConfiguration.target')}>
-          <dl className={styles.facts}>
+          <Facts>
             <dt>{t('taskConfiguration.priorities')}</dt>
             <dd>{t('taskConfiguration.prioritiesText')}</dd>
             <dt>{t('taskConfiguration.types')}</dt>
             <dd>
               {(['cyclic', 'freewheeling', 'event', 'status'] as const).map((type) => t(`taskType.${type}`)).join(', ')}
             </dd>
-          </dl>
+          </Facts>
         </Section>
       </div>
     </div>

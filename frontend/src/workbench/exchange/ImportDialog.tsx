@@ -1,8 +1,9 @@
 import { useMemo, useState } from 'react';
 import { api, isCancelled } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
-import type { ImportEntry, ImportPreview, ImportResult, ObjectSummary } from '@/api/types';
+import type { ImportEntry, ObjectSummary, Schemas } from '@/api/types';
 import { useText } from '@/i18n';
+import { FilterInput } from '@/ui/Filter';
 import { notifyError } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
@@ -35,7 +36,8 @@ interface ImportDialogProps {
 }
 
 type Into = 'here' | 'new';
-type Step = { at: 'files' } | { at: 'choose'; preview: ImportPreview } | { at: 'report'; result: ImportResult };
+type Preview = Schemas['ImportPreview'];
+type Step = { at: 'files' } | { at: 'choose'; preview: Preview } | { at: 'report'; result: Schemas['ImportResult'] };
 
 /** Files of other systems, ST texts and our own archives: choose them, choose of what they hold, read the report. */
 export function ImportDialog({ target, files: given = [], openObject, openProject, close }: ImportDialogProps) {
@@ -73,7 +75,7 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
       setChosen(new Set(found.nodes.map((node) => node.key)));
       setStep({ at: 'choose', preview: found });
     });
-  const importNow = (found: ImportPreview) =>
+  const importNow = (found: Preview) =>
     run(async (signal) => {
       const all = chosen.size === found.nodes.length;
       const order = { files: filesToSend(files), chosen: all ? null : JSON.stringify([...chosen]) };
@@ -159,13 +161,11 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
         }
       >
         <div className={styles.buttons}>
-          <TextInput
+          <FilterInput
             className={styles.filter}
+            label={t('exchange.searchObjects')}
             value={search}
             onValue={setSearch}
-            placeholder={t('exchange.searchObjects')}
-            aria-label={t('exchange.searchObjects')}
-            onKeyDown={(event) => event.key === 'Enter' && event.preventDefault()}
           />
           <Button onClick={() => setChosen(new Set(found.nodes.map((node) => node.key)))}>{t('exchange.all')}</Button>
           <Button onClick={() => setChosen(new Set())}>{t('exchange.none')}</Button>

@@ -7,8 +7,7 @@ import { guard, notify } from '@/ui/notices';
 import { useToggleSet } from '@/ui/toggleSet';
 import { Button } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
-import { TextInput } from '@/ui/Field';
-import { FilterToggle } from '@/ui/FilterToggle';
+import { FilterInput, FilterToggles } from '@/ui/Filter';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
 import styles from './Exchange.module.css';
@@ -68,19 +67,12 @@ export function ReportView({ entries, hide = [], open }: ReportViewProps) {
   return (
     <div className={styles.report}>
       <div className={styles.buttons}>
-        {OUTCOMES.filter((outcome) => count[outcome] > 0).map((outcome) => (
-          <FilterToggle key={outcome} shown={!hidden.has(outcome)} onToggle={() => toggle(outcome)}>
-            {t('exchange.outcomeCount', { count: count[outcome], outcome: t(`exchange.outcome.${outcome}`) })}
-          </FilterToggle>
-        ))}
-        <TextInput
-          className={styles.filter}
-          value={search}
-          onValue={setSearch}
-          placeholder={t('exchange.filter')}
-          aria-label={t('exchange.filter')}
-          onKeyDown={(event) => event.key === 'Enter' && event.preventDefault()}
-        />
+        <FilterToggles kinds={OUTCOMES.filter((outcome) => count[outcome] > 0)} hidden={hidden} toggle={toggle}>
+          {(outcome) =>
+            t('exchange.outcomeCount', { count: count[outcome], outcome: t(`exchange.outcome.${outcome}`) })
+          }
+        </FilterToggles>
+        <FilterInput className={styles.filter} label={t('exchange.filter')} value={search} onValue={setSearch} />
         <Button
           icon={Copy}
           onClick={() =>

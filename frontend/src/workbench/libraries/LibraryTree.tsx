@@ -6,6 +6,7 @@ import { ObjectIcon } from '@/project/ObjectIcon';
 import { findTyped, MOTION_OF_KEY, moveFocus, type Row } from '@/project/tree';
 import { Twist } from '@/ui/Twist';
 import { groupsOf, idOf } from './model';
+import rowStyles from '@/ui/Rows.module.css';
 import styles from './Libraries.module.css';
 import { useContents } from './useLibraries';
 
@@ -153,7 +154,7 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
   return (
     <div
       ref={tree}
-      className={styles.tree}
+      className={rowStyles.rows}
       role="tree"
       aria-label={label}
       tabIndex={0}
@@ -168,7 +169,7 @@ export function LibraryTree({ label, libraries, search = '', flat, onChoose, onO
           aria-level={node.level}
           aria-expanded={node.expandable ? isOpen(node) : undefined}
           aria-selected={node.id === focused}
-          className={styles.row}
+          className={rowStyles.row}
           style={{ paddingLeft: 4 + (node.level - 1) * 14 }}
           title={node.kind === 'item' ? node.detail : undefined}
           onMouseDown={() => goTo(node)}

@@ -1,7 +1,6 @@
 import type { Severity } from '@/api/types';
 import { useText } from '@/i18n';
-import { TextInput } from '@/ui/Field';
-import { FilterToggle } from '@/ui/FilterToggle';
+import { FilterInput, FilterToggles } from '@/ui/Filter';
 import styles from './Severity.module.css';
 import { SeverityIcon } from './SeverityIcon';
 
@@ -20,19 +19,15 @@ export function SeverityFilter({ count, hidden, toggle, search, onSearch }: Seve
   const t = useText();
   return (
     <>
-      {SEVERITIES.map((severity) => (
-        <FilterToggle key={severity} shown={!hidden.has(severity)} onToggle={() => toggle(severity)}>
-          <SeverityIcon severity={severity} alone={false} />
-          {t(`messages.${severity}`, { count: count[severity] })}
-        </FilterToggle>
-      ))}
-      <TextInput
-        className={styles.search}
-        value={search}
-        onValue={onSearch}
-        placeholder={t('messages.search')}
-        aria-label={t('messages.search')}
-      />
+      <FilterToggles kinds={SEVERITIES} hidden={hidden} toggle={toggle}>
+        {(severity) => (
+          <>
+            <SeverityIcon severity={severity} alone={false} />
+            {t(`messages.${severity}`, { count: count[severity] })}
+          </>
+        )}
+      </FilterToggles>
+      <FilterInput className={styles.search} label={t('messages.search')} value={search} onValue={onSearch} />
     </>
   );
 }

@@ -6,6 +6,7 @@ import { openDialog } from '@/ui/dialogs';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { Checkbox } from '@/ui/Field';
+import { RadioCards } from '@/ui/RadioCards';
 import styles from './dialogs.module.css';
 import { RuntimeDialog } from './RuntimeDialog';
 
@@ -72,24 +73,16 @@ function LoginDialog({ answer, application, runtime, mayLoad, close }: LoginQues
       }
     >
       {choices.length > 1 && (
-        <div role="radiogroup" aria-label={t('login.how')} className={styles.choices}>
-          {choices.map((choice) => (
-            <button
-              key={choice}
-              type="button"
-              role="radio"
-              aria-checked={choice === how}
-              className={styles.choice}
-              onClick={() => setHow(choice)}
-            >
-              <span className={styles.radio} />
-              <span>
-                <span className={styles.name}>{t(`login.how.${choice}`)}</span>
-                <span className={styles.effect}>{t(`login.effect.${choice}`)}</span>
-              </span>
-            </button>
-          ))}
-        </div>
+        <RadioCards
+          label={t('login.how')}
+          value={how}
+          cards={choices.map((value) => ({
+            value,
+            name: t(`login.how.${value}`),
+            effect: t(`login.effect.${value}`),
+          }))}
+          onValue={setHow}
+        />
       )}
       {answer.relation !== 'empty' && answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />}
       {how === 'download' && (

@@ -11,6 +11,7 @@ import { commandContext } from '../context';
 import { useProject } from '@/project/openProject';
 import { commandItems, objectItems, type PaletteItem } from './items';
 import { search } from './match';
+import line from '@/ui/SearchLine.module.css';
 import styles from './Palette.module.css';
 import { closePalette, usePalette, type PaletteMode } from './state';
 import { useMembers, useProjectSymbols } from './symbols';
@@ -89,7 +90,7 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
         <Radix.Overlay className={styles.scrim} />
         <Radix.Content className={styles.palette} aria-describedby="">
           <Radix.Title className="visually-hidden">{name}</Radix.Title>
-          <div className={styles.search}>
+          <div className={`${line.search} ${styles.search}`}>
             <ModeIcon size={16} aria-hidden />
             <input
               role="combobox"

@@ -9,7 +9,7 @@ import { freeName } from '@/project/tree';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { Field, TextInput } from '@/ui/Field';
-import choice from '../online/dialogs.module.css';
+import { RadioCards } from '@/ui/RadioCards';
 
 /** Asks for name and template and creates the project; undefined when cancelled. */
 export function newProject(): Promise<ProjectSummary | undefined> {
@@ -59,24 +59,16 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
       <Field label={t('project.name')} error={refused ?? fault}>
         {(attributes) => <TextInput {...attributes} data-autofocus value={name} onValue={setName} />}
       </Field>
-      <div role="radiogroup" aria-label={t('project.template')} className={choice.choices}>
-        {TEMPLATES.map((each) => (
-          <button
-            key={each}
-            type="button"
-            role="radio"
-            aria-checked={each === template}
-            className={choice.choice}
-            onClick={() => setTemplate(each)}
-          >
-            <span className={choice.radio} />
-            <span>
-              <span className={choice.name}>{t(`template.${each}`)}</span>
-              <span className={choice.effect}>{t(`template.${each}Text`)}</span>
-            </span>
-          </button>
-        ))}
-      </div>
+      <RadioCards
+        label={t('project.template')}
+        value={template}
+        cards={TEMPLATES.map((value) => ({
+          value,
+          name: t(`template.${value}`),
+          effect: t(`template.${value}Text`),
+        }))}
+        onValue={setTemplate}
+      />
     </Dialog>
   );
 }

@@ -12,8 +12,8 @@ import { useProject } from '@/project/openProject';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { Failed, Loading } from '@/ui/Empty';
-import { Field, TextInput } from '@/ui/Field';
-import fields from '@/ui/Field.module.css';
+import { Facts } from '@/ui/Facts';
+import { Field, TextArea, TextInput } from '@/ui/Field';
 
 /** Name, description and size of the project. */
 export function ProjectInfoDialog({ projectId, close }: { projectId: string; close: () => void }) {
@@ -71,32 +71,17 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
       </Field>
       <Field label={t('project.description')}>
         {(attributes) => (
-          <textarea
-            {...attributes}
-            className={fields.input}
-            rows={4}
-            value={description}
-            readOnly={!mayChange}
-            onChange={(event) => setDescription(event.target.value)}
-          />
+          <TextArea {...attributes} value={description} readOnly={!mayChange} onValue={setDescription} />
         )}
       </Field>
-      <dl
-        style={{
-          display: 'grid',
-          gridTemplateColumns: 'auto 1fr',
-          gap: '4px 16px',
-          margin: 0,
-          color: 'var(--fg-muted)',
-        }}
-      >
+      <Facts>
         <dt>{t('project.created')}</dt>
-        <dd style={{ margin: 0 }}>{secondText(project.created)}</dd>
+        <dd>{secondText(project.created)}</dd>
         <dt>{t('project.modified')}</dt>
-        <dd style={{ margin: 0 }}>{secondText(project.modified)}</dd>
+        <dd>{secondText(project.modified)}</dd>
         <dt>{t('project.objects')}</dt>
-        <dd style={{ margin: 0 }}>{objects?.length ?? ''}</dd>
-      </dl>
+        <dd>{objects?.length ?? ''}</dd>
+      </Facts>
     </Dialog>
   );
 }

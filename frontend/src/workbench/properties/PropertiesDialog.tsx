@@ -5,10 +5,10 @@ import { useText } from '@/i18n';
 import { kindOf, kindTitle, subkindTitle } from '@/project/kinds';
 import { displayName } from '@/project/objectName';
 import { treePath } from '@/project/tree';
+import { Facts } from '@/ui/Facts';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { Loading } from '@/ui/Empty';
-import styles from './PropertiesDialog.module.css';
 
 interface PropertiesDialogProps {
   projectId: string;
@@ -28,14 +28,14 @@ export function PropertiesDialog({ projectId, object, close }: PropertiesDialogP
       onClose={close}
       footer={<Button onClick={close}>{t('action.close')}</Button>}
     >
-      <dl className={styles.facts}>
+      <Facts>
         <dt>{t('properties.kind')}</dt>
         <dd>{kind}</dd>
         <dt>{t('properties.path')}</dt>
         <dd>{treePath(objects ?? [], object.id)}</dd>
         <dt>{t('properties.revision')}</dt>
         <dd>{object.revision}</dd>
-      </dl>
+      </Facts>
       {Own && (
         <Suspense fallback={<Loading />}>
           <Own projectId={projectId} objectId={object.id} />

@@ -15,10 +15,10 @@ import { useText } from '@/i18n';
 import { openObject } from '../docking/dock';
 import { useProject } from '@/project/openProject';
 import { runCommand } from '../run';
+import { FilterInput } from '@/ui/Filter';
 import { useToggleSet } from '@/ui/toggleSet';
 import { Button } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
-import { TextInput } from '@/ui/Field';
 import { Panel } from '@/ui/Panel';
 import { rowsOf, type Outcome, type Row } from './model';
 import { setFilter, useTests } from './store';
@@ -79,13 +79,7 @@ export default function TestsPanel() {
             {t('tests.runFailed')}
           </Button>
         )}
-        <TextInput
-          className={styles.filter}
-          value={filter}
-          onValue={setFilter}
-          placeholder={t('tests.filter')}
-          aria-label={t('tests.filter')}
-        />
+        <FilterInput className={styles.filter} label={t('tests.filter')} value={filter} onValue={setFilter} />
         {report &&
           OUTCOMES.map((outcome) => {
             const Icon = ICONS[outcome];

@@ -1,7 +1,8 @@
 /** The results tree of a test run as the rows on screen; pure. */
-import type { TestFailure, TestReport, TestResult, TestSuite } from '@/api/types';
+import type { Schemas, TestFailure, TestReport, TestSuite } from '@/api/types';
 
-export type Outcome = TestResult['outcome'];
+type Result = Schemas['TestResult'];
+export type Outcome = Result['outcome'];
 
 /** A suite, a test or a failure in the order of the tree. */
 export interface Row {
@@ -41,7 +42,7 @@ export function namesOfBad(report: TestReport): readonly string[] {
 export function withOthers(before: TestReport, now: TestReport, ran: readonly string[]): TestReport {
   if (now.diagnostics.length > 0 || now.suites.length === 0) return now;
   const chosen = new Set(ran);
-  const known = new Map<string, TestResult>();
+  const known = new Map<string, Result>();
   before.suites.forEach((suite) => suite.tests.forEach((test) => known.set(`${suite.name}.${test.name}`, test)));
   const suites = now.suites.map((suite) => ({
     ...suite,

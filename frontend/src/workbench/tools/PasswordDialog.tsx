@@ -4,22 +4,21 @@ import { useText } from '@/i18n';
 import { notify, refusalOf } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
+import { isComplete, NewPasswordFields, type NewPassword } from '@/ui/NewPasswordFields';
 import { PasswordField } from '@/ui/PasswordField';
 
 /** A new password for oneself. */
 export function PasswordDialog({ close }: { close: () => void }) {
   const t = useText();
   const [current, setCurrent] = useState('');
-  const [next, setNext] = useState('');
-  const [again, setAgain] = useState('');
+  const [next, setNext] = useState<NewPassword>({ password: '', again: '' });
   const [refused, setRefused] = useState<string | null>(null);
-  const differs = again !== '' && again !== next ? t('firstAccount.differs') : null;
-  const missing = next === '' || again !== next ? t('firstAccount.fillIn') : null;
+  const missing = isComplete(next) ? null : t('firstAccount.fillIn');
 
   const save = async () => {
     if (missing) return;
     try {
-      await api.post('/api/v1/auth/password', { body: { current, new: next } });
+      await api.post('/api/v1/auth/password', { body: { current, new: next.password } });
       notify({ tone: 'ok', title: t('password.changed') });
       close();
     } catch (error) {
@@ -50,14 +49,7 @@ export function PasswordDialog({ close }: { close: () => void }) {
         value={current}
         onValue={setCurrent}
       />
-      <PasswordField label={t('password.new')} autoComplete="new-password" value={next} onValue={setNext} />
-      <PasswordField
-        label={t('firstAccount.again')}
-        error={differs}
-        autoComplete="new-password"
-        value={again}
-        onValue={setAgain}
-      />
+      <NewPasswordFields label={t('password.new')} value={next} onValue={setNext} />
     </Dialog>
   );
 }

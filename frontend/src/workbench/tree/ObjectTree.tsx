@@ -31,6 +31,7 @@ import { indentOf, TreeRow } from './Row';
 import { setExpanded, useTree } from './state';
 import { treeEntries } from './treeMenu';
 import { isMenuKey, openMenuAt } from '@/ui/menuKey';
+import rowStyles from '@/ui/Rows.module.css';
 import styles from './Tree.module.css';
 import { useDrag } from './useDrag';
 import { useMarks } from './useMarks';
@@ -205,7 +206,7 @@ export function ObjectTree({
     <ContextMenu entries={() => treeEntries({ view, forest, rules, paste: () => pasteInto(projectId, view, rules) })}>
       <div
         ref={scroll}
-        className={styles.tree}
+        className={`${rowStyles.rows} ${styles.tree}`}
         role="tree"
         aria-label={label}
         aria-multiselectable
@@ -244,7 +245,7 @@ export function ObjectTree({
                 data-focused={object.id === focused ? '' : undefined}
                 data-cut={clipboard?.cut && clipboard.ids.includes(object.id) ? '' : undefined}
                 data-drop={drag.mark?.id === object.id ? drag.mark.where : undefined}
-                className={styles.row}
+                className={`${rowStyles.row} ${styles.row}`}
                 style={
                   {
                     transform: `translateY(${entry.start}px)`,

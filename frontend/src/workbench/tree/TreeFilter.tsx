@@ -1,6 +1,7 @@
 import { Search, X } from 'lucide-react';
 import { useText } from '@/i18n';
 import { IconButton } from '@/ui/Button';
+import line from '@/ui/SearchLine.module.css';
 import styles from './TreeFilter.module.css';
 
 interface TreeFilterProps {
@@ -13,7 +14,7 @@ interface TreeFilterProps {
 export function TreeFilter({ label, value, onValue }: TreeFilterProps) {
   const t = useText();
   return (
-    <div className={styles.filter}>
+    <div className={`${line.search} ${styles.filter}`}>
       <Search size={13} aria-hidden />
       <input
         value={value}

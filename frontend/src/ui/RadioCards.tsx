@@ -1,0 +1,39 @@
+import styles from './RadioCards.module.css';
+
+export interface Card<Value extends string> {
+  value: Value;
+  name: string;
+  /** What the choice leads to. */
+  effect: string;
+}
+
+interface RadioCardsProps<Value extends string> {
+  label: string;
+  value: Value;
+  cards: readonly Card<Value>[];
+  onValue: (value: Value) => void;
+}
+
+/** One of a few choices that need a sentence each. */
+export function RadioCards<Value extends string>({ label, value, cards, onValue }: RadioCardsProps<Value>) {
+  return (
+    <div role="radiogroup" aria-label={label} className={styles.cards}>
+      {cards.map((card) => (
+        <button
+          key={card.value}
+          type="button"
+          role="radio"
+          aria-checked={card.value === value}
+          className={styles.card}
+          onClick={() => onValue(card.value)}
+        >
+          <span className={styles.radio} />
+          <span>
+            <span className={styles.name}>{card.name}</span>
+            <span className={styles.effect}>{card.effect}</span>
+          </span>
+        </button>
+      ))}
+    </div>
+  );
+}
