@@ -15,14 +15,19 @@ from tappet import __version__
 from tappet.codegen.package import CodePackage
 from tappet.lang.source import Scope, Source
 
+_BLANKS = r"(?<![ \t]{2}) [ \t]*+ (?: (?= \r?\n ) | //[^\n]* | \(\*.*?\*\) )"
+"""Behind the first one: up to the end of the line, or up to a comment and with it."""
 _PARTS = re.compile(
-    r"""
-    (?P<kept> '(?:[^'$\n]|\$.)*' | "(?:[^"$\n]|\$.)*" | \{[^}]*\} )
-    | [ \t]* (?: //[^\n]* | \(\*.*?\*\) )
-    | [ \t]+ (?= \r?\n )
+    rf"""
+    ' (?: [^'$\n] | \$. )* ' | " (?: [^"$\n] | \$. )* " | \{{ [^}}]* \}}
+    | //[^\n]* | \(\*.*?\*\)
+    | \x20 {_BLANKS} | \t {_BLANKS}
     """,
     re.VERBOSE | re.DOTALL,
 )
+"""Strings and pragmas, which stay, and what does not count. Each alternative begins with a character of its
+own, so that the search goes from one of these to the next."""
+_STAYS = frozenset("'\"{")
 
 
 def text_digest(source: Source) -> bytes:
@@ -37,7 +42,7 @@ def _library_digest(source: Source) -> bytes:
 
 
 def _digest(source: Source) -> bytes:
-    text = _PARTS.sub(lambda m: m["kept"] or "\n" * m[0].count("\n"), source.text)
+    text = without_comments(source.text)
     if "*)" in text:  # nested comments: count all of it
         text = source.text
     place = (source.uri, source.scope, source.owner, source.name, source.library, source.namespace)
@@ -45,6 +50,11 @@ def _digest(source: Source) -> bytes:
     seen = (source.uses, source.private, source.qualified_only)
     head = repr((*place, *seen, source.body_line, source.bodies, given))
     return hashlib.blake2b(f"{head}\n{text}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
+
+
+def without_comments(text: str) -> str:
+    """A text without comments and blanks at the ends of lines; its lines stay."""
+    return _PARTS.sub(lambda m: m[0] if m[0][0] in _STAYS else "\n" * m[0].count("\n"), text)
 
 
 def program_digest(texts: Iterable[bytes], settings: object) -> bytes:
