@@ -38,7 +38,7 @@ asyncio.run(main())
 ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries"}
 LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "source"}
 """The table of messages, and what reports of other processes consist of."""
-CODE = {"literals", "package", "symbol_map", "symbol_types", "values"}
+CODE = {"display", "literals", "package", "symbol_map", "symbol_types", "values"}
 """How a package and the values in a running one are read."""
 UNWANTED = {
     "llvmlite", "lsprotocol", "httpx", "viser", "numpy", "rich",
