@@ -1,5 +1,6 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { useEffect, useRef } from 'react';
+import { CODE_FONT } from './font';
 import { indentation, useEditorSettings } from './settings';
 import styles from './CodePane.module.css';
 import type { Monaco } from './monacoLoader';
@@ -33,9 +34,9 @@ function overflowWidgets(): HTMLElement {
 
 export const EDITOR_OPTIONS: editor.IStandaloneEditorConstructionOptions = {
   automaticLayout: true,
-  fontFamily: "'JetBrains Mono', 'Noto Sans Mono CJK SC', ui-monospace, monospace",
+  fontFamily: `${CODE_FONT.family}, 'Noto Sans Mono CJK SC', ui-monospace, monospace`,
   fontLigatures: false,
-  fontSize: 13,
+  fontSize: CODE_FONT.size,
   lineHeight: 20,
   detectIndentation: false,
   autoIndent: 'full',

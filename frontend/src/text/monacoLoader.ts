@@ -1,6 +1,7 @@
 /** Monaco is large: it is fetched when the first text editor opens, from our own server, with its texts translated. */
 import type * as api from 'monaco-editor/editor/editor.api';
 import { language } from '@/i18n';
+import { loadCodeFont } from './font';
 import { languageConfiguration } from './iecText';
 import { textForms } from './languages';
 
@@ -11,7 +12,8 @@ let loading: Promise<Monaco> | null = null;
 async function load(): Promise<Monaco> {
   // The editor reads its texts while its modules are evaluated, so the language pack comes first.
   if (language() === 'zh') await import('monaco-editor/nls/lang/zh-cn');
-  const { monaco } = await import('./monaco');
+  // Monaco measures characters once: what it measures in another font is off when this one comes.
+  const [{ monaco }] = await Promise.all([import('./monaco'), loadCodeFont()]);
   await Promise.all(
     textForms().map(async ({ id, tokens }) => {
       monaco.languages.register({ id });
