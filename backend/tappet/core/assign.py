@@ -116,8 +116,13 @@ def merge_bit(old: ir.Expr, bit: int, value: ir.Expr) -> ir.Expr:
 
 
 def range_checked(b: Body, value: ir.Expr, type_: t.Type | None) -> ir.Expr:
-    """Route what is stored in a subrange through CheckRange functions, if there are any (LTYP-122)."""
-    if not isinstance(type_, t.Subrange) or isinstance(value, ir.Const):
+    """Route what is stored in a subrange through CheckRange functions, if there are any (LTYP-122).
+
+    A constant may lie outside where it is the start of a loop: elsewhere it has been refused.
+    """
+    if not isinstance(type_, t.Subrange):
+        return value
+    if isinstance(value, ir.Const) and type_.low <= value.value <= type_.high:
         return value
     scalar = value.type
     name = "CheckLRange" if scalar.bits == 64 else "CheckRange"
