@@ -15,9 +15,9 @@ from tappet.server.app import create_app
 from tappet.server.settings import ServerSettings
 
 async def get(app, path):
-    sent = []
+    sent, requests = [], [{"type": "http.request"}]
     async def receive():
-        return {"type": "http.request"}
+        return requests.pop() if requests else await asyncio.Event().wait()  # the client stays connected
     async def send(message):
         sent.append(message)
     await app({
@@ -50,7 +50,7 @@ UNWANTED = {
 
 def test_pages_are_served_without_the_compiler(tmp_path: Path) -> None:
     command = [sys.executable, "-c", SCRIPT, str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
     statuses, loaded = json.loads(done.stdout.splitlines()[-1])
     assert statuses[0] == 200
     assert statuses[2] == 401
