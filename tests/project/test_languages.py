@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[2] / "backend" / "tappet"
 OWN = ("iec/languages/", "lang/languages/")
 WORDS_OF_OTHERS = {
     "lang/rules/reserved_name.py",  # operators of IL
+    "project/exchange/codesys23.py",  # how its exports mark drawn bodies
     "project/exchange/codesys_native.py",  # numbers of the editors of CODESYS
     "project/exchange/twincat.py",  # what TwinCAT calls its languages
 }
