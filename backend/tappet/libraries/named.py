@@ -25,10 +25,13 @@ from tappet.iec.tokens import code_of
 from tappet.lang.source import Source
 from tappet.user_cache import cache_folder, compiler_stamp, store
 
-FORMAT = 1
+FORMAT = 2
 KEPT = 8
 """Indexes in memory."""
-_ALWAYS = re.compile(r"\b(?:VAR_GLOBAL|VAR_STAT|PROGRAM|tappet_export)\b|\bCheck", re.IGNORECASE)
+_ALWAYS = re.compile(
+    r"\b(?:VAR_GLOBAL|VAR_STAT|PROGRAM)\b|\bCheck(?:Bounds|Div|L?Range|Pointer)|\{[^}]*tappet_export",
+    re.IGNORECASE,
+)
 _CONVERSION = "Conversion"
 """Library whose functions stand behind the conversion operators, which do not name them."""
 _CONVERTS = re.compile(r"(?:^|_)TO_")
@@ -69,32 +72,59 @@ class Index:
 _kept: OrderedDict[str, Index] = OrderedDict()
 
 
-def named_texts(
-    libraries: Sequence[Source], own: Iterable[Source], index: Index | None = None
-) -> list[Source]:
-    """The texts of `libraries` that a program of the texts `own` can reach, in their order."""
-    index = index or index_of(libraries)
+def named_texts(libraries: Sequence[Source], own: Iterable[Source]) -> list[Source]:
+    """The texts of `libraries` that a program of the texts `own` can reach, in their order.
+
+    A text of a library sees that library and those it uses; the application sees all, but one whose names
+    need the namespace (LIB-08) only where it writes the namespace.
+    """
+    index = index_of(libraries)
     if index.everything:
         return list(libraries)
-    declared: dict[str, list[int]] = {}
+    declared: dict[str, dict[str, list[int]]] = {}
     for number, names in enumerate(index.names):
+        of_library = declared.setdefault(_label(libraries[number]), {})
         for name in names.split():
-            declared.setdefault(name, []).append(number)
+            of_library.setdefault(name, []).append(number)
+    written = {name for source in own for name in identifiers(source.text)}
+    written.update(name for source in libraries for one in source.given for name in identifiers(one.value))
+    converts = any(_CONVERTS.search(name) for name in written)
     taken = [False] * len(libraries)
-    waiting: list[set[str]] = [identifiers(source.text) for source in own]
-    converts = any(_CONVERTS.search(name) for found in waiting for name in found)
+    waiting: list[tuple[Iterable[str], set[str]]] = [(_seen(libraries, written), written)]
+
+    def take(number: int, names: str = "") -> None:
+        source = libraries[number]
+        taken[number] = True
+        seen = (_label(source), *(use.label.upper() for use in source.uses))
+        waiting.append((seen, {*index.identifiers[number].split(), *names.split()}))
+
     for number, source in enumerate(libraries):
         if index.always[number] or (converts and source.library == _CONVERSION):
-            taken[number] = True
-            waiting += [set(index.identifiers[number].split()), set(index.names[number].split())]
-        waiting += [identifiers(given.value) for given in source.given]
+            take(number, index.names[number])
     while waiting:
-        for name in waiting.pop().intersection(declared):
-            for number in declared.pop(name):
-                if not taken[number]:
-                    taken[number] = True
-                    waiting.append(set(index.identifiers[number].split()))
+        labels, found = waiting.pop()
+        for of_library in [declared[label] for label in labels if label in declared]:
+            for name in found.intersection(of_library):
+                for number in of_library.pop(name):
+                    if not taken[number]:
+                        take(number)
     return [source for source, wanted in zip(libraries, taken, strict=True) if wanted]
+
+
+def _label(source: Source) -> str:
+    """What the library of a text is known by to those that use it, upper case (`Use.label`)."""
+    return (source.namespace or source.library or "").upper()
+
+
+def _seen(libraries: Iterable[Source], written: set[str]) -> list[str]:
+    """The libraries of which an application that writes these identifiers sees names."""
+    spelled: dict[str, set[str]] = {}
+    for source in libraries:
+        spelled.setdefault(_label(source), {_label(source), (source.library or "").upper()})
+        for use in source.uses:
+            spelled.setdefault(use.label.upper(), {use.label.upper()}).add(use.name.upper())
+    qualified = {_label(source) for source in libraries if source.qualified_only}
+    return [label for label, names in spelled.items() if label not in qualified or names & written]
 
 
 def index_of(libraries: Sequence[Source]) -> Index:
@@ -171,7 +201,7 @@ def _made(libraries: Sequence[Source]) -> Index:
         read = code_of(source.text)
         made = identifiers_of(result.unit).global_names | ({source.owner.upper()} if source.owner else set())
         hidden = any(name.startswith(implicit) for name in made)
-        always.append(hidden or _ALWAYS.search(source.text) is not None)
+        always.append(hidden or _ALWAYS.search(read) is not None)
         names.append(" ".join(sorted(made)))
         words.append(" ".join(sorted(identifiers(read))))
     return Index(False, always, names, words)
