@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from tappet.core import (
     addressed,
+    arguments,
     assign,
     builtins,
     calls,
@@ -369,7 +370,7 @@ def _result(b: Body, pou: PouSymbol) -> None:
     local = b.function.result_local = b.local(pou.name, type_)
     if pou.result is not None:
         b.places[id(pou.result)] = ir.Place(local)
-    start = calls.default_number(type_)
+    start = arguments.default_number(type_)
     if pou.result is not None and pou.result.decl is not None and pou.result.decl.init is not None:
         b.emit(ir.Store(ir.Place(local), b.value_as(pou.result.decl.init, type_)))
     else:
@@ -445,7 +446,7 @@ def _initialise(
         if init is not None:
             b.emit(ir.Store(place, b.value_as(init, type_)))
         else:
-            b.emit(ir.Store(place, ir.Const(scalar, calls.default_number(type_))))
+            b.emit(ir.Store(place, ir.Const(scalar, arguments.default_number(type_))))
         return
     if isinstance(type_, t.String) and (init is None or init.is_constant):
         text = init.constant if init is not None else b""

@@ -72,13 +72,15 @@ class Index:
 _kept: OrderedDict[str, Index] = OrderedDict()
 
 
-def named_texts(libraries: Sequence[Source], own: Iterable[Source]) -> list[Source]:
+def named_texts(
+    libraries: Sequence[Source], own: Iterable[Source], index: Index | None = None
+) -> list[Source]:
     """The texts of `libraries` that a program of the texts `own` can reach, in their order.
 
     A text of a library sees that library and those it uses; the application sees all, but one whose names
     need the namespace (LIB-08) only where it writes the namespace.
     """
-    index = index_of(libraries)
+    index = index or index_of(libraries)
     if index.everything:
         return list(libraries)
     declared: dict[str, dict[str, list[int]]] = {}
