@@ -30,6 +30,40 @@ describe('texts that the compiler has read', () => {
   });
 });
 
+it('leaves out nothing but white space', () => {
+  const piece = fc.constantFrom(
+    '/*',
+    '*/',
+    '(*',
+    '*)',
+    '//',
+    "'",
+    '"',
+    '$',
+    '{',
+    '}',
+    '\n',
+    '\r',
+    '\r\n',
+    ' ',
+    'a',
+    '1',
+    ';',
+  );
+  fc.assert(
+    fc.property(fc.array(piece, { maxLength: 12 }), (some) => {
+      const text = some.join('');
+      let at = 0;
+      for (const token of tokenize(text)) {
+        expect(text.slice(at, token.start).trim()).toBe('');
+        at = token.end;
+      }
+      expect(text.slice(at).trim()).toBe('');
+    }),
+    { numRuns: 1000, examples: [[['a', '/*', '\n']], [['/*', 'a', '\r']]] },
+  );
+});
+
 it('is linear in the length of a text', () => {
   for (const piece of ['(*', '{', "'", ' ', '/*', "{attribute 'a", 'x#', "'a\n"]) {
     const text = piece.repeat(20_000);

@@ -76,7 +76,7 @@ export function tokenize(text: string): Token[] {
   TOKEN.lastIndex = 0;
   for (let match = TOKEN.exec(text); match !== null; match = TOKEN.exec(text)) {
     const piece = match[1] as string;
-    if (piece.endsWith('\n') || piece === '\r') continue;
+    if (piece.startsWith('\n') || piece.startsWith('\r')) continue;
     const kind = kindOf(piece);
     let end = TOKEN.lastIndex;
     const start = end - piece.length;
