@@ -8,9 +8,7 @@
  */
 import { createElement, Fragment, type ReactElement, type ReactNode } from 'react';
 import { create } from 'zustand';
-import { t } from '@/i18n';
-import { Button } from './Button';
-import { Dialog } from './Dialog';
+import { FormDialog } from './FormDialog';
 
 type Close<Answer> = (answer?: Answer) => void;
 
@@ -54,22 +52,17 @@ export async function confirm(question: Question): Promise<boolean> {
 
 function ConfirmDialog({ question, close }: { question: Question; close: Close<boolean> }) {
   return (
-    <Dialog
+    <FormDialog
       title={question.title}
       description={question.text}
       onClose={() => close()}
       onSubmit={() => close(true)}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant={question.danger ? 'danger' : 'primary'} data-autofocus>
-            {question.action}
-          </Button>
-        </>
-      }
+      action={question.action}
+      danger={question.danger}
+      focusAction
     >
       {question.body}
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -3,7 +3,7 @@ import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
 import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, TextInput } from '@/ui/Field';
 import { InputAssistant } from '../assistant/InputAssistant';
 import styles from './Dialogs.module.css';
@@ -44,19 +44,13 @@ export function ArrayWizard({ projectId, object, type, close }: ArrayWizardProps
     setBounds(bounds.map((d, i) => (i === index ? { ...d, [part]: value.trim() } : d)));
 
   return (
-    <Dialog
+    <FormDialog
       title={t('decl.arrayWizard')}
       width={460}
       onClose={() => close()}
-      onSubmit={() => reason === null && close(result)}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={reason}>
-            {t('st.ok')}
-          </Button>
-        </>
-      }
+      onSubmit={() => close(result)}
+      action={t('st.ok')}
+      disabledReason={reason}
     >
       <div className={styles.stack}>
         <div className={styles.dimensions}>
@@ -88,7 +82,7 @@ export function ArrayWizard({ projectId, object, type, close }: ArrayWizardProps
         </Field>
         <div className={styles.preview}>{result}</div>
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -2,7 +2,7 @@ import { useState } from 'react';
 import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
 import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, Select, TextArea, TextInput } from '@/ui/Field';
 import { identifierProblem } from '@/iec/keywords';
 import { AttributesDialog } from './AttributesDialog';
@@ -35,21 +35,17 @@ export function HeaderDialog({ values, close }: HeaderDialogProps) {
       );
   };
   return (
-    <Dialog
+    <FormDialog
       title={t('decl.editHeader')}
       width={480}
       onClose={() => close()}
-      onSubmit={() => error === null && close({ keyword, name: name.trim(), comment, attributes })}
-      footer={
-        <>
-          <Button style={{ marginRight: 'auto' }} onClick={() => void editAttributes()}>
-            {t('decl.attributesButton', { number: attributes.length })}
-          </Button>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={error}>
-            {t('st.ok')}
-          </Button>
-        </>
+      onSubmit={() => close({ keyword, name: name.trim(), comment, attributes })}
+      action={t('st.ok')}
+      disabledReason={error}
+      aside={
+        <Button style={{ marginRight: 'auto' }} onClick={() => void editAttributes()}>
+          {t('decl.attributesButton', { number: attributes.length })}
+        </Button>
       }
     >
       <div className={styles.stack}>
@@ -76,6 +72,6 @@ export function HeaderDialog({ values, close }: HeaderDialogProps) {
           )}
         </Field>
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }

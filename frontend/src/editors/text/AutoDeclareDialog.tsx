@@ -4,7 +4,7 @@ import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
 import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
 import { InputAssistant } from '../assistant/InputAssistant';
 import { scopesFor, VARIABLE_FLAGS } from '@/iec/declaration/model';
@@ -41,10 +41,8 @@ export function AutoDeclareDialog({ projectId, object, places, keyword, start, c
   const nameError = problem === null ? null : t(`decl.identifier.${problem}`, { name: variable.name });
   const typeError = variable.type.trim() === '' ? t('decl.typeNeeded') : null;
   const error = nameError ?? typeError;
-  const submit = () => {
-    if (error === null)
-      close({ objectId, variable: { ...variable, scope, name: variable.name.trim(), type: variable.type.trim() } });
-  };
+  const submit = () =>
+    close({ objectId, variable: { ...variable, scope, name: variable.name.trim(), type: variable.type.trim() } });
   const browse = async () => {
     const chosen = await openDialog<string>((done) => (
       <InputAssistant projectId={projectId} object={object} category="types" close={done} />
@@ -52,19 +50,13 @@ export function AutoDeclareDialog({ projectId, object, places, keyword, start, c
     if (chosen !== undefined) change({ type: chosen });
   };
   return (
-    <Dialog
+    <FormDialog
       title={t('st.autoDeclareTitle')}
       width={520}
       onClose={() => close()}
       onSubmit={submit}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={error}>
-            {t('st.declare')}
-          </Button>
-        </>
-      }
+      action={t('st.declare')}
+      disabledReason={error}
     >
       <div className={styles.form}>
         <Field label={t('decl.column.scope')}>
@@ -136,6 +128,6 @@ export function AutoDeclareDialog({ projectId, object, places, keyword, start, c
           ))}
         </div>
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }

@@ -1,8 +1,7 @@
 import { useMemo, useState } from 'react';
 import { useText } from '@/i18n';
 import type { CrossReference } from '@/lsp/symbols';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, TextInput } from '@/ui/Field';
 import { identifierProblem } from '@/iec/keywords';
 import list from '@/ui/List.module.css';
@@ -36,7 +35,7 @@ export function RenameDialog({ name, places, nameOf, rename, close }: RenameDial
         : null;
   const objects = useMemo(() => new Set(places.map((place) => place.uri.split('/').at(-2))).size, [places]);
   const submit = async () => {
-    if (error !== null || wanted === name || busy) return;
+    if (busy) return;
     setBusy(true);
     try {
       await rename(wanted);
@@ -47,20 +46,14 @@ export function RenameDialog({ name, places, nameOf, rename, close }: RenameDial
     }
   };
   return (
-    <Dialog
+    <FormDialog
       title={t('st.renameTitle', { name })}
       description={t('st.renameText')}
       width={620}
       onClose={close}
       onSubmit={() => void submit()}
-      footer={
-        <>
-          <Button onClick={close}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={error ?? (wanted === name ? t('st.sameName') : null)}>
-            {t('st.rename')}
-          </Button>
-        </>
-      }
+      action={t('st.rename')}
+      disabledReason={error ?? (wanted === name ? t('st.sameName') : null)}
     >
       <Field label={t('st.newName')} error={error}>
         {(field) => <TextInput {...field} value={next} onValue={setNext} data-autofocus />}
@@ -84,7 +77,7 @@ export function RenameDialog({ name, places, nameOf, rename, close }: RenameDial
           </ul>
         </>
       )}
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -2,11 +2,10 @@ import { useState } from 'react';
 import { api } from '@/api/client';
 import type { RuntimeState } from '@/api/types';
 import { useText } from '@/i18n';
-import { refusalOf } from '@/ui/notices';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, TextInput } from '@/ui/Field';
 import { PasswordField } from '@/ui/PasswordField';
+import { useRefusal } from '@/ui/useRefusal';
 
 /** Connects the server to a running soft PLC. */
 export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => void }) {
@@ -14,33 +13,21 @@ export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => v
   const [name, setName] = useState('');
   const [url, setUrl] = useState('ws://');
   const [token, setToken] = useState('');
-  const [refused, setRefused] = useState<string | null>(null);
+  const [refused, ask] = useRefusal();
   const urlFault = /^wss?:\/\/[^\s/?#]+(\/[^\s]*)?$/.test(url) ? null : t('runtime.urlFault');
   const missing = name.trim() === '' ? t('name.empty') : (urlFault ?? (token === '' ? t('runtime.tokenFault') : null));
 
-  const add = async () => {
-    if (missing) return;
-    try {
-      close(await api.post('/api/v1/runtimes', { body: { name: name.trim(), url, token } }));
-    } catch (error) {
-      setRefused(refusalOf(error));
-    }
-  };
+  const add = () =>
+    ask(async () => close(await api.post('/api/v1/runtimes', { body: { name: name.trim(), url, token } })));
 
   return (
-    <Dialog
+    <FormDialog
       title={t('runtime.add')}
       description={t('runtime.addText')}
       onClose={() => close()}
       onSubmit={() => void add()}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={missing}>
-            {t('action.add')}
-          </Button>
-        </>
-      }
+      action={t('action.add')}
+      disabledReason={missing}
     >
       <Field label={t('runtime.name')} error={refused}>
         {(attributes) => <TextInput {...attributes} data-autofocus value={name} onValue={setName} />}
@@ -55,6 +42,6 @@ export function AddRuntimeDialog({ close }: { close: (added?: RuntimeState) => v
         value={token}
         onValue={setToken}
       />
-    </Dialog>
+    </FormDialog>
   );
 }

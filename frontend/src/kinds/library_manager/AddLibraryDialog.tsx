@@ -3,8 +3,7 @@ import type { LibraryReference, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { descriptionColumn, nameColumn } from '@/workbench/libraries/columns';
 import { search } from '@/workbench/palette/match';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Empty } from '@/ui/Empty';
 import { TextInput } from '@/ui/Field';
 import { Table } from '@/ui/Table';
@@ -58,19 +57,13 @@ export function AddLibraryDialog({ references, installed, close }: AddLibraryPro
     descriptionColumn(t, 160),
   ];
   return (
-    <Dialog
+    <FormDialog
       title={t('library.add')}
       width={860}
       onClose={() => close()}
-      onSubmit={() => !refused && reference && close(reference)}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={refused}>
-            {t('action.add')}
-          </Button>
-        </>
-      }
+      onSubmit={() => reference && close(reference)}
+      action={t('action.add')}
+      disabledReason={refused}
     >
       <TextInput
         data-autofocus
@@ -100,7 +93,7 @@ export function AddLibraryDialog({ references, installed, close }: AddLibraryPro
           change={setDraft}
         />
       )}
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -1,8 +1,7 @@
 import { useState } from 'react';
 import type { LibraryReference, LibrarySummary } from '@/api/types';
 import { useText } from '@/i18n';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { namespaceFault } from './model';
 import { placeholderFault, ReferenceFields } from './ReferenceFields';
 
@@ -21,21 +20,15 @@ export function LibraryPropertiesDialog({ reference, at, references, installed, 
   const fault = namespaceFault(edited, at, references, installed);
   const refused = fault ? t(fault) : placeholderFault(edited) ? t('library.namespaceFault') : null;
   return (
-    <Dialog
+    <FormDialog
       title={t('library.propertiesOf', { name: reference.name })}
       width={420}
       onClose={() => close()}
-      onSubmit={() => !refused && close(edited)}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={refused}>
-            {t('action.apply')}
-          </Button>
-        </>
-      }
+      onSubmit={() => close(edited)}
+      action={t('action.apply')}
+      disabledReason={refused}
     >
       <ReferenceFields reference={edited} at={at} references={references} installed={installed} change={setEdited} />
-    </Dialog>
+    </FormDialog>
   );
 }

@@ -3,8 +3,7 @@ import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import { search } from '@/workbench/palette/match';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Empty } from '@/ui/Empty';
 import { TextInput } from '@/ui/Field';
 import { rowAfterKey } from '@/ui/table';
@@ -32,19 +31,13 @@ export function ProgramPicker({ title, programs, close }: ProgramPickerProps) {
     setAt(next);
   };
   return (
-    <Dialog
+    <FormDialog
       title={title}
       width={420}
       onClose={() => close()}
       onSubmit={() => chosen && close(chosen)}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={chosen ? null : t('task.chooseProgram')}>
-            {t('action.choose')}
-          </Button>
-        </>
-      }
+      action={t('action.choose')}
+      disabledReason={chosen ? null : t('task.chooseProgram')}
     >
       <TextInput
         data-autofocus
@@ -75,6 +68,6 @@ export function ProgramPicker({ title, programs, close }: ProgramPickerProps) {
           ))}
         </div>
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }

@@ -18,8 +18,7 @@ import { explain } from '@/ui/notices';
 import { createObject } from '../tree/acts';
 import { firstChoice, ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '@/project/placement';
 import type { Forest, TreeView } from '@/project/tree';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, Select, TextInput } from '@/ui/Field';
 import styles from './AddObjectDialog.module.css';
 import { declarationOf } from './declaration';
@@ -72,7 +71,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
   };
 
   const create = async () => {
-    if (fault || busy) return;
+    if (busy) return;
     setBusy(true);
     try {
       const declaration = declarationOf(rule.kind, { subkind, name, values: options });
@@ -111,19 +110,13 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
     );
 
   return (
-    <Dialog
+    <FormDialog
       title={owner ? t('addObject.titleAt', { name: owner.name }) : t('addObject.title')}
       width={620}
       onClose={() => close()}
       onSubmit={() => void create()}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={fault && t(fault.key, fault.values)}>
-            {t('action.add')}
-          </Button>
-        </>
-      }
+      action={t('action.add')}
+      disabledReason={fault && t(fault.key, fault.values)}
     >
       <div className={styles.columns}>
         <div className={styles.kinds} role="radiogroup" aria-label={t('addObject.kind')} onKeyDown={walk}>
@@ -207,7 +200,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
           )}
         </div>
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }
 

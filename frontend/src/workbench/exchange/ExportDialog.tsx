@@ -4,8 +4,7 @@ import { useText } from '@/i18n';
 import { api } from '@/api/client';
 import { saveBlob } from '../downloadFile';
 import { guard } from '@/ui/notices';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, Select } from '@/ui/Field';
 
 const FORMATS = ['archive', 'plcopen', 'st'] as const;
@@ -41,19 +40,12 @@ export function ExportDialog({ projectId, projectName, selection, close }: Expor
     if (done) close();
   };
   return (
-    <Dialog
+    <FormDialog
       title={t('command.export')}
       width={440}
       onClose={close}
       onSubmit={() => void save()}
-      footer={
-        <>
-          <Button onClick={close}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary">
-            {t('exchange.export')}
-          </Button>
-        </>
-      }
+      action={t('exchange.export')}
     >
       <Field label={t('exchange.format')} hint={t(`exchange.format.${format}.hint`)}>
         {(attributes) => (
@@ -84,7 +76,7 @@ export function ExportDialog({ projectId, projectName, selection, close }: Expor
           />
         )}
       </Field>
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -7,6 +7,7 @@ import { FilterInput } from '@/ui/Filter';
 import { notifyError } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Loading } from '@/ui/Empty';
 import { Field, Select, TextInput } from '@/ui/Field';
 import { filesToSend, type NamedFile } from './dropped';
@@ -136,26 +137,20 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
     const { preview: found } = step;
     const noteworthy = found.report.entries.filter((entry) => entry.outcome !== 'imported');
     return (
-      <Dialog
+      <FormDialog
         title={title}
         width={940}
+        action={t('exchange.import')}
+        disabledReason={abort ? t('reason.busy') : chosen.size ? null : t('exchange.nothingChosen')}
         onClose={cancel}
-        onSubmit={() => abort === null && chosen.size > 0 && void importNow(found)}
-        footer={
+        onSubmit={() => void importNow(found)}
+        aside={
           <>
             <span className={styles.count}>
               {t('exchange.chosen', { chosen: chosen.size, all: found.nodes.length })}
             </span>
             <Button disabledReason={abort ? t('reason.busy') : null} onClick={() => setStep({ at: 'files' })}>
               {t('exchange.back')}
-            </Button>
-            <Button onClick={cancel}>{t('action.cancel')}</Button>
-            <Button
-              type="submit"
-              variant="primary"
-              disabledReason={abort ? t('reason.busy') : chosen.size ? null : t('exchange.nothingChosen')}
-            >
-              {t('exchange.import')}
             </Button>
           </>
         }
@@ -176,28 +171,18 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
             <ReportView entries={noteworthy} />
           </section>
         )}
-      </Dialog>
+      </FormDialog>
     );
   }
   return (
-    <Dialog
+    <FormDialog
       title={title}
       width={640}
+      action={t('exchange.next')}
+      disabledReason={abort ? t('reason.busy') : files.length ? null : t('exchange.noFiles')}
+      aside={abort && <Loading />}
       onClose={cancel}
-      onSubmit={() => abort === null && files.length > 0 && void preview()}
-      footer={
-        <>
-          {abort && <Loading />}
-          <Button onClick={cancel}>{t('action.cancel')}</Button>
-          <Button
-            type="submit"
-            variant="primary"
-            disabledReason={abort ? t('reason.busy') : files.length ? null : t('exchange.noFiles')}
-          >
-            {t('exchange.next')}
-          </Button>
-        </>
-      }
+      onSubmit={() => void preview()}
     >
       <FilesStep files={files} change={setFiles} />
       {target && (
@@ -234,6 +219,6 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
           {(attributes) => <TextInput {...attributes} value={name} onValue={setName} />}
         </Field>
       )}
-    </Dialog>
+    </FormDialog>
   );
 }

@@ -6,8 +6,7 @@ import { useText } from '@/i18n';
 import { showPanel } from '../docking/dock';
 import { buildFinished } from '../messages/store';
 import { notify, notifyError } from '@/ui/notices';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Checkbox, Field, TextInput } from '@/ui/Field';
 import { idOf, libraryFaults, nextVersion } from './model';
 
@@ -57,20 +56,14 @@ export function SaveLibraryDialog({ projectId, projectName, description, install
   };
 
   return (
-    <Dialog
+    <FormDialog
       title={t('command.saveLibrary')}
       description={t('libraries.saveText')}
       width={480}
       onClose={close}
       onSubmit={() => void save()}
-      footer={
-        <>
-          <Button onClick={close}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={saving ? t('reason.busy') : null}>
-            {t('libraries.save')}
-          </Button>
-        </>
-      }
+      action={t('libraries.save')}
+      disabledReason={saving ? t('reason.busy') : null}
     >
       <Field label={t('library.name')} error={faults.name && t(faults.name)}>
         {(attributes) => <TextInput {...attributes} value={facts.name} onValue={(name) => set({ name })} />}
@@ -108,7 +101,7 @@ export function SaveLibraryDialog({ projectId, projectName, description, install
           <TextInput {...attributes} value={facts.description} onValue={(text) => set({ description: text })} />
         )}
       </Field>
-    </Dialog>
+    </FormDialog>
   );
 }
 

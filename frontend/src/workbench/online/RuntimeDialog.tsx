@@ -1,8 +1,7 @@
 import { useState } from 'react';
 import type { RuntimeState } from '@/api/types';
 import { useText } from '@/i18n';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { ToneDot } from './ToneDot';
 import styles from './dialogs.module.css';
 import { runtimeText, toneOfRuntime } from './runtimeText';
@@ -21,19 +20,14 @@ export function RuntimeDialog({ runtimes, missing, close }: RuntimeDialogProps) 
     runtimes.find((runtime) => runtime.connected) ?? runtimes[0],
   );
   return (
-    <Dialog
+    <FormDialog
       title={t('runtime.choose')}
       description={t(runtimes.length === 0 ? 'runtime.none' : missing ? 'runtime.missing' : 'runtime.chooseText')}
       onClose={() => close()}
       onSubmit={() => chosen && close(chosen)}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" data-autofocus disabledReason={chosen ? null : t('runtime.none')}>
-            {t('action.choose')}
-          </Button>
-        </>
-      }
+      action={t('action.choose')}
+      disabledReason={chosen ? null : t('runtime.none')}
+      focusAction
     >
       {runtimes.length > 0 && (
         <div role="radiogroup" aria-label={t('runtime.choose')} className={styles.runtimes}>
@@ -56,6 +50,6 @@ export function RuntimeDialog({ runtimes, missing, close }: RuntimeDialogProps) 
           ))}
         </div>
       )}
-    </Dialog>
+    </FormDialog>
   );
 }

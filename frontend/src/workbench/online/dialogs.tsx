@@ -3,8 +3,7 @@ import { useState } from 'react';
 import type { LoginAnswer, RuntimeState } from '@/api/types';
 import { t, useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Checkbox } from '@/ui/Field';
 import { RadioCards } from '@/ui/RadioCards';
 import styles from './dialogs.module.css';
@@ -57,20 +56,14 @@ function LoginDialog({ answer, application, runtime, mayLoad, close }: LoginQues
   const [start, setStart] = useState(runtime.state === 'run');
   const values = { application, runtime: runtime.name, other: runtime.application ?? '' };
   return (
-    <Dialog
+    <FormDialog
       title={t('login.title')}
       description={t(`login.relation.${answer.relation}`, values)}
       width={520}
       onClose={() => close()}
       onSubmit={() => close({ how, start: how === 'download' && start })}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" data-autofocus>
-            {t(`login.do.${how}`)}
-          </Button>
-        </>
-      }
+      action={t(`login.do.${how}`)}
+      focusAction
     >
       {choices.length > 1 && (
         <RadioCards
@@ -93,7 +86,7 @@ function LoginDialog({ answer, application, runtime, mayLoad, close }: LoginQues
           </Checkbox>
         </>
       )}
-    </Dialog>
+    </FormDialog>
   );
 }
 
@@ -121,24 +114,18 @@ function DownloadDialog({
 }) {
   const [start, setStart] = useState(running);
   return (
-    <Dialog
+    <FormDialog
       title={t('download.title')}
       description={t('download.text', { name: application })}
       onClose={() => close()}
       onSubmit={() => close({ start })}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" data-autofocus>
-            {t('login.do.download')}
-          </Button>
-        </>
-      }
+      action={t('login.do.download')}
+      focusAction
     >
       {running && <p className={styles.warning}>{t('login.stops')}</p>}
       <Checkbox checked={start} onChecked={setStart}>
         {t('login.startAfter')}
       </Checkbox>
-    </Dialog>
+    </FormDialog>
   );
 }

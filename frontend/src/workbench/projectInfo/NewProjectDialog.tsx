@@ -4,12 +4,11 @@ import { keys, queryClient } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
-import { refusalOf } from '@/ui/notices';
 import { freeName } from '@/project/tree';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, TextInput } from '@/ui/Field';
 import { RadioCards } from '@/ui/RadioCards';
+import { useRefusal } from '@/ui/useRefusal';
 
 /** Asks for name and template and creates the project; undefined when cancelled. */
 export function newProject(): Promise<ProjectSummary | undefined> {
@@ -28,33 +27,22 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
     );
   });
   const [template, setTemplate] = useState<(typeof TEMPLATES)[number]>('standard');
-  const [refused, setRefused] = useState<string | null>(null);
+  const [refused, ask] = useRefusal();
   const fault = name.trim() === '' ? t('name.empty') : null;
 
   const create = async () => {
-    if (fault) return;
-    try {
-      const project = await api.post('/api/v1/projects', { body: { name: name.trim(), template } });
-      void queryClient.invalidateQueries({ queryKey: keys.projects });
-      close(project);
-    } catch (error) {
-      setRefused(refusalOf(error));
-    }
+    const project = await api.post('/api/v1/projects', { body: { name: name.trim(), template } });
+    void queryClient.invalidateQueries({ queryKey: keys.projects });
+    close(project);
   };
 
   return (
-    <Dialog
+    <FormDialog
       title={t('command.newProject')}
       onClose={() => close()}
-      onSubmit={() => void create()}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={fault}>
-            {t('action.create')}
-          </Button>
-        </>
-      }
+      onSubmit={() => void ask(create)}
+      action={t('action.create')}
+      disabledReason={fault}
     >
       <Field label={t('project.name')} error={refused ?? fault}>
         {(attributes) => <TextInput {...attributes} data-autofocus value={name} onValue={setName} />}
@@ -69,6 +57,6 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
         }))}
         onValue={setTemplate}
       />
-    </Dialog>
+    </FormDialog>
   );
 }

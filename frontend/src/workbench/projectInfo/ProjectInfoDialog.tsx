@@ -9,8 +9,8 @@ import { atLeast } from '../rights';
 import { commandContext } from '../context';
 import { guard } from '@/ui/notices';
 import { useProject } from '@/project/openProject';
-import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Failed, Loading } from '@/ui/Empty';
 import { Facts } from '@/ui/Facts';
 import { Field, TextArea, TextInput } from '@/ui/Field';
@@ -38,7 +38,6 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
   const fault = name.trim() === '' ? t('name.empty') : null;
 
   const save = async () => {
-    if (fault) return;
     const saved = await guard(() =>
       api.patch('/api/v1/projects/{project_id}', {
         params: { path: { project_id: project.id } },
@@ -53,18 +52,12 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
   };
 
   return (
-    <Dialog
+    <FormDialog
       title={t('command.projectInformation')}
       onClose={close}
       onSubmit={() => void save()}
-      footer={
-        <>
-          <Button onClick={close}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={fault ?? (mayChange ? null : t('reason.engineer'))}>
-            {t('action.save')}
-          </Button>
-        </>
-      }
+      action={t('action.save')}
+      disabledReason={fault ?? (mayChange ? null : t('reason.engineer'))}
     >
       <Field label={t('project.name')} error={fault}>
         {(attributes) => <TextInput {...attributes} value={name} onValue={setName} readOnly={!mayChange} />}
@@ -82,6 +75,6 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
         <dt>{t('project.objects')}</dt>
         <dd>{objects?.length ?? ''}</dd>
       </Facts>
-    </Dialog>
+    </FormDialog>
   );
 }

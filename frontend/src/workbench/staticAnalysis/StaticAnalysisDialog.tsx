@@ -11,6 +11,7 @@ import { guard } from '@/ui/notices';
 import { useToggleSet } from '@/ui/toggleSet';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Empty, Failed, Loading } from '@/ui/Empty';
 import { Checkbox, Field, Select } from '@/ui/Field';
 import { groupKey, groupsOf, isPrefix, NO_RULES, onIn, titleKey, withLevel, type Level } from './model';
@@ -86,7 +87,6 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
     setChosen(withLevel(chosen, level === 'off' ? codes : codes.filter((code) => !chosen.rules[code]), level));
   };
   const save = async () => {
-    if (faulty || readOnly) return;
     const targets = everywhere ? applications.map((one) => one.id) : [application.id];
     const done = await guard(async () => {
       for (const id of targets) await saveSettings(projectId, id, chosen);
@@ -96,12 +96,14 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
   };
 
   return (
-    <Dialog
+    <FormDialog
       title={t('command.staticAnalysisSettings')}
       width={860}
       onClose={() => close()}
       onSubmit={() => void save()}
-      footer={
+      action={t('action.apply')}
+      disabledReason={readOnly ?? (faulty ? t('analysis.prefixFault') : null)}
+      aside={
         <>
           <span className={styles.count}>{t('analysis.on', { on: onIn(chosen, rules), all: rules.length })}</span>
           {applications.length > 1 && (
@@ -109,14 +111,6 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
               {t('analysis.everywhere')}
             </Checkbox>
           )}
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button
-            type="submit"
-            variant="primary"
-            disabledReason={readOnly ?? (faulty ? t('analysis.prefixFault') : null)}
-          >
-            {t('action.apply')}
-          </Button>
         </>
       }
     >
@@ -200,7 +194,7 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
           );
         })}
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }
 

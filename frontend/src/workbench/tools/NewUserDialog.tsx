@@ -2,11 +2,10 @@ import { useState } from 'react';
 import { api } from '@/api/client';
 import type { Account, Role } from '@/api/types';
 import { useText } from '@/i18n';
-import { refusalOf } from '@/ui/notices';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { FormDialog } from '@/ui/FormDialog';
 import { Field, Select, TextInput } from '@/ui/Field';
 import { PasswordField } from '@/ui/PasswordField';
+import { useRefusal } from '@/ui/useRefusal';
 
 const ROLES: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
 
@@ -16,32 +15,19 @@ export function NewUserDialog({ close }: { close: (account?: Account) => void })
   const [username, setUsername] = useState('');
   const [password, setPassword] = useState('');
   const [role, setRole] = useState<Role>('engineer');
-  const [refused, setRefused] = useState<string | null>(null);
+  const [refused, ask] = useRefusal();
   const missing = username === '' || password === '' ? t('signIn.fillIn') : null;
 
-  const create = async () => {
-    if (missing) return;
-    try {
-      close(await api.post('/api/v1/users', { body: { username, password, role } }));
-    } catch (error) {
-      setRefused(refusalOf(error));
-    }
-  };
+  const create = () => ask(async () => close(await api.post('/api/v1/users', { body: { username, password, role } })));
 
   return (
-    <Dialog
+    <FormDialog
       title={t('users.add')}
       width={400}
       onClose={() => close()}
       onSubmit={() => void create()}
-      footer={
-        <>
-          <Button onClick={() => close()}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={missing}>
-            {t('action.create')}
-          </Button>
-        </>
-      }
+      action={t('action.create')}
+      disabledReason={missing}
     >
       <Field label={t('signIn.username')} error={refused}>
         {(attributes) => <TextInput {...attributes} autoComplete="off" value={username} onValue={setUsername} />}
@@ -57,6 +43,6 @@ export function NewUserDialog({ close }: { close: (account?: Account) => void })
           />
         )}
       </Field>
-    </Dialog>
+    </FormDialog>
   );
 }

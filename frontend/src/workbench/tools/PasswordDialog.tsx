@@ -1,46 +1,35 @@
 import { useState } from 'react';
 import { api } from '@/api/client';
 import { useText } from '@/i18n';
-import { notify, refusalOf } from '@/ui/notices';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
+import { notify } from '@/ui/notices';
+import { FormDialog } from '@/ui/FormDialog';
 import { isComplete, NewPasswordFields, type NewPassword } from '@/ui/NewPasswordFields';
 import { PasswordField } from '@/ui/PasswordField';
+import { useRefusal } from '@/ui/useRefusal';
 
 /** A new password for oneself. */
 export function PasswordDialog({ close }: { close: () => void }) {
   const t = useText();
   const [current, setCurrent] = useState('');
   const [next, setNext] = useState<NewPassword>({ password: '', again: '' });
-  const [refused, setRefused] = useState<string | null>(null);
+  const [refused, ask] = useRefusal();
   const missing = isComplete(next) ? null : t('firstAccount.fillIn');
 
   const save = async () => {
-    if (missing) return;
-    try {
-      await api.post('/api/v1/auth/password', { body: { current, new: next.password } });
-      notify({ tone: 'ok', title: t('password.changed') });
-      close();
-    } catch (error) {
-      setRefused(refusalOf(error));
-    }
+    await api.post('/api/v1/auth/password', { body: { current, new: next.password } });
+    notify({ tone: 'ok', title: t('password.changed') });
+    close();
   };
 
   return (
-    <Dialog
+    <FormDialog
       title={t('command.password')}
       description={t('password.text')}
       width={400}
       onClose={close}
-      onSubmit={() => void save()}
-      footer={
-        <>
-          <Button onClick={close}>{t('action.cancel')}</Button>
-          <Button type="submit" variant="primary" disabledReason={missing}>
-            {t('action.save')}
-          </Button>
-        </>
-      }
+      onSubmit={() => void ask(save)}
+      action={t('action.save')}
+      disabledReason={missing}
     >
       <PasswordField
         label={t('password.current')}
@@ -50,6 +39,6 @@ export function PasswordDialog({ close }: { close: () => void }) {
         onValue={setCurrent}
       />
       <NewPasswordFields label={t('password.new')} value={next} onValue={setNext} />
-    </Dialog>
+    </FormDialog>
   );
 }
