@@ -1,6 +1,5 @@
-import { lazy } from 'react';
+import { textKind } from '@/editors/textObject/textKind';
 import { icon } from '@/icons/shape';
-import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -9,16 +8,10 @@ declare module '@/i18n' {
   }
 }
 
-const Action = icon('member', <path d="M8.9 1.9 3.6 9h3.9l-.6 5.1L12.3 7H8.3z" />);
-
-const descriptor: ObjectKindDescriptor = {
+export default textKind({
   kind: 'action',
-  icon: Action,
-  editor: lazy(() => import('@/editors/textObject/TextObjectEditor')),
+  icon: icon('member', <path d="M8.9 1.9 3.6 9h3.9l-.6 5.1L12.3 7H8.3z" />),
   // An action has no variables of its own; its first line is its name.
   parts: ['implementation'],
-  compiled: true,
   online: { valuesOf: () => 'owner' },
-};
-
-export default descriptor;
+});

@@ -9,17 +9,15 @@ declare module '@/i18n' {
   }
 }
 
-const Application = icon(
-  'program',
-  <>
-    <path d="m8 1.75 5.5 3.1v6.3L8 14.25l-5.5-3.1v-6.3z" />
-    <path d="m2.7 5 5.3 3 5.3-3M8 8v6" />
-  </>,
-);
-
 const descriptor: ObjectKindDescriptor = {
   kind: 'application',
-  icon: Application,
+  icon: icon(
+    'program',
+    <>
+      <path d="m8 1.75 5.5 3.1v6.3L8 14.25l-5.5-3.1v-6.3z" />
+      <path d="m2.7 5 5.3 3 5.3-3M8 8v6" />
+    </>,
+  ),
   editor: lazy(() => import('./ApplicationEditor')),
   role: 'application',
   tree: { openAtFirst: true },

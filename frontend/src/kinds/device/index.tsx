@@ -9,18 +9,16 @@ declare module '@/i18n' {
   }
 }
 
-const Device = icon(
-  'device',
-  <>
-    <rect x="1.75" y="3.25" width="12.5" height="9.5" rx="1.5" />
-    <path d="M5.5 3.25v9.5M8 6h3.75M8 8.5h3.75" />
-    <path d="M3.6 6h.05" strokeWidth={2} />
-  </>,
-);
-
 const descriptor: ObjectKindDescriptor = {
   kind: 'device',
-  icon: Device,
+  icon: icon(
+    'device',
+    <>
+      <rect x="1.75" y="3.25" width="12.5" height="9.5" rx="1.5" />
+      <path d="M5.5 3.25v9.5M8 6h3.75M8 8.5h3.75" />
+      <path d="M3.6 6h.05" strokeWidth={2} />
+    </>,
+  ),
   editor: lazy(() => import('./DeviceEditor')),
   role: 'device',
   tree: { openAtFirst: true },

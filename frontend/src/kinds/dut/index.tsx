@@ -1,6 +1,5 @@
-import { lazy } from 'react';
+import { textKind } from '@/editors/textObject/textKind';
 import { icon, BOX } from '@/icons/shape';
-import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -35,7 +34,7 @@ const Union = icon(
 
 const Alias = icon('data', <path d="M2.25 5.75h11.5M2.25 10.25h8M11 7.5l2.75 2.75L11 13" />);
 
-const descriptor: ObjectKindDescriptor = {
+export default textKind({
   kind: 'dut',
   icon: Struct,
   subkinds: {
@@ -47,9 +46,7 @@ const descriptor: ObjectKindDescriptor = {
     // Libraries call so what is none of these.
     type: {},
   },
-  editor: lazy(() => import('@/editors/textObject/TextObjectEditor')),
   parts: ['declaration'],
-  compiled: true,
   add: {
     optionsOf: (subkind) => {
       if (subkind === 'struct') return ['extends'];
@@ -62,6 +59,4 @@ const descriptor: ObjectKindDescriptor = {
   },
   catalog: 'types',
   countedAs: () => 'types',
-};
-
-export default descriptor;
+});

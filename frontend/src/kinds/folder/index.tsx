@@ -8,14 +8,12 @@ declare module '@/i18n' {
   }
 }
 
-const Folder = icon(
-  'folder',
-  <path d="M1.9 11.75v-7.5c0-.7.55-1.25 1.25-1.25h2.9l1.6 1.75h5.2c.7 0 1.25.55 1.25 1.25v5.75c0 .7-.55 1.25-1.25 1.25h-9.7c-.7 0-1.25-.55-1.25-1.25z" />,
-);
-
 const descriptor: ObjectKindDescriptor = {
   kind: 'folder',
-  icon: Folder,
+  icon: icon(
+    'folder',
+    <path d="M1.9 11.75v-7.5c0-.7.55-1.25 1.25-1.25h2.9l1.6 1.75h5.2c.7 0 1.25.55 1.25 1.25v5.75c0 .7-.55 1.25-1.25 1.25h-9.7c-.7 0-1.25-.55-1.25-1.25z" />,
+  ),
   role: 'folder',
   tree: { outsidePaths: true },
 };

@@ -1,6 +1,5 @@
-import { lazy } from 'react';
+import { textKind } from '@/editors/textObject/textKind';
 import { icon } from '@/icons/shape';
-import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -25,17 +24,13 @@ const ParameterList = icon(
   </>,
 );
 
-const descriptor: ObjectKindDescriptor = {
+export default textKind({
   kind: 'gvl',
   icon: Globals,
   // Libraries call their lists `global`.
   subkinds: { parameter_list: { icon: ParameterList }, variable_list: {}, global: {} },
-  editor: lazy(() => import('@/editors/textObject/TextObjectEditor')),
   parts: ['declaration'],
-  compiled: true,
   online: { valuesOf: () => 'global' },
   declares: 'VAR_GLOBAL',
   countedAs: () => 'lists',
-};
-
-export default descriptor;
+});

@@ -9,17 +9,15 @@ declare module '@/i18n' {
   }
 }
 
-const LibraryManager = icon(
-  'folder',
-  <>
-    <path d="M2.5 2.75v10.5M5.5 2.75v10.5M2.5 13.25h3" />
-    <path d="m8.2 3.6 3.9 9.7 1.9-.8-3.9-9.7z" />
-  </>,
-);
-
 const descriptor: ObjectKindDescriptor = {
   kind: 'library_manager',
-  icon: LibraryManager,
+  icon: icon(
+    'folder',
+    <>
+      <path d="M2.5 2.75v10.5M5.5 2.75v10.5M2.5 13.25h3" />
+      <path d="m8.2 3.6 3.9 9.7 1.9-.8-3.9-9.7z" />
+    </>,
+  ),
   editor: lazy(() => import('./LibraryManagerEditor')),
   role: 'libraries',
   tree: { fixedName: true },

@@ -1,6 +1,5 @@
-import { lazy } from 'react';
+import { textKind } from '@/editors/textObject/textKind';
 import { icon, BOX } from '@/icons/shape';
-import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -33,7 +32,7 @@ const FunctionIcon = icon(
   </>,
 );
 
-const descriptor: ObjectKindDescriptor = {
+export default textKind({
   kind: 'pou',
   icon: Program,
   subkinds: {
@@ -41,9 +40,7 @@ const descriptor: ObjectKindDescriptor = {
     function_block: { icon: FunctionBlock, short: 'FB' },
     function: { icon: FunctionIcon, short: 'FUN' },
   },
-  editor: lazy(() => import('@/editors/textObject/TextObjectEditor')),
   parts: ['declaration', 'implementation'],
-  compiled: true,
   add: {
     first: true,
     optionsOf: (subkind) => {
@@ -66,6 +63,4 @@ const descriptor: ObjectKindDescriptor = {
   },
   catalog: 'pous',
   countedAs: (subkind) => (subkind === 'program' ? 'programs' : subkind === 'function_block' ? 'blocks' : 'functions'),
-};
-
-export default descriptor;
+});

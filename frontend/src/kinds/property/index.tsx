@@ -1,6 +1,5 @@
-import { lazy } from 'react';
+import { textKind } from '@/editors/textObject/textKind';
 import { icon } from '@/icons/shape';
-import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -9,21 +8,17 @@ declare module '@/i18n' {
   }
 }
 
-const Property = icon(
-  'member',
-  <>
-    <path d="M2.25 5h5M11 5h2.75M2.25 11H5M8.75 11h5" />
-    <circle cx="9.1" cy="5" r="1.8" />
-    <circle cx="6.9" cy="11" r="1.8" />
-  </>,
-);
-
-const descriptor: ObjectKindDescriptor = {
+export default textKind({
   kind: 'property',
-  icon: Property,
-  editor: lazy(() => import('@/editors/textObject/TextObjectEditor')),
+  icon: icon(
+    'member',
+    <>
+      <path d="M2.25 5h5M11 5h2.75M2.25 11H5M8.75 11h5" />
+      <circle cx="9.1" cy="5" r="1.8" />
+      <circle cx="6.9" cy="11" r="1.8" />
+    </>,
+  ),
   parts: ['declaration'],
-  compiled: true,
   add: {
     bringsChildren: true,
     optionsOf: () => ['returns', 'access'],
@@ -33,6 +28,4 @@ const descriptor: ObjectKindDescriptor = {
     },
   },
   online: { valuesOf: () => 'call' },
-};
-
-export default descriptor;
+});

@@ -9,17 +9,15 @@ declare module '@/i18n' {
   }
 }
 
-const Task = icon(
-  'task',
-  <>
-    <circle cx="8" cy="8" r="5.9" />
-    <path d="M8 4.6V8l2.3 1.6" />
-  </>,
-);
-
 const descriptor: ObjectKindDescriptor = {
   kind: 'task',
-  icon: Task,
+  icon: icon(
+    'task',
+    <>
+      <circle cx="8" cy="8" r="5.9" />
+      <path d="M8 4.6V8l2.3 1.6" />
+    </>,
+  ),
   editor: lazy(() => import('./TaskEditor')),
   countedAs: () => 'tasks',
 };

@@ -9,18 +9,16 @@ declare module '@/i18n' {
   }
 }
 
-const TaskConfiguration = icon(
-  'task',
-  <>
-    <path d="M2.25 3.25h6M2.25 7h3.5M2.25 10.75h2.5" />
-    <circle cx="10.5" cy="10" r="3.9" />
-    <path d="M10.5 7.9V10l1.4.9" />
-  </>,
-);
-
 const descriptor: ObjectKindDescriptor = {
   kind: 'task_configuration',
-  icon: TaskConfiguration,
+  icon: icon(
+    'task',
+    <>
+      <path d="M2.25 3.25h6M2.25 7h3.5M2.25 10.75h2.5" />
+      <circle cx="10.5" cy="10" r="3.9" />
+      <path d="M10.5 7.9V10l1.4.9" />
+    </>,
+  ),
   editor: lazy(() => import('./TaskConfigurationEditor')),
   tree: { openAtFirst: true, fixedName: true },
 };
