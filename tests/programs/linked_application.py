@@ -112,6 +112,12 @@ define i64 @tappet_unix_ns() {
   %now = add i64 %run, 1790000000000000000
   ret i64 %now
 }
+define i32 @tappet_task_facts(i32 %number, ptr %facts) {
+  ret i32 0
+}
+define i32 @tappet_application_facts(ptr %facts) {
+  ret i32 0
+}
 define i32 @tappet.guard(ptr %function) returns_twice {
   store ptr @tappet.jump, ptr @tappet.target
   %landed = call i32 @_setjmp(ptr @tappet.jump) returns_twice

@@ -8,9 +8,12 @@ from pathlib import Path
 
 from library_programs import MS, TC2_SYSTEM, compiled
 
+from tappet.codegen.build import BuildOptions
+from tappet.iec.task import Task
 from tappet.runtime.local import LocalRuntime
 
 UNIX_SINCE_1601_S = int((datetime(1970, 1, 1, tzinfo=UTC) - datetime(1601, 1, 1, tzinfo=UTC)).total_seconds())
+UNIX_OF_2000_NS = int(datetime(2000, 1, 1, tzinfo=UTC).timestamp()) * 1_000_000_000
 
 LOG = """PROGRAM PLC_PRG
 VAR
@@ -91,3 +94,103 @@ def test_the_system_time_counts_from_1601(tmp_path: Path) -> None:
     assert isinstance(steps, int)
     unix_ns = steps * 100 - UNIX_SINCE_1601_S * 1_000_000_000
     assert before - 20 * MS <= unix_ns <= after
+
+
+SYSTEM_INFO = """FUNCTION_BLOCK Early
+VAR task : DINT; name : STRING(63); tasks : UDINT; interval : UDINT; END_VAR
+METHOD FB_Init : BOOL
+VAR_INPUT bInitRetains : BOOL; bInCopyCode : BOOL; END_VAR
+task := GETCURTASKINDEXEX();
+name := _TaskInfo[2].TaskName;
+tasks := _AppInfo.TaskCnt;
+interval := TwinCAT_SystemInfoVarList._TaskInfo[1].CycleTime;
+END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR
+    n, firsts : INT; early : Early; info : PlcTaskSystemInfo; app : PlcAppSystemInfo; now, last, step : LINT;
+    equal : BOOL;
+END_VAR
+VAR PERSISTENT kept : INT := 3; END_VAR
+n := n + 1;
+info := TwinCAT_SystemInfoVarList._TaskInfo[GETCURTASKINDEXEX()];
+app := TwinCAT_SystemInfoVarList._AppInfo;
+IF info.FirstCycle THEN firsts := firsts + 1; END_IF
+last := now; now := info.DcTaskTime; step := now - last;
+equal := info.CycleCount = F_GetTaskInfo().CycleCount;
+END_PROGRAM
+PROGRAM SLOW_PRG
+VAR n : INT; info : PlcTaskSystemInfo; END_VAR
+n := n + 1;
+info := _TaskInfo[GETCURTASKINDEXEX()];
+END_PROGRAM
+"""
+TASKS = (
+    Task("Quick", interval_ns=10 * MS, priority=3, programs=("PLC_PRG",)),
+    Task("Slow one", interval_ns=50 * MS, priority=7, programs=("SLOW_PRG",)),
+)
+NAMED = BuildOptions("Line", project="Bottling", compiled=1_700_000_000)
+
+
+def test_the_lists_of_the_system_tell_of_all_tasks_and_the_application(tmp_path: Path) -> None:
+    first = compiled(SYSTEM_INFO, TC2_SYSTEM, tasks=TASKS, options=NAMED)
+    with LocalRuntime(first, folder=tmp_path) as runtime:
+        runtime.run(cycles=11)
+        wanted = {
+            "PLC_PRG.early.task": 0, "PLC_PRG.early.name": "Slow one", "PLC_PRG.early.tasks": 2,
+            "PLC_PRG.early.interval": 100_000, "PLC_PRG.firsts": 1, "PLC_PRG.equal": True,
+            "PLC_PRG.info.CycleTime": 100_000, "PLC_PRG.info.Priority": 3, "PLC_PRG.info.TaskName": "Quick",
+            "PLC_PRG.step": 10 * MS, "SLOW_PRG.info.CycleTime": 500_000, "SLOW_PRG.info.Priority": 7,
+            "TwinCAT_SystemInfoVarList._TaskInfo[2].TaskName": "Slow one",
+            "TwinCAT_SystemInfoVarList._TaskInfo[0].CycleTime": 0,
+            "TwinCAT_SystemInfoVarList._TaskInfo[3].CycleTime": 0,
+            "PLC_PRG.app.TaskCnt": 2, "PLC_PRG.app.OnlineChangeCnt": 0, "PLC_PRG.app.AppName": "Line",
+            "PLC_PRG.app.ProjectName": "Bottling", "PLC_PRG.app.BootDataLoaded": False,
+        }  # fmt: skip
+        assert {name: runtime.read(name) for name in wanted} == wanted
+        for program in ("PLC_PRG", "SLOW_PRG"):
+            cycles = runtime.read(f"{program}.n")
+            assert isinstance(cycles, int)
+            assert runtime.read(f"{program}.info.CycleCount") == cycles - 1
+        assert runtime.literal("PLC_PRG.app.AppTimestamp") == "DT#2023-11-14-22:13:20"
+        assert runtime.read("PLC_PRG.now") == 100 * MS - UNIX_OF_2000_NS
+
+
+def test_the_time_of_a_task_counts_from_2000() -> None:
+    with LocalRuntime(compiled(SYSTEM_INFO, TC2_SYSTEM, tasks=TASKS), virtual=False) as runtime:
+        before = time.time_ns()
+        runtime.run(cycles=3)
+        due = runtime.read("PLC_PRG.now")
+        after = time.time_ns()
+    assert isinstance(due, int)
+    assert before - 20 * MS <= due + UNIX_OF_2000_NS <= after
+
+
+def test_a_reset_and_an_online_change_are_told(tmp_path: Path) -> None:
+    first = compiled(SYSTEM_INFO, TC2_SYSTEM, tasks=TASKS, options=NAMED)
+    with LocalRuntime(first, folder=tmp_path) as runtime:
+        runtime.run(cycles=3)
+        for n, text in enumerate(("n := n + 2;", "n := n + 3;"), start=1):
+            changed = SYSTEM_INFO.replace("n := n + 1;", text, 1)
+            later = compiled(changed, TC2_SYSTEM, previous=first, tasks=TASKS, options=NAMED)
+            runtime.plc.download(later.to_bytes(), "online_change")
+            first = later
+            runtime.run(cycles=2)
+            assert runtime.read("PLC_PRG.app.OnlineChangeCnt") == n
+        assert runtime.read("PLC_PRG.firsts") == 1
+        assert runtime.literal("PLC_PRG.app.PersistentStatus").endswith("PS_None")
+        runtime.reset("warm")
+        runtime.start()
+        runtime.run(cycles=2)
+        assert runtime.read("PLC_PRG.info.CycleCount") == 1
+        assert runtime.read("PLC_PRG.firsts") == 1
+        assert runtime.literal("PLC_PRG.app.PersistentStatus").endswith("PS_All")
+        assert runtime.read("PLC_PRG.app.BootDataLoaded") is True
+
+
+def test_statistics_set_back_make_no_first_cycle() -> None:
+    with LocalRuntime(compiled(SYSTEM_INFO, TC2_SYSTEM, tasks=TASKS)) as runtime:
+        runtime.run(cycles=3)
+        runtime.plc.reset_statistics(None)
+        runtime.run(cycles=3)
+        assert runtime.read("PLC_PRG.firsts") == 1

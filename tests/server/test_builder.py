@@ -74,8 +74,9 @@ def compile_order(body: str) -> dict[str, Any]:
     source = {"uri": "PLC_PRG", "text": f"PROGRAM PLC_PRG\nVAR a : INT; END_VAR\n{body}\nEND_PROGRAM"}
     source |= {"scope": "application"}
     return {
-        "key": "p/a", "application": "A", "sources": [source], "tasks": [], "libraries": [], "previous": None,
-        "cache": "", "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False,
+        "key": "p/a", "application": "A", "project": "P", "sources": [source], "tasks": [],
+        "libraries": [], "previous": None, "cache": "",
+        "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False,
     }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -86,6 +87,8 @@ def project_applications(project: Project) -> list[ApplicationInput]:
             tuple(project_sources.tasks(project, application.id)),
             BuildOptions(
                 application.name,
+                project=project.name,
+                compiled=int(time.time()),
                 libraries=tuple(project_sources.libraries(project, application.id)),
                 static=_static(project, application.id),
                 once=True,
@@ -126,7 +129,13 @@ def _plain_files(paths: Sequence[Path]) -> ApplicationInput:
     # the test library keeps room for the results of many tests: only tests get it
     names = [n for n in libraries.names() if n != TEST_LIBRARY or has_suites(texts)]
     references = tuple(LibraryReference(libraries.as_called(name, texts)) for name in names)
-    options = BuildOptions(files[0].stem, libraries=references, free_addresses=False, once=True)
+    options = BuildOptions(
+        files[0].stem,
+        compiled=int(time.time()),
+        libraries=references,
+        free_addresses=False,
+        once=True,
+    )
     return ApplicationInput(files[0].stem, tuple(sources), tasks, options)
 
 

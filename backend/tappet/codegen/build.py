@@ -44,6 +44,10 @@ class BuildOptions:
     """How an application is built."""
 
     application: str = "Application"
+    project: str = ""
+    """Name of the project, for programs that ask."""
+    compiled: int = 0
+    """Unix time in s that programs are told as that of the build."""
     device: str = "Device"
     """First part of instance paths."""
     level: int = 2
@@ -176,6 +180,8 @@ def build_application(
     result.diagnostics[:] = with_elements(result.diagnostics, texts)
     if result.package is not None:
         result.package.source_maps = source_maps(texts)
+        result.package.facts.project = options.project
+        result.package.facts.compiled = options.compiled
     return result
 
 

@@ -113,6 +113,10 @@ class Facts(Struct):
     """Layout of what __NEW makes."""
     watched: list[tuple[Natural, Natural, Natural]] = field(default_factory=list)
     """Offset, size and asking byte of values that are monitored by a call."""
+    project: str = ""
+    """Name of the project."""
+    compiled: Natural = 0
+    """Unix time of the build in s; 0: not told."""
     update_io_in_stop: bool = True
     """PLC-02."""
     outputs_in_stop: Literal["keep", "default"] = "keep"

@@ -118,6 +118,12 @@ class SymbolMap(Struct):
         tokens = _tokenize(text)
         return _Walk(self, text, tokens).run()
 
+    def library_root(self, name: str) -> Root | None:
+        """The list of a library that is alone with its name: it needs no namespace in front."""
+        ending = f".{name}".upper()
+        found = [root for key, root in self.roots.items() if key.endswith(ending)]
+        return found[0] if len(found) == 1 else None
+
     def children(self, path: str = "") -> list[Child]:
         """What lies below `path`; the programs and variable lists for an empty path."""
         if not path.strip():
@@ -267,6 +273,8 @@ class _Walk:
             root = symbols.roots.get(f"{name}.{self.tokens[self.at + 1]}".upper())
             if root is not None:
                 self.at += 2
+        if root is None and name.upper() not in symbols.globals:
+            root = symbols.library_root(name)
         if root is not None:
             self.path, self.offset, self.info = root.name, root.offset, symbols.types[root.type]
             return

@@ -36,6 +36,7 @@ from tappet.iec.task import Task
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
+from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
 
 INIT = "tappet.init"
@@ -264,6 +265,8 @@ def _task_function(program: Program, task: Task, tasks: Sequence[Task]) -> None:
     program.taken.add(task_symbol(task.name))
     before, after = addressed.transfers(program, task, tasks, function)
     function.body += before
+    for symbol in program.cycle_starts:
+        function.body.append(ir.Evaluate(ir.Call(ir.VOID, symbol, [])))
     for name in task.programs:
         pou = program.analysis.programs.get(name.upper())
         if pou is not None:
@@ -283,12 +286,18 @@ def _served(program: Program, task: Task, tasks: Sequence[Task]) -> tuple[list[P
 
 
 def _export_functions(program: Program) -> None:
-    """Functions with attribute tappet_export are roots, too, and every object with linkalways (LPRG-30)."""
+    """Functions with attribute tappet_export are roots, too, and every object with linkalways (LPRG-30).
+
+    A function of a library with attribute tappet_cycle_start runs in every task before its programs.
+    """
     for pou in program.analysis.pous:
         pragmas = pou.pou.attributes if pou.pou is not None else []
         always = attribute_value(pragmas, "linkalways") is not None
         if always or (pou.kind == "FUNCTION" and export_name(pou) is not None):
             program.function(pou)
+        in_library = pou.source is not None and pou.source.scope is Scope.LIBRARY
+        if in_library and attribute_value(pragmas, "tappet_cycle_start") is not None:
+            program.cycle_starts.append(program.function(pou))
 
 
 # -- bodies -----------------------------------------------------------------------------------------

@@ -55,6 +55,8 @@ class Program:
     blocks: dict[str, t.FunctionBlock] = field(default_factory=dict)
     """Function block types that have instances, by unique name."""
     block_names: dict[int, str] = field(default_factory=dict)
+    cycle_starts: list[str] = field(default_factory=list)
+    """Functions without operands that every task calls before its programs."""
     dispatched: dict[str, None] = field(default_factory=dict)
     """Upper-case names of methods that are called virtually."""
     lower_pou: Callable[[PouSymbol], None] = lambda pou: None

@@ -29,7 +29,7 @@ FORMAT = 2
 KEPT = 8
 """Indexes in memory."""
 _ALWAYS = re.compile(
-    r"\b(?:VAR_GLOBAL|VAR_STAT|PROGRAM)\b|\bCheck(?:Bounds|Div|L?Range|Pointer)|\{[^}]*tappet_export",
+    r"\b(?:VAR_GLOBAL|VAR_STAT|PROGRAM)\b|\bCheck(?:Bounds|Div|L?Range|Pointer)|\{[^}]*tappet_(?:export|cycle_start)",
     re.IGNORECASE,
 )
 _CONVERSION = "Conversion"

@@ -129,6 +129,12 @@ class LoadedApplication:
         for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):
             self.executive.store(task.place("pCode"), code[spec.symbol])
 
+    def count_change(self) -> None:
+        """What programs are told of the package that the application has become by an online change."""
+        context = self.contexts.application
+        context["onlineChanges"] = context["onlineChanges"] + 1
+        self.contexts.identify(self.package)
+
     def connect_files(self) -> None:
         """Open the folder of files and start the thread that serves requests, once code needs them."""
         if self.files.opened or self.code.imported.isdisjoint(FILE_SERVICES):
@@ -160,6 +166,7 @@ class LoadedApplication:
             task["started"] = 0
             task["eventLast"] = 0
             task["pending"] = 0
+            task["programCycles"] = 0
             self.contexts.watchdog(task)["overruns"] = 0
             self.contexts.clear_statistics(task)
         self.contexts.application["pFaulted"] = 0
@@ -184,7 +191,11 @@ class LoadedApplication:
 
     def _restore(self, kept: Kept) -> None:
         """Kept values take their places; constants among them have the values that they are declared with."""
-        restored = matching(kept, self.remanent())[0]
+        remanent = self.remanent()
+        restored = matching(kept, remanent)[0]
+        persistent = {r.variable.path for r in remanent if r.persistent}
+        found = len(persistent.intersection(variable.path for variable, _ in restored))
+        self.contexts.application["persistence"] = found and (1 if found == len(persistent) else 2)
         if not restored:
             return
         places = [(variable.offset, variable.size) for variable, _ in restored]

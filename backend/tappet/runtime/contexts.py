@@ -61,6 +61,7 @@ class Contexts:
         self.service_stack, self.scheduler_stack, self.file_stack = TaskStack(), TaskStack(), TaskStack()
         self.stacks = stacks
         self._fill_application(first, count, virtual, package.facts)
+        self.identify(package)
         for i, (spec, task) in enumerate(zip(package.tasks, self.tasks, strict=True)):
             self.fill_task(spec, task, image, stuck_limit_s)
             task["pWrites"] = self.queues[i].address
@@ -85,9 +86,16 @@ class Contexts:
         watched = any(t.watchdog or t.kind in ("event", "status") for t in self.tasks_specs)
         application["scanInterval"] = SCAN_NS if watched or virtual else IDLE_SCAN_NS
 
+    def identify(self, package: CodePackage) -> None:
+        """What programs may ask of the application: its names, and when it was built."""
+        self.application["compiled"] = package.facts.compiled
+        _store_name(self.application, "name", package.application)
+        _store_name(self.application, "project", package.facts.project)
+
     def fill_task(self, spec: TaskSpec, task: Record, image: int, stuck_limit_s: float) -> None:
         """What the configuration says about a task; while it runs only at a cycle boundary."""
         task["pApplication"] = self.application.address
+        _store_name(task, "name", spec.name)
         task["kind"] = KINDS[spec.kind]
         task["priority"] = spec.priority
         task["interval"] = spec.interval_ns if spec.kind == "cyclic" else 0
@@ -171,3 +179,10 @@ class Contexts:
 def queue_slot(queue: Record, number: int) -> int:
     """Address of the place of write batch `number` in a queue of 256."""
     return queue.place("batches") + struct.calcsize("Q") * (number % 256)
+
+
+def _store_name(record: Record, member: str, name: str) -> None:
+    """A name as programs read it: UTF-8, cut to the member behind a whole character, zeros up to its end."""
+    size = record.size_of(member)
+    data = name.encode()[: size - 1].decode(errors="ignore").encode()
+    write_memory(record.place(member), data.ljust(size, b"\0"))

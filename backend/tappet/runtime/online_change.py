@@ -75,6 +75,7 @@ def apply_change(
     old_code = application.code
     if only_code:
         application.package = package
+        application.count_change()
         application.connect_code(code)
         application.tasks.retire(old_code, old_code.close)
         return ChangeResult(None)
@@ -83,6 +84,7 @@ def apply_change(
         faults = [application.tasks.call(old_code[function]) for function in left_behind(running, package)]
         _rearrange(application, package)
         application.package = package
+        application.count_change()
         application.connect_code(code)
         lost = _relocate(application, running, package)
         application.watched.load(package)

@@ -45,7 +45,7 @@ SERVICES = (
     "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
     "tappet_keep_fault", "tappet_rethrow", "tappet_exception_code",
     "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_allocate", "tappet_release",
-    "tappet_unix_ns", "tappet_task_info", "tappet_log",
+    "tappet_unix_ns", "tappet_task_facts", "tappet_application_facts", "tappet_log",
     *FILE_SERVICES,
 )  # fmt: skip
 """What compiled applications and libraries may call."""

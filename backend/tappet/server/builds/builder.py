@@ -54,6 +54,8 @@ class Application:
     """Path in the tree of each object that messages are about, by id."""
     static: StaticAnalysisData = NO_RULES
     """The coding rules that are checked."""
+    project: str = ""
+    """Name of the project."""
 
     @classmethod
     def of(cls, project_id: str, project: Project, application_id: str) -> Application:
@@ -72,6 +74,7 @@ class Application:
             tuple(texts.libraries(project, application_id)),
             {id: project.path_of(id) for id in ids},
             texts.static_analysis(project, application_id),
+            project.name,
         )
 
     @classmethod
@@ -191,6 +194,7 @@ class Builder:
         order = BuildOrder(
             key=f"{key}/check" if check_only else key,
             application=application.name,
+            project=application.project,
             sources=tuple(to_builtins(source) for source in application.sources),
             tasks=tuple(asdict(task) for task in application.tasks),
             libraries=application.libraries,

@@ -40,6 +40,8 @@ class BuildOrder:
     """Fields of `project.data.StaticAnalysisData`."""
     check_only: bool = False
     """Make no package."""
+    project: str = ""
+    """Name of the project, for programs that ask."""
 
 
 def read_frame(stream: BinaryIO) -> dict[str, Any] | None:

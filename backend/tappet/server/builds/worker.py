@@ -92,6 +92,8 @@ class Compiler:
         static = order["static"]
         options = BuildOptions(
             application=order["application"],
+            project=order["project"],
+            compiled=int(time.time()),
             libraries=tuple(LibraryReference.of(fields) for fields in order["libraries"]),
             cache=Path(order["cache"]),
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
