@@ -1,18 +1,14 @@
 /** Commands on online values: write, force, release, number formats. */
 import { Binary, LockKeyhole, LockKeyholeOpen, PencilLine } from 'lucide-react';
 import { NUMBER_FORMATS, setEditorSettings, useEditorSettings, type NumberFormat } from '@/text/settings';
-import { contextChanged, registerCommands, type Command, type Enablement } from '@/workbench/commands';
+import { contextChanged, menuGroup, registerCommands, type Command, type Enablement } from '@/workbench/commands';
+import { connected, online, operator, when } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { useOnline } from '@/workbench/onlineSession';
-import { allOf, atLeast } from '@/workbench/rights';
 import { forcePrepared, releaseForces, writePrepared } from './acts';
 import { clearPrepared, preparedValues, usePrepared } from './prepared';
 
-const mayOperate = (context: CommandContext): Enablement => {
-  if (context.online === null) return 'reason.notLoggedIn';
-  if (!atLeast(context.role, 'operator')) return 'reason.operator';
-  return context.online.lostSince === null ? true : 'reason.connectionLost';
-};
+const mayOperate = when(online, operator, connected);
 
 const hasPrepared = (context: CommandContext): Enablement =>
   context.online !== null && preparedValues(context.online.runtimeId).length > 0 ? true : 'reason.nothingPrepared';
@@ -27,43 +23,43 @@ const onRuntime = (act: (runtimeId: string) => Promise<void> | void) => (context
 };
 
 const values: Command[] = [
-  {
-    id: 'online.writeValues',
-    title: 'online.writeValues',
-    icon: PencilLine,
-    keys: ['Ctrl+F7'],
-    menu: { menu: 'online', group: '5_values', order: 1 },
-    toolbar: { group: '6_values', order: 1 },
-    enabled: (context) => allOf(mayOperate(context), hasPrepared(context)),
-    run: onRuntime(writePrepared),
-  },
-  {
-    id: 'online.forceValues',
-    title: 'online.forceValues',
-    icon: LockKeyhole,
-    keys: ['F7'],
-    menu: { menu: 'online', group: '5_values', order: 2 },
-    toolbar: { group: '6_values', order: 2 },
-    enabled: (context) => allOf(mayOperate(context), hasPrepared(context)),
-    run: onRuntime(forcePrepared),
-  },
-  {
-    id: 'online.unforceAll',
-    title: 'online.unforceAll',
-    icon: LockKeyholeOpen,
-    keys: ['Alt+F7'],
-    menu: { menu: 'online', group: '5_values', order: 3 },
-    toolbar: { group: '6_values', order: 3 },
-    enabled: (context) => allOf(mayOperate(context), hasForces(context)),
-    run: onRuntime((runtimeId) => releaseForces(runtimeId, null)),
-  },
-  {
-    id: 'online.clearPrepared',
-    title: 'online.clearPrepared',
-    menu: { menu: 'online', group: '5_values', order: 4 },
-    enabled: hasPrepared,
-    run: onRuntime((runtimeId) => clearPrepared(runtimeId)),
-  },
+  ...menuGroup(
+    'online',
+    '5_values',
+    {
+      id: 'online.writeValues',
+      title: 'online.writeValues',
+      icon: PencilLine,
+      keys: ['Ctrl+F7'],
+      toolbar: { group: '6_values', order: 1 },
+      enabled: when(mayOperate, hasPrepared),
+      run: onRuntime(writePrepared),
+    },
+    {
+      id: 'online.forceValues',
+      title: 'online.forceValues',
+      icon: LockKeyhole,
+      keys: ['F7'],
+      toolbar: { group: '6_values', order: 2 },
+      enabled: when(mayOperate, hasPrepared),
+      run: onRuntime(forcePrepared),
+    },
+    {
+      id: 'online.unforceAll',
+      title: 'online.unforceAll',
+      icon: LockKeyholeOpen,
+      keys: ['Alt+F7'],
+      toolbar: { group: '6_values', order: 3 },
+      enabled: when(mayOperate, hasForces),
+      run: onRuntime((runtimeId) => releaseForces(runtimeId, null)),
+    },
+    {
+      id: 'online.clearPrepared',
+      title: 'online.clearPrepared',
+      enabled: hasPrepared,
+      run: onRuntime((runtimeId) => clearPrepared(runtimeId)),
+    },
+  ),
 ];
 
 const FORMAT_TITLES = {

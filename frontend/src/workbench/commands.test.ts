@@ -4,6 +4,7 @@ import {
   activeHandler,
   enablementOf,
   findCommand,
+  menuGroup,
   registerCommand,
   useRegistry,
   type Command,
@@ -11,6 +12,7 @@ import {
 } from './commands';
 import { registerEditCommands } from './commands/edit';
 import { registerOnlineCommands } from './commands/online';
+import { application, engineer, idle, when } from './conditions';
 import { menuOf, toolbarOf } from './frame/menuModel';
 
 const NONE: ReadonlyMap<string, Handlers> = new Map();
@@ -128,6 +130,17 @@ describe('online commands', () => {
   });
 });
 
+describe('conditions', () => {
+  it('that do not hold say why, the first of them', () => {
+    const loads = when(application, engineer, idle);
+    expect(loads(someContext())).toBe(true);
+    expect(loads(someContext({ busy: true }))).toBe('reason.busy');
+    expect(loads(someContext({ busy: true, role: 'operator' }))).toBe('reason.engineer');
+    expect(loads(someContext({ busy: true, role: null, applicationId: null }))).toBe('reason.noApplication');
+    expect(loads(someContext({ projectId: null, applicationId: null }))).toBe('reason.noProject');
+  });
+});
+
 describe('menus', () => {
   const context = someContext();
   const command = (id: string, group: string, order: number, more: Partial<Command> = {}): Command => ({
@@ -141,6 +154,14 @@ describe('menus', () => {
   it('stand in groups by name and in order within', () => {
     const menu = menuOf([command('c', '2_b', 1), command('b', '1_a', 2), command('a', '1_a', 1)], 'file', context);
     expect(menu.map((group) => group.entries.map((entry) => 'id' in entry && entry.id))).toEqual([['a', 'b'], ['c']]);
+  });
+
+  it('show the commands of a group in the order in which they are given', () => {
+    const { menu: _, ...below } = command('a', '1', 1);
+    const group = menuGroup('file', '2_b', { ...below, id: 'z' }, below);
+    const [first, second] = menuOf([group[1]!, group[0]!, command('b', '1_a', 9)], 'file', context);
+    expect(first!.entries).toMatchObject([{ id: 'b' }]);
+    expect(second!.entries).toMatchObject([{ id: 'z' }, { id: 'a' }]);
   });
 
   it('leave out what is not visible and what belongs to other menus', () => {

@@ -103,6 +103,11 @@ export function registerCommands(commands: readonly Command[]): () => void {
   return () => disposers.forEach((dispose) => dispose());
 }
 
+/** Commands that stand below each other in one group of a menu, in this order. */
+export function menuGroup(menu: MenuId, group: string, ...commands: readonly Omit<Command, 'menu'>[]): Command[] {
+  return commands.map((command, order) => ({ ...command, menu: { menu, group, order } }));
+}
+
 /** Sets or, with null, takes away the acts of one view. */
 export function setHandlers(panelId: string, handlers: Handlers | null): void {
   useRegistry.setState((state) => {

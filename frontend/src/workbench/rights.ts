@@ -15,8 +15,3 @@ export function mayEdit(context: CommandContext): Enablement {
   if (!atLeast(context.role, 'engineer')) return 'reason.engineer';
   return context.online ? 'reason.logOutToEdit' : true;
 }
-
-/** The first refusal in a list of conditions, or true. */
-export function allOf(...conditions: readonly Enablement[]): Enablement {
-  return conditions.find((condition) => condition !== true) ?? true;
-}

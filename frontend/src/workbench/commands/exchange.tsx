@@ -3,6 +3,7 @@ import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { go } from '@/session/route';
 import { registerCommands, type Command } from '../commands';
+import { project } from '../conditions';
 import { openDialog } from '@/ui/dialogs';
 import { saveEditors } from '../docking/close';
 import { openObject } from '../docking/dock';
@@ -49,7 +50,7 @@ const commands: Command[] = [
     title: 'command.export',
     icon: FileDown,
     menu: { menu: 'file', group: '2_exchange', order: 2 },
-    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
+    enabled: project,
     run: async (context) => {
       if (!(await saveEditors(context.dirtyPanels))) return;
       await openDialog((close) => (

@@ -5,8 +5,8 @@ import { go } from '@/session/route';
 import { setUser, useSession } from '@/session/session';
 import { newProject } from '../projectInfo/NewProjectDialog';
 import { registerCommands, type Command } from '../commands';
+import { engineer, project } from '../conditions';
 import { closeEditors } from '../docking/close';
-import { atLeast } from '../rights';
 import { useSelection } from '../selection';
 
 /** Leaves the project after asking about unsaved changes; false when the user stays. */
@@ -21,7 +21,7 @@ const commands: Command[] = [
     title: 'command.newProject',
     icon: FilePlus,
     menu: { menu: 'file', group: '1_project', order: 1 },
-    enabled: (context) => (atLeast(context.role, 'engineer') ? true : 'reason.engineer'),
+    enabled: engineer,
     run: async () => {
       const project = await newProject();
       if (project && (await leaveProject())) go({ page: 'project', projectId: project.id });
@@ -42,7 +42,7 @@ const commands: Command[] = [
     title: 'command.closeProject',
     icon: SquareArrowOutUpLeft,
     menu: { menu: 'file', group: '1_project', order: 3 },
-    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
+    enabled: project,
     run: async () => {
       if (await leaveProject()) go({ page: 'start' });
     },

@@ -2,6 +2,7 @@ import { LibraryBig, PackageCheck } from 'lucide-react';
 import { librariesQuery, projectQuery, queryClient } from '@/api/queries';
 import { t } from '@/i18n';
 import { registerCommands, type Command } from '../commands';
+import { engineer, project, when } from '../conditions';
 import { openDialog } from '@/ui/dialogs';
 import { saveEditors } from '../docking/close';
 import { atLeast } from '../rights';
@@ -12,8 +13,7 @@ const commands: Command[] = [
     title: 'command.saveLibrary',
     icon: PackageCheck,
     menu: { menu: 'file', group: '2_exchange', order: 3 },
-    enabled: (context) =>
-      !context.projectId ? 'reason.noProject' : atLeast(context.role, 'engineer') ? true : 'reason.engineer',
+    enabled: when(project, engineer),
     run: async (context) => {
       if (!(await saveEditors(context.dirtyPanels))) return;
       const project = await queryClient.fetchQuery({ ...projectQuery(context.projectId!), staleTime: 0 });

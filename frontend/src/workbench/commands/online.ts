@@ -1,24 +1,13 @@
 import { CloudUpload, Hammer, LogIn, LogOut, Play, RotateCcw, Square, StepForward, Zap } from 'lucide-react';
 import { t } from '@/i18n';
-import { registerCommands, type Command, type Enablement } from '../commands';
+import { menuGroup, registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
+import { application, connected, engineer, idle, offline, online, operator, when } from '../conditions';
 import { confirm } from '@/ui/dialogs';
 import { stepMessage } from '../messages/jump';
 import { presentMessages, useMessages } from '../messages/store';
 import { build, download, login, logout, onlineChange, reset, runtimeAct } from '../online/acts';
-import { allOf, atLeast } from '../rights';
 
-const application = (context: CommandContext): Enablement =>
-  !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication';
-const idle = (context: CommandContext): Enablement => (context.busy ? 'reason.busy' : true);
-const engineer = (context: CommandContext): Enablement =>
-  atLeast(context.role, 'engineer') ? true : 'reason.engineer';
-const operator = (context: CommandContext): Enablement =>
-  atLeast(context.role, 'operator') ? true : 'reason.operator';
-const online = (context: CommandContext): Enablement => (context.online ? true : 'reason.notLoggedIn');
-const offline = (context: CommandContext): Enablement => (context.online ? 'reason.loggedIn' : true);
-const connected = (context: CommandContext): Enablement =>
-  context.online?.lostSince != null || context.online?.runtime?.connected === false ? 'reason.connectionLost' : true;
 const hasMessages = (): Enablement => {
   const { build: last, live } = useMessages.getState();
   return presentMessages(last, live).some((message) => message.object_id !== null) ? true : 'reason.noMessages';
@@ -51,102 +40,108 @@ const commands: Command[] = [
     keys: ['F11'],
     menu: { menu: 'build', group: '1_build' },
     toolbar: { group: '2_online', order: 0 },
-    enabled: (context) => allOf(application(context), engineer(context), idle(context)),
+    enabled: when(application, engineer, idle),
     run: async (context) => {
       await build(context);
     },
   },
-  {
-    id: 'build.nextMessage',
-    title: 'command.nextMessage',
-    keys: ['F4'],
-    menu: { menu: 'build', group: '2_messages', order: 1 },
-    enabled: hasMessages,
-    run: () => stepMessage(1),
-  },
-  {
-    id: 'build.previousMessage',
-    title: 'command.previousMessage',
-    keys: ['Shift+F4'],
-    menu: { menu: 'build', group: '2_messages', order: 2 },
-    enabled: hasMessages,
-    run: () => stepMessage(-1),
-  },
-  {
-    id: 'online.login',
-    title: 'command.login',
-    icon: LogIn,
-    keys: ['Alt+F8'],
-    menu: { menu: 'online', group: '1_session', order: 1 },
-    toolbar: { group: '2_online', order: 1 },
-    enabled: (context) => allOf(application(context), offline(context), idle(context)),
-    run: login,
-  },
-  {
-    id: 'online.logout',
-    title: 'command.logout',
-    icon: LogOut,
-    keys: ['Ctrl+F8'],
-    menu: { menu: 'online', group: '1_session', order: 2 },
-    toolbar: { group: '2_online', order: 2 },
-    enabled: (context) => allOf(online(context), idle(context)),
-    run: logout,
-  },
-  {
-    id: 'online.download',
-    title: 'command.download',
-    icon: CloudUpload,
-    menu: { menu: 'online', group: '2_load', order: 1 },
-    toolbar: { group: '2_online', order: 3 },
-    enabled: (context) => allOf(online(context), connected(context), engineer(context), idle(context)),
-    run: download,
-  },
-  {
-    id: 'online.onlineChange',
-    title: 'command.onlineChange',
-    icon: Zap,
-    menu: { menu: 'online', group: '2_load', order: 2 },
-    enabled: (context) =>
-      allOf(online(context), connected(context), engineer(context), changed(context), idle(context)),
-    run: onlineChange,
-  },
+  ...menuGroup(
+    'build',
+    '2_messages',
+    {
+      id: 'build.nextMessage',
+      title: 'command.nextMessage',
+      keys: ['F4'],
+      enabled: hasMessages,
+      run: () => stepMessage(1),
+    },
+    {
+      id: 'build.previousMessage',
+      title: 'command.previousMessage',
+      keys: ['Shift+F4'],
+      enabled: hasMessages,
+      run: () => stepMessage(-1),
+    },
+  ),
+  ...menuGroup(
+    'online',
+    '1_session',
+    {
+      id: 'online.login',
+      title: 'command.login',
+      icon: LogIn,
+      keys: ['Alt+F8'],
+      toolbar: { group: '2_online', order: 1 },
+      enabled: when(application, offline, idle),
+      run: login,
+    },
+    {
+      id: 'online.logout',
+      title: 'command.logout',
+      icon: LogOut,
+      keys: ['Ctrl+F8'],
+      toolbar: { group: '2_online', order: 2 },
+      enabled: when(online, idle),
+      run: logout,
+    },
+  ),
+  ...menuGroup(
+    'online',
+    '2_load',
+    {
+      id: 'online.download',
+      title: 'command.download',
+      icon: CloudUpload,
+      toolbar: { group: '2_online', order: 3 },
+      enabled: when(online, connected, engineer, idle),
+      run: download,
+    },
+    {
+      id: 'online.onlineChange',
+      title: 'command.onlineChange',
+      icon: Zap,
+      enabled: when(online, connected, engineer, changed, idle),
+      run: onlineChange,
+    },
+  ),
   ...(['warm', 'cold', 'origin'] as const).map((kind, at): Command => ({
     id: `online.reset.${kind}`,
     title: `command.reset.${kind}`,
     icon: RotateCcw,
     menu: { menu: 'online', group: '4_reset', order: at },
-    enabled: (context) => allOf(online(context), connected(context), engineer(context), idle(context)),
+    enabled: when(online, connected, engineer, idle),
     run: (context) => askedReset(context, kind),
   })),
-  {
-    id: 'debug.start',
-    title: 'command.start',
-    icon: Play,
-    keys: ['F5'],
-    menu: { menu: 'debug', group: '1_run', order: 1 },
-    toolbar: { group: '3_run', order: 1 },
-    enabled: (context) => allOf(online(context), connected(context), operator(context), notRunning(context)),
-    run: (context) => runtimeAct(context, 'start'),
-  },
-  {
-    id: 'debug.stop',
-    title: 'command.stop',
-    icon: Square,
-    keys: ['Shift+F8'],
-    menu: { menu: 'debug', group: '1_run', order: 2 },
-    toolbar: { group: '3_run', order: 2 },
-    enabled: (context) => allOf(online(context), connected(context), operator(context), running(context)),
-    run: (context) => runtimeAct(context, 'stop'),
-  },
-  {
-    id: 'debug.singleCycle',
-    title: 'command.singleCycle',
-    icon: StepForward,
-    keys: ['Ctrl+F5'],
-    menu: { menu: 'debug', group: '1_run', order: 3 },
-    enabled: (context) => allOf(online(context), connected(context), operator(context), notRunning(context)),
-    run: (context) => runtimeAct(context, 'single-cycle'),
-  },
+  ...menuGroup(
+    'debug',
+    '1_run',
+    {
+      id: 'debug.start',
+      title: 'command.start',
+      icon: Play,
+      keys: ['F5'],
+      toolbar: { group: '3_run', order: 1 },
+      enabled: when(online, connected, operator, notRunning),
+      run: (context) => runtimeAct(context, 'start'),
+    },
+    {
+      id: 'debug.stop',
+      title: 'command.stop',
+      icon: Square,
+      keys: ['Shift+F8'],
+      toolbar: { group: '3_run', order: 2 },
+      enabled: when(online, connected, operator, running),
+      run: (context) => runtimeAct(context, 'stop'),
+    },
+    {
+      id: 'debug.singleCycle',
+      title: 'command.singleCycle',
+      icon: StepForward,
+      keys: ['Ctrl+F5'],
+      enabled: when(online, connected, operator, notRunning),
+      run: (context) => runtimeAct(context, 'single-cycle'),
+    },
+  ),
 ];
 
 export function registerOnlineCommands(): void {

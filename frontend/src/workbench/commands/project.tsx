@@ -5,11 +5,12 @@ import { keys, patchSummary, queryClient } from '@/api/queries';
 import type { ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
 import { AddObjectDialog } from '../addObject/AddObjectDialog';
 import { registerCommands, type Command, type Enablement } from '../commands';
+import { editor, project, selection, when } from '../conditions';
 import type { CommandContext } from '../context';
 import { openDialog } from '@/ui/dialogs';
 import { openObject, showPanel } from '../docking/dock';
 import { setActiveApplication } from '@/project/openProject';
-import { allOf, mayEdit } from '../rights';
+import { mayEdit } from '../rights';
 import { forestOf, lineage, type TreeView } from '@/project/tree';
 import { placeableKinds } from '@/project/placement';
 import { revealInTree } from '../tree/state';
@@ -98,7 +99,7 @@ const commands: Command[] = [
     title: 'command.openObject',
     icon: FolderOpen,
     menu: { menu: 'project', group: '1_objects', order: 2 },
-    enabled: (context) => (context.selection.length > 0 ? true : 'reason.nothingSelected'),
+    enabled: selection,
     run: (context) => context.selection.forEach((object) => openObject(object.id, object.name)),
   },
   {
@@ -106,7 +107,7 @@ const commands: Command[] = [
     title: 'command.showInTree',
     icon: ListTree,
     menu: { menu: 'project', group: '1_objects', order: 3 },
-    enabled: (context) => (context.activeEditor ? true : 'reason.noEditor'),
+    enabled: editor,
     run: (context) => showInTree(context.projectId!, context.activeEditor!.objectId),
   },
   {
@@ -124,7 +125,7 @@ const commands: Command[] = [
     icon: Ban,
     menu: { menu: 'project', group: '1_objects', order: 4 },
     checked: (context) => context.selection.length > 0 && context.selection.every((object) => object.excluded),
-    enabled: (context) => allOf(mayEdit(context), excludable(context)),
+    enabled: when(mayEdit, excludable),
     run: (context) => excludeObjects(context.projectId!, context.selection),
   },
   {
@@ -134,7 +135,7 @@ const commands: Command[] = [
     keys: ['Alt+Enter'],
     scope: 'tree',
     menu: { menu: 'project', group: '1_objects', order: 5 },
-    enabled: (context) => (context.selection.length > 0 ? true : 'reason.nothingSelected'),
+    enabled: selection,
     run: async (context) => {
       const { PropertiesDialog } = await import('../properties/PropertiesDialog');
       await openDialog((close) => (
@@ -147,7 +148,7 @@ const commands: Command[] = [
     title: 'command.history',
     icon: History,
     menu: { menu: 'project', group: '3_project', order: 1 },
-    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
+    enabled: project,
     run: async (context) => {
       const { HistoryDialog } = await import('../history/HistoryDialog');
       const object = context.selection.length === 1 ? context.selection[0]! : null;
@@ -161,7 +162,7 @@ const commands: Command[] = [
     title: 'command.projectInformation',
     icon: Info,
     menu: { menu: 'project', group: '3_project', order: 2 },
-    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
+    enabled: project,
     run: async (context) => {
       const { ProjectInfoDialog } = await import('../projectInfo/ProjectInfoDialog');
       await openDialog((close) => <ProjectInfoDialog projectId={context.projectId!} close={() => close()} />);

@@ -3,17 +3,15 @@ import { ListChecks, SlidersHorizontal } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { t } from '@/i18n';
-import { registerCommands, type Command, type Enablement } from '../commands';
+import { registerCommands, type Command } from '../commands';
+import { application, engineer, idle, when } from '../conditions';
 import type { CommandContext } from '../context';
 import { openDialog } from '@/ui/dialogs';
 import { notify } from '@/ui/notices';
 import { analyse } from '../online/acts';
-import { allOf, atLeast, mayEdit } from '../rights';
+import { mayEdit } from '../rights';
 import { reasonText } from '../run';
 import { storedRules, StaticAnalysisDialog } from '../staticAnalysis/StaticAnalysisDialog';
-
-const application = (context: CommandContext): Enablement =>
-  !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication';
 
 async function openSettings(context: CommandContext): Promise<boolean> {
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(context.projectId!)) ?? [];
@@ -36,12 +34,7 @@ const commands: Command[] = [
     title: 'command.staticAnalysis',
     icon: ListChecks,
     menu: { menu: 'build', group: '1_build', order: 2 },
-    enabled: (context) =>
-      allOf(
-        application(context),
-        atLeast(context.role, 'engineer') ? true : 'reason.engineer',
-        context.busy ? 'reason.busy' : true,
-      ),
+    enabled: when(application, engineer, idle),
     run: async (context) => {
       const chosen = await storedRules(context.projectId!, context.applicationId!);
       if (Object.keys(chosen.rules).length === 0) {

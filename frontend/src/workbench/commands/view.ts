@@ -1,27 +1,30 @@
 import { Command as CommandIcon, FileSearch, Maximize } from 'lucide-react';
-import { registerCommands, type Command } from '../commands';
+import { menuGroup, registerCommands, type Command } from '../commands';
+import { project } from '../conditions';
 import { dockApi, showPanel } from '../docking/dock';
 import { openPalette } from '../palette/state';
 import { allPanels } from '../panels';
 
 const commands: Command[] = [
-  {
-    id: 'view.quickOpen',
-    title: 'command.quickOpen',
-    icon: FileSearch,
-    keys: ['Ctrl+P'],
-    menu: { menu: 'view', group: '9_palette', order: 1 },
-    enabled: (context) => (context.projectId ? true : 'reason.noProject'),
-    run: () => openPalette('objects'),
-  },
-  {
-    id: 'view.commandPalette',
-    title: 'command.palette',
-    icon: CommandIcon,
-    keys: ['Ctrl+Shift+P'],
-    menu: { menu: 'view', group: '9_palette', order: 2 },
-    run: () => openPalette('commands'),
-  },
+  ...menuGroup(
+    'view',
+    '9_palette',
+    {
+      id: 'view.quickOpen',
+      title: 'command.quickOpen',
+      icon: FileSearch,
+      keys: ['Ctrl+P'],
+      enabled: project,
+      run: () => openPalette('objects'),
+    },
+    {
+      id: 'view.commandPalette',
+      title: 'command.palette',
+      icon: CommandIcon,
+      keys: ['Ctrl+Shift+P'],
+      run: () => openPalette('commands'),
+    },
+  ),
   {
     id: 'view.fullScreen',
     title: 'command.fullScreen',

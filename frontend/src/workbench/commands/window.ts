@@ -8,14 +8,13 @@ import {
   Rows2,
   X,
 } from 'lucide-react';
-import { registerCommands, type Command, type Enablement } from '../commands';
+import { menuGroup, registerCommands, type Command, type Enablement } from '../commands';
+import { editor } from '../conditions';
 import type { CommandContext } from '../context';
 import { closeEditors } from '../docking/close';
 import { dockApi, focusPanel, resetLayout } from '../docking/dock';
 import { floatPanel, popOutPanel, splitPanel } from '../docking/panelMenu';
 import { useSelection } from '../selection';
-
-const someEditor = (context: CommandContext): Enablement => (context.activeEditor ? true : 'reason.noEditor');
 
 /** The panel that the Window commands act on: the focused one, else the active editor. */
 function target(context: CommandContext): string | null {
@@ -41,78 +40,82 @@ function step(by: 1 | -1): void {
 }
 
 const commands: Command[] = [
-  {
-    id: 'window.next',
-    title: 'command.nextEditor',
-    icon: ArrowRightToLine,
-    keys: ['Ctrl+F6', 'Alt+PageDown'],
-    menu: { menu: 'window', group: '1_go', order: 1 },
-    enabled: someEditor,
-    run: () => step(1),
-  },
-  {
-    id: 'window.previous',
-    title: 'command.previousEditor',
-    icon: ArrowLeftToLine,
-    keys: ['Ctrl+Shift+F6', 'Alt+PageUp'],
-    menu: { menu: 'window', group: '1_go', order: 2 },
-    enabled: someEditor,
-    run: () => step(-1),
-  },
-  {
-    id: 'window.close',
-    title: 'command.closeEditor',
-    icon: X,
-    // In a tab of a browser Ctrl+F4 belongs to the browser; in a window of its own it comes through.
-    keys: ['Alt+W', 'Ctrl+F4'],
-    menu: { menu: 'window', group: '2_close', order: 1 },
-    enabled: someEditor,
-    run: async (context) => {
-      await closeEditors([context.activeEditor!.panelId]);
+  ...menuGroup(
+    'window',
+    '1_go',
+    {
+      id: 'window.next',
+      title: 'command.nextEditor',
+      icon: ArrowRightToLine,
+      keys: ['Ctrl+F6', 'Alt+PageDown'],
+      enabled: editor,
+      run: () => step(1),
     },
-  },
-  {
-    id: 'window.closeAll',
-    title: 'command.closeAllEditors',
-    menu: { menu: 'window', group: '2_close', order: 2 },
-    enabled: someEditor,
-    run: async () => {
-      await closeEditors(useSelection.getState().editors.map((editor) => editor.panelId));
+    {
+      id: 'window.previous',
+      title: 'command.previousEditor',
+      icon: ArrowLeftToLine,
+      keys: ['Ctrl+Shift+F6', 'Alt+PageUp'],
+      enabled: editor,
+      run: () => step(-1),
     },
-  },
-  {
-    id: 'window.splitRight',
-    title: 'command.splitRight',
-    icon: Columns2,
-    keys: ['Ctrl+\\'],
-    menu: { menu: 'window', group: '3_place', order: 1 },
-    enabled: severalInGroup,
-    run: (context) => act(context, (api, id) => splitPanel(api, id, 'right')),
-  },
-  {
-    id: 'window.splitDown',
-    title: 'command.splitDown',
-    icon: Rows2,
-    menu: { menu: 'window', group: '3_place', order: 2 },
-    enabled: severalInGroup,
-    run: (context) => act(context, (api, id) => splitPanel(api, id, 'below')),
-  },
-  {
-    id: 'window.float',
-    title: 'command.float',
-    icon: PictureInPicture2,
-    menu: { menu: 'window', group: '3_place', order: 3 },
-    enabled: somePanel,
-    run: (context) => act(context, floatPanel),
-  },
-  {
-    id: 'window.popOut',
-    title: 'command.popOut',
-    icon: ExternalLink,
-    menu: { menu: 'window', group: '3_place', order: 4 },
-    enabled: somePanel,
-    run: (context) => act(context, popOutPanel),
-  },
+  ),
+  ...menuGroup(
+    'window',
+    '2_close',
+    {
+      id: 'window.close',
+      title: 'command.closeEditor',
+      icon: X,
+      // In a tab of a browser Ctrl+F4 belongs to the browser; in a window of its own it comes through.
+      keys: ['Alt+W', 'Ctrl+F4'],
+      enabled: editor,
+      run: async (context) => {
+        await closeEditors([context.activeEditor!.panelId]);
+      },
+    },
+    {
+      id: 'window.closeAll',
+      title: 'command.closeAllEditors',
+      enabled: editor,
+      run: async () => {
+        await closeEditors(useSelection.getState().editors.map((editor) => editor.panelId));
+      },
+    },
+  ),
+  ...menuGroup(
+    'window',
+    '3_place',
+    {
+      id: 'window.splitRight',
+      title: 'command.splitRight',
+      icon: Columns2,
+      keys: ['Ctrl+\\'],
+      enabled: severalInGroup,
+      run: (context) => act(context, (api, id) => splitPanel(api, id, 'right')),
+    },
+    {
+      id: 'window.splitDown',
+      title: 'command.splitDown',
+      icon: Rows2,
+      enabled: severalInGroup,
+      run: (context) => act(context, (api, id) => splitPanel(api, id, 'below')),
+    },
+    {
+      id: 'window.float',
+      title: 'command.float',
+      icon: PictureInPicture2,
+      enabled: somePanel,
+      run: (context) => act(context, floatPanel),
+    },
+    {
+      id: 'window.popOut',
+      title: 'command.popOut',
+      icon: ExternalLink,
+      enabled: somePanel,
+      run: (context) => act(context, popOutPanel),
+    },
+  ),
   {
     id: 'window.resetLayout',
     title: 'command.resetLayout',

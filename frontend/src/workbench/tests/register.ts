@@ -3,17 +3,14 @@ import { FlaskConical, RotateCcw } from 'lucide-react';
 import { lazy } from 'react';
 import { registerCommands } from '../commands';
 import { registerPanel } from '../panels';
-import { allOf, atLeast } from '../rights';
-import type { CommandContext } from '../context';
+import { application, engineer, idle, when, type Condition } from '../conditions';
 import { namesOfBad } from './model';
 import { lastRunOf, runFailedTests, runTests } from './store';
 
-const runnable = (context: CommandContext) =>
-  allOf(
-    !context.projectId ? 'reason.noProject' : context.applicationId ? true : 'reason.noApplication',
-    atLeast(context.role, 'engineer') ? true : 'reason.engineer',
-    context.busy ? 'reason.busy' : true,
-  );
+const someFailed: Condition = ({ projectId }) => {
+  const last = lastRunOf(projectId);
+  return last && namesOfBad(last.report).length > 0 ? true : 'tests.noneFailed';
+};
 
 export function registerTests(): void {
   registerPanel({
@@ -31,7 +28,7 @@ export function registerTests(): void {
       title: 'tests.run',
       icon: FlaskConical,
       menu: { menu: 'build', group: '3_tests' },
-      enabled: runnable,
+      enabled: when(application, engineer, idle),
       run: runTests,
     },
     {
@@ -39,10 +36,7 @@ export function registerTests(): void {
       title: 'tests.runFailed',
       icon: RotateCcw,
       menu: { menu: 'build', group: '3_tests' },
-      enabled: (context) => {
-        const last = lastRunOf(context.projectId);
-        return allOf(runnable(context), last && namesOfBad(last.report).length > 0 ? true : 'tests.noneFailed');
-      },
+      enabled: when(application, engineer, idle, someFailed),
       run: runFailedTests,
     },
   ]);
