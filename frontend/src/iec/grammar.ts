@@ -34,13 +34,10 @@ export const ACCESS_SPECIFIERS = [
 
 /** Words between keyword and name of a header. */
 export const MODIFIERS = [
+  ...ACCESS_SPECIFIERS,
   'ABSTRACT',
   'FINAL',
-  'INTERNAL',
   'OVERRIDE',
-  'PRIVATE',
-  'PROTECTED',
-  'PUBLIC',
 ] as const;
 
 /** Keywords that begin the text of an object. */
@@ -90,10 +87,13 @@ export const END_KEYWORDS = [
 
 /** Keywords of declarations. */
 export const DECLARATION_KEYWORDS = [
+  ...SECTIONS,
+  ...SECTION_FLAGS,
+  ...MODIFIERS,
+  ...ACCESSORS,
   'ACTION',
   'ARRAY',
   'AT',
-  'CONSTANT',
   'END_ACTION',
   'END_FUNCTION',
   'END_FUNCTION_BLOCK',
@@ -112,43 +112,19 @@ export const DECLARATION_KEYWORDS = [
   'FUNCTION_BLOCK',
   'INTERFACE',
   'METHOD',
-  'NON_RETAIN',
   'PARAMS',
-  'PERSISTENT',
   'POINTER',
   'PROGRAM',
   'PROPERTY',
   'REFERENCE',
-  'RETAIN',
   'STRUCT',
   'TRANSITION',
   'TYPE',
   'UNION',
-  'VAR',
-  'VAR_ACCESS',
-  'VAR_CONFIG',
-  'VAR_EXTERNAL',
-  'VAR_GENERIC',
-  'VAR_GLOBAL',
-  'VAR_INPUT',
-  'VAR_INST',
-  'VAR_IN_OUT',
-  'VAR_OUTPUT',
-  'VAR_STAT',
-  'VAR_TEMP',
-  'GET',
-  'SET',
   'EXTENDS',
   'IMPLEMENTS',
   'READ_ONLY',
   'READ_WRITE',
-  'PUBLIC',
-  'PROTECTED',
-  'PRIVATE',
-  'INTERNAL',
-  'ABSTRACT',
-  'FINAL',
-  'OVERRIDE',
 ] as const;
 
 /** Keywords of statements. */
