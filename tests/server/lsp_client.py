@@ -129,7 +129,10 @@ class Client:
         item = {"uri": document, "languageId": "iec-st", "version": version, "text": before + after}
         await self.notify("textDocument/didOpen", {"textDocument": item})
         lines = before.split("\n")
-        position = {"line": len(lines) - 1, "character": len(lines[-1].encode("utf-16-le")) // 2}
+        position = {
+            "line": len(lines) - 1,
+            "character": len(lines[-1].encode("utf-16-le", "surrogatepass")) // 2,
+        }
         return {"textDocument": {"uri": document}, **({"position": position} if mark else {})}
 
     async def published(self, document: str) -> list[dict[str, Any]]:

@@ -190,7 +190,7 @@ async def test_short_forms_are_expanded() -> None:
             "line": "n: INT := 2; (* parts *)"
         }
         assert await client.ask("tappet/shorthand", {"line": "n : INT;"}) == {"line": None}
-        assert "one line" in (await client.refused("tappet/shorthand", {}))["message"]
+        assert "`line`" in (await client.refused("tappet/shorthand", {}))["message"]
 
 
 async def test_references_and_highlights() -> None:
@@ -326,8 +326,9 @@ async def test_cross_references_by_place_and_by_name() -> None:
         ]
         assert by_place[1]["text"] == "iCount := iCount + 1;"
         assert by_place == await client.ask("tappet/crossReferences", {"name": "plc_prg.icount"})
-        for bad in ({}, {"name": "x" * 501}, {"textDocument": {"uri": BODY}, "position": 3}):
-            assert (await client.refused("tappet/crossReferences", bad))["code"] == rpc.REQUEST_FAILED
+        assert (await client.refused("tappet/crossReferences", {}))["code"] == rpc.REQUEST_FAILED
+        for bad in ({"name": "x" * 501}, {"textDocument": {"uri": BODY}, "position": 3}):
+            assert (await client.refused("tappet/crossReferences", bad))["code"] == rpc.INVALID_PARAMS
 
 
 async def test_help_for_the_cells_of_a_table() -> None:
@@ -342,9 +343,9 @@ async def test_help_for_the_cells_of_a_table() -> None:
         facts = await client.ask("tappet/operandFacts", asked)
         assert facts == [{"type": "INT", "address": "", "comment": ""}, None]
         for bad in ({}, {**params, "operands": ["x" * 501]}, {**params, "operands": "x"}, []):
-            assert (await client.refused("tappet/operandFacts", bad))["code"] == rpc.REQUEST_FAILED
+            assert (await client.refused("tappet/operandFacts", bad))["code"] == rpc.INVALID_PARAMS
         for bad in ({}, {**tried, "text": 3}, {**tried, "position": {}}):
-            assert (await client.refused("tappet/completionIn", bad))["code"] == rpc.REQUEST_FAILED
+            assert (await client.refused("tappet/completionIn", bad))["code"] == rpc.INVALID_PARAMS
 
 
 async def test_folding() -> None:

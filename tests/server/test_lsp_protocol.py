@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -15,6 +16,7 @@ from lsp_project import BODY, here, start
 
 from tappet.lang.services.documents import Program
 from tappet.server.lsp import project_analysis, rpc
+from tappet.server.lsp.utf16 import without_half_pairs
 
 
 async def test_positions_behind_characters_of_two_units() -> None:
@@ -71,13 +73,18 @@ async def test_a_waiting_request_can_be_cancelled() -> None:
     ("message", "code"),
     [
         ("{", rpc.PARSE_ERROR),
-        ("[" * 100_000, rpc.PARSE_ERROR),
+        ('{"jsonrpc": "2.0", "id": 1, "method": "x", "params": ' + "[" * 100_000, rpc.PARSE_ERROR),
+        ('{"jsonrpc": "2.0", "id": 1, "method": "\ud800"}', rpc.PARSE_ERROR),
+        ("[" * 100_000, rpc.INVALID_REQUEST),
         ("[]", rpc.INVALID_REQUEST),
         ('{"id": 1}', rpc.INVALID_REQUEST),
         ('{"jsonrpc": "2.0", "id": {}, "method": "x"}', rpc.INVALID_REQUEST),
         ('{"jsonrpc": "2.0", "id": [1], "method": "x"}', rpc.INVALID_REQUEST),
         ('{"jsonrpc": "2.0", "id": true, "method": "x"}', rpc.INVALID_REQUEST),
         ('{"jsonrpc": "2.0", "method": 5}', rpc.INVALID_REQUEST),
+        ('{"jsonrpc": "2.0", "id": 1.5, "method": "x"}', rpc.INVALID_REQUEST),
+        (f'{{"jsonrpc": "2.0", "id": {2**64}, "method": "x"}}', rpc.INVALID_REQUEST),
+        ('{"jsonrpc": "2.0"}', rpc.INVALID_REQUEST),
     ],
 )
 async def test_what_is_no_message_is_told(message: str, code: int) -> None:
@@ -111,6 +118,56 @@ async def test_bad_requests_are_answered_with_their_error(method: str, params: A
         error = await client.refused(method, params)
         assert error["code"] == code
         assert error["message"]
+
+
+@pytest.mark.parametrize(
+    ("place", "named"),
+    [
+        ({"line": -1, "character": 0}, "`int` >= 0 - at `$.position.line`"),
+        ({"line": 0, "character": 2**31}, "`int` <= 2147483647 - at `$.position.character`"),
+        ({"line": 0, "character": 10**40}, "`int` <= 2147483647 - at `$.position.character`"),
+        ({"line": 0, "character": 0.5}, "Expected `int`, got `float` - at `$.position.character`"),
+        ({"line": 0, "character": True}, "Expected `int`, got `bool` - at `$.position.character`"),
+        ({"line": "0", "character": 0}, "Expected `int`, got `str` - at `$.position.line`"),
+        ({"line": 0}, "missing required field `character` - at `$.position`"),
+        (None, "Expected `object`, got `null` - at `$.position`"),
+    ],
+)
+async def test_wrong_params_are_named_with_what_is_expected(place: Any, named: str) -> None:
+    async with start() as client:
+        await client.start()
+        error = await client.refused("textDocument/hover", {"textDocument": {"uri": BODY}, "position": place})
+        assert error["code"] == rpc.INVALID_PARAMS
+        assert named in error["message"]
+        assert "textDocument/hover" in error["message"]
+
+
+async def test_half_of_a_surrogate_pair_keeps_its_place() -> None:
+    """Editors may hold one; JSON.stringify escapes it."""
+    async with start() as client:
+        await client.start()
+        await client.open(BODY, "(* \ud83d \ude00 \\ud800 *) iCount := 1;")
+        place = {"textDocument": {"uri": BODY}, "position": {"line": 0, "character": 19}}
+        assert (await client.ask("textDocument/hover", place))["range"] == here(0, 17, 23)
+        edits = await client.ask("tappet/document", {"uri": BODY})
+        assert edits["text"] == "(* \ufffd \ufffd \\ud800 *) iCount := 1;"
+        error = await client.refused("textDocument/rename", {**place, "newName": "a\ud800"})
+        assert "'a\ufffd'" in error["message"]
+        missing = await client.refused("tappet/document", {"uri": "tappet:/\udc00"})
+        assert missing["code"] == rpc.REQUEST_FAILED
+
+
+HALF_PAIRS = st.text(st.sampled_from("a\\u\ud800\udbff\udc00\udfff\U0001f600"), max_size=8)
+
+
+@given(HALF_PAIRS)
+def test_halves_of_surrogate_pairs_are_replaced_and_nothing_else(text: str) -> None:
+    sent = json.dumps(text)
+    shown = text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "surrogatepass")
+    units = len(text.encode("utf-16-le", "surrogatepass"))
+    got = json.loads(without_half_pairs(sent))
+    assert got == re.sub("[\ud800-\udfff]", "\ufffd", shown)
+    assert len(got.encode("utf-16-le")) == units
 
 
 async def test_order_of_life() -> None:
@@ -171,7 +228,7 @@ METHODS = [
     *(f"textDocument/{name}" for name in ("hover", "completion", "rename", "didChange", "didOpen")),
 ]
 JSON = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.text(max_size=5),
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | HALF_PAIRS | st.text(max_size=5),
     lambda inner: (
         st.lists(inner, max_size=3)
         | st.dictionaries(

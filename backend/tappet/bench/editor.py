@@ -20,8 +20,6 @@ from dataclasses import dataclass, field, replace
 from statistics import median
 from typing import Any, NamedTuple
 
-from lsprotocol import types as lsp
-
 from tappet.bench import build as build_bench
 from tappet.bench import editor_sessions
 from tappet.bench.editor_sessions import replaced
@@ -198,7 +196,7 @@ class Editor:
         """A message of the server."""
         content = json.loads(message)
         params = content.get("params")
-        if content.get("method") == lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS and params["uri"] in self.published:
+        if content.get("method") == "textDocument/publishDiagnostics" and params["uri"] in self.published:
             self.published[params["uri"]].put_nowait(params["diagnostics"])
 
     async def notify(self, method: str, params: object) -> None:
@@ -213,11 +211,11 @@ class Editor:
         """Seconds from opening the document to its first messages: everything is checked."""
         started = time.perf_counter()
         hello: dict[str, Any] = {"processId": None, "rootUri": None, "capabilities": {}}
-        request = {"jsonrpc": "2.0", "id": 1, "method": lsp.INITIALIZE, "params": hello}
+        request = {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": hello}
         await self.session.receive(json.dumps(request))
-        await self.notify(lsp.INITIALIZED, {})
+        await self.notify("initialized", {})
         item = {"uri": self.document, "languageId": "iec-st", "version": 0, "text": self.text}
-        await self.notify(lsp.TEXT_DOCUMENT_DID_OPEN, {"textDocument": item})
+        await self.notify("textDocument/didOpen", {"textDocument": item})
         for document in self.published:
             await self.messages(document)
         return time.perf_counter() - started
@@ -230,7 +228,7 @@ class Editor:
         document = {"uri": self.document, "version": self.version}
         params = {"textDocument": document, "contentChanges": [change]}
         started, worked = time.perf_counter(), time.process_time()
-        await self.notify(lsp.TEXT_DOCUMENT_DID_CHANGE, params)
+        await self.notify("textDocument/didChange", params)
         times = []
         for published in self.published:
             await self.messages(published)

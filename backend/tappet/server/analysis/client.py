@@ -4,18 +4,24 @@ again.
 
 from __future__ import annotations
 
-import json
 import logging
 from contextlib import suppress
-from typing import Any
+from typing import Final
+
+import msgspec
 
 from tappet.server.analysis.messages import Attach, Document, Send
 from tappet.server.analysis.outbox import Outbox
+from tappet.server.lsp import rpc
 from tappet.server.lsp.open_documents import DocumentRefusedError, OpenDocuments
-from tappet.server.lsp.utf16 import Edge, TextEdit
+from tappet.server.lsp.protocol.lifecycle import InitializeParams
+from tappet.server.lsp.protocol.synchronization import (
+    DidChangeTextDocumentParams,
+    DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams,
+)
 
-REQUEST_FAILED = -32803
-_ERROR = 1
+_ERROR: Final = 1
 """`MessageType.Error` of the protocol."""
 _SAID = {
     "en": "The analysis of this project ended unexpectedly ({reason}). It starts again with the next edit or "
@@ -33,12 +39,14 @@ class Client:
     def __init__(self, number: int) -> None:
         self.number = number
         self.outbox = Outbox()
-        self._initialize: Any = None
+        self._initialize: str | None = None
+        """Params of `initialize`, as JSON."""
         self._begun: str | None = None
         """The request `initialize` while it has no answer."""
-        self._configuration: Any = None
+        self._configuration: str | None = None
+        """Params of the newest `workspace/didChangeConfiguration`, as JSON."""
         self._documents = OpenDocuments()
-        self._waiting: dict[int | str, str] = {}
+        self._waiting: dict[rpc.Id, str] = {}
         """Methods of requests without an answer, by id."""
         self._told: dict[str, None] = {}
         """Documents of which the browser has heard."""
@@ -47,32 +55,30 @@ class Client:
 
     def note(self, text: str) -> None:
         """Follow a message of the browser."""
-        try:
-            message = json.loads(text)
-        except (ValueError, RecursionError):
-            return
-        if not isinstance(message, dict) or not isinstance(method := message.get("method"), str):
-            return
-        identifier, params = message.get("id"), message.get("params")
-        if isinstance(identifier, int | str) and not isinstance(identifier, bool):
-            self._waiting[identifier] = method
-            if method == "initialize":
-                self._initialize, self._begun = params if params is not None else {}, text
-        elif method == "workspace/didChangeConfiguration":
-            self._configuration = params
-        elif method.startswith("textDocument/did"):
-            with suppress(KeyError, TypeError, ValueError, AttributeError, DocumentRefusedError):
-                self._follow(method, params)
+        with suppress(rpc.RpcError, DocumentRefusedError):
+            message = rpc.read(text)
+            if message.method is None:
+                return
+            if message.id is not None:
+                self._waiting[message.id] = message.method
+                if message.method == "initialize":
+                    self._initialize, self._begun = _text(message.params), text
+            else:
+                self._follow(message.method, message.params)
 
-    def _follow(self, method: str, params: Any) -> None:
-        document = params["textDocument"]
-        if method == "textDocument/didOpen":
-            self._documents.open(str(document["uri"]), int(document["version"]), str(document["text"]))
+    def _follow(self, method: str, params: msgspec.Raw) -> None:
+        if method == "workspace/didChangeConfiguration":
+            self._configuration = _text(params)
+        elif method == "textDocument/didOpen":
+            opened = rpc.params_as(DidOpenTextDocumentParams, method, params).text_document
+            self._documents.open(opened.uri, opened.version, opened.text)
         elif method == "textDocument/didChange":
-            edits = [_edit(change) for change in params["contentChanges"]]
-            self._documents.change(str(document["uri"]), int(document["version"]), edits)
+            changed = rpc.params_as(DidChangeTextDocumentParams, method, params)
+            document = changed.text_document
+            self._documents.change(document.uri, document.version, changed.content_changes)
         elif method == "textDocument/didClose":
-            self._documents.close(str(document["uri"]))
+            closed = rpc.params_as(DidCloseTextDocumentParams, method, params)
+            self._documents.close(closed.text_document.uri)
 
     def attach(self) -> Attach:
         """The session as it has to be now."""
@@ -105,30 +111,20 @@ class Client:
         for identifier, method in list(self._waiting.items()):
             if method != "initialize":
                 del self._waiting[identifier]
-                error = {"code": REQUEST_FAILED, "message": reason}
-                self._put({"id": identifier, "error": error})
+                self.outbox.put(rpc.failure(identifier, rpc.REQUEST_FAILED, reason))
 
     def lost(self, reason: str) -> None:
         """The analysis has ended: say so and answer what waits."""
-        locale = self._initialize.get("locale") if isinstance(self._initialize, dict) else None
-        language = "zh" if isinstance(locale, str) and locale.lower().startswith("zh") else "en"
+        locale = None
+        if self._initialize is not None:
+            with suppress(rpc.RpcError):
+                params = msgspec.Raw(self._initialize)
+                locale = rpc.params_as(InitializeParams, "initialize", params).locale
+        language = "zh" if locale is not None and locale.lower().startswith("zh") else "en"
         said = _SAID[language].format(reason=reason)
-        self._put({"method": "window/showMessage", "params": {"type": _ERROR, "message": said}})
+        self.outbox.put(rpc.notification("window/showMessage", {"type": _ERROR, "message": said}))
         self.refuse(said)
 
-    def _put(self, message: dict[str, Any]) -> None:
-        self.outbox.put(json.dumps({"jsonrpc": "2.0", **message}, ensure_ascii=False))
 
-
-def _edit(change: Any) -> TextEdit:
-    where = change.get("range")
-    if where is None:
-        return TextEdit(str(change["text"]))
-    start, end = where["start"], where["end"]
-    return TextEdit(
-        str(change["text"]),
-        (
-            Edge(int(start["line"]), int(start["character"])),
-            Edge(int(end["line"]), int(end["character"])),
-        ),
-    )
+def _text(json: msgspec.Raw) -> str:
+    return bytes(json).decode()

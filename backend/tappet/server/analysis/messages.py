@@ -78,10 +78,10 @@ class Attach(msgspec.Struct, tag="attach", frozen=True):
     """A new session, in place of an earlier one where fields are given."""
 
     session: int
-    initialize: Any = None
-    """Params of `initialize`; null: the client has not begun."""
-    configuration: Any = None
-    """Params of the newest `workspace/didChangeConfiguration`."""
+    initialize: str | None = None
+    """Params of `initialize` as JSON; null: the client has not begun."""
+    configuration: str | None = None
+    """Params of the newest `workspace/didChangeConfiguration` as JSON."""
     documents: list[Document] = []
     published: list[str] = []
     """Documents of which the client shows messages."""

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Protocol
-
-from lsprotocol import types as lsp
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Protocol
 
 from tappet.lang.diagnostic_translations import Language
 from tappet.lang.services import documents as docs
@@ -14,14 +12,12 @@ from tappet.lang.services.fix_site import Offering
 from tappet.lang.services.formatting import Style
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.server.lsp.open_documents import OpenDocuments
+from tappet.server.lsp.protocol.features import TextDocumentPositionParams
+from tappet.server.lsp.protocol.structures import Location, Structure
 from tappet.server.lsp.shown import ShownDocument
 
-
-class Positioned(Protocol):
-    """Params that name a position in a document."""
-
-    text_document: lsp.TextDocumentIdentifier
-    position: lsp.Position
+Methods = Mapping[str, tuple[type[Structure] | None, Callable[[Any, Any], Any]]]
+"""By method: its params (None: not read), and what carries it out, with the client and the params."""
 
 
 class Client(Protocol):
@@ -51,14 +47,14 @@ class Client(Protocol):
     def text(self, document: str) -> str | None:
         """The text of a document as the editor shows it, or as it is stored."""
 
-    def at(self, params: Positioned) -> tuple[str, Position]:
+    def at(self, params: TextDocumentPositionParams) -> tuple[str, Position]:
         """Document and place of a request, in the analysed text. Raises OtherTextError."""
 
     def snapshot(self, uri: str) -> Snapshot:
         """The program that shows a document."""
 
-    def location(self, place: docs.Place) -> lsp.Location | None:
+    def location(self, place: docs.Place) -> Location | None:
         """A place as the client names it; None where it shows another text."""
 
-    def locations(self, places: Iterable[docs.Place]) -> list[lsp.Location]:
+    def locations(self, places: Iterable[docs.Place]) -> list[Location]:
         """Places as the client names them, those left out where it shows another text."""

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Final
-
-from lsprotocol import types as lsp
+from typing import Final, Literal
 
 from tappet.lang.diagnostic_translations import Language, Texts, phrase, said
 from tappet.lang.services.documents import Place, Position
@@ -23,6 +21,20 @@ from tappet.lang.services.results import (
     Signature,
 )
 from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES, SemanticToken
+from tappet.server.lsp.protocol import features as lsp
+from tappet.server.lsp.protocol import product
+from tappet.server.lsp.protocol.structures import (
+    Diagnostic,
+    DiagnosticRelatedInformation,
+    DiagnosticSeverity,
+    DiagnosticTag,
+    Location,
+    MarkupContent,
+    Range,
+    TextEdit,
+    WorkspaceEdit,
+)
+from tappet.server.lsp.protocol.structures import Position as LspPosition
 from tappet.server.lsp.shown import OtherTextError, ShownDocument
 from tappet.server.lsp.utf16 import units
 
@@ -31,71 +43,71 @@ Shown = Callable[[str], ShownDocument]
 """A document as the client shows it."""
 
 _COMPLETION_KINDS: Final = {
-    ItemKind.PROGRAM: lsp.CompletionItemKind.Module,
-    ItemKind.FUNCTION: lsp.CompletionItemKind.Function,
-    ItemKind.FUNCTION_BLOCK: lsp.CompletionItemKind.Class,
-    ItemKind.METHOD: lsp.CompletionItemKind.Method,
-    ItemKind.ACTION: lsp.CompletionItemKind.Method,
-    ItemKind.PROPERTY: lsp.CompletionItemKind.Property,
-    ItemKind.INTERFACE: lsp.CompletionItemKind.Interface,
-    ItemKind.STRUCT: lsp.CompletionItemKind.Struct,
-    ItemKind.UNION: lsp.CompletionItemKind.Struct,
-    ItemKind.ENUM: lsp.CompletionItemKind.Enum,
-    ItemKind.ENUM_VALUE: lsp.CompletionItemKind.EnumMember,
-    ItemKind.TYPE: lsp.CompletionItemKind.TypeParameter,
-    ItemKind.VARIABLE: lsp.CompletionItemKind.Variable,
-    ItemKind.PARAMETER: lsp.CompletionItemKind.Field,
-    ItemKind.CONSTANT: lsp.CompletionItemKind.Constant,
-    ItemKind.FIELD: lsp.CompletionItemKind.Field,
-    ItemKind.GLOBAL_LIST: lsp.CompletionItemKind.Module,
-    ItemKind.NAMESPACE: lsp.CompletionItemKind.Module,
-    ItemKind.KEYWORD: lsp.CompletionItemKind.Keyword,
-    ItemKind.OPERATOR: lsp.CompletionItemKind.Function,
-    ItemKind.SNIPPET: lsp.CompletionItemKind.Snippet,
-    ItemKind.ATTRIBUTE: lsp.CompletionItemKind.Property,
-    ItemKind.LABEL: lsp.CompletionItemKind.Reference,
-    ItemKind.SECTION: lsp.CompletionItemKind.Keyword,
+    ItemKind.PROGRAM: lsp.CompletionItemKind.MODULE,
+    ItemKind.FUNCTION: lsp.CompletionItemKind.FUNCTION,
+    ItemKind.FUNCTION_BLOCK: lsp.CompletionItemKind.CLASS,
+    ItemKind.METHOD: lsp.CompletionItemKind.METHOD,
+    ItemKind.ACTION: lsp.CompletionItemKind.METHOD,
+    ItemKind.PROPERTY: lsp.CompletionItemKind.PROPERTY,
+    ItemKind.INTERFACE: lsp.CompletionItemKind.INTERFACE,
+    ItemKind.STRUCT: lsp.CompletionItemKind.STRUCT,
+    ItemKind.UNION: lsp.CompletionItemKind.STRUCT,
+    ItemKind.ENUM: lsp.CompletionItemKind.ENUM,
+    ItemKind.ENUM_VALUE: lsp.CompletionItemKind.ENUM_MEMBER,
+    ItemKind.TYPE: lsp.CompletionItemKind.TYPE_PARAMETER,
+    ItemKind.VARIABLE: lsp.CompletionItemKind.VARIABLE,
+    ItemKind.PARAMETER: lsp.CompletionItemKind.FIELD,
+    ItemKind.CONSTANT: lsp.CompletionItemKind.CONSTANT,
+    ItemKind.FIELD: lsp.CompletionItemKind.FIELD,
+    ItemKind.GLOBAL_LIST: lsp.CompletionItemKind.MODULE,
+    ItemKind.NAMESPACE: lsp.CompletionItemKind.MODULE,
+    ItemKind.KEYWORD: lsp.CompletionItemKind.KEYWORD,
+    ItemKind.OPERATOR: lsp.CompletionItemKind.FUNCTION,
+    ItemKind.SNIPPET: lsp.CompletionItemKind.SNIPPET,
+    ItemKind.ATTRIBUTE: lsp.CompletionItemKind.PROPERTY,
+    ItemKind.LABEL: lsp.CompletionItemKind.REFERENCE,
+    ItemKind.SECTION: lsp.CompletionItemKind.KEYWORD,
 }
 _SYMBOL_KINDS: Final = {
-    ItemKind.PROGRAM: lsp.SymbolKind.Module,
-    ItemKind.FUNCTION: lsp.SymbolKind.Function,
-    ItemKind.FUNCTION_BLOCK: lsp.SymbolKind.Class,
-    ItemKind.METHOD: lsp.SymbolKind.Method,
-    ItemKind.ACTION: lsp.SymbolKind.Method,
-    ItemKind.PROPERTY: lsp.SymbolKind.Property,
-    ItemKind.INTERFACE: lsp.SymbolKind.Interface,
-    ItemKind.STRUCT: lsp.SymbolKind.Struct,
-    ItemKind.UNION: lsp.SymbolKind.Struct,
-    ItemKind.ENUM: lsp.SymbolKind.Enum,
-    ItemKind.ENUM_VALUE: lsp.SymbolKind.EnumMember,
-    ItemKind.TYPE: lsp.SymbolKind.TypeParameter,
-    ItemKind.CONSTANT: lsp.SymbolKind.Constant,
-    ItemKind.FIELD: lsp.SymbolKind.Field,
-    ItemKind.GLOBAL_LIST: lsp.SymbolKind.Namespace,
-    ItemKind.SECTION: lsp.SymbolKind.Namespace,
+    ItemKind.PROGRAM: lsp.SymbolKind.MODULE,
+    ItemKind.FUNCTION: lsp.SymbolKind.FUNCTION,
+    ItemKind.FUNCTION_BLOCK: lsp.SymbolKind.CLASS,
+    ItemKind.METHOD: lsp.SymbolKind.METHOD,
+    ItemKind.ACTION: lsp.SymbolKind.METHOD,
+    ItemKind.PROPERTY: lsp.SymbolKind.PROPERTY,
+    ItemKind.INTERFACE: lsp.SymbolKind.INTERFACE,
+    ItemKind.STRUCT: lsp.SymbolKind.STRUCT,
+    ItemKind.UNION: lsp.SymbolKind.STRUCT,
+    ItemKind.ENUM: lsp.SymbolKind.ENUM,
+    ItemKind.ENUM_VALUE: lsp.SymbolKind.ENUM_MEMBER,
+    ItemKind.TYPE: lsp.SymbolKind.TYPE_PARAMETER,
+    ItemKind.CONSTANT: lsp.SymbolKind.CONSTANT,
+    ItemKind.FIELD: lsp.SymbolKind.FIELD,
+    ItemKind.GLOBAL_LIST: lsp.SymbolKind.NAMESPACE,
+    ItemKind.SECTION: lsp.SymbolKind.NAMESPACE,
 }
 _SEVERITIES: Final = {
-    "error": lsp.DiagnosticSeverity.Error,
-    "warning": lsp.DiagnosticSeverity.Warning,
-    "info": lsp.DiagnosticSeverity.Information,
+    "error": DiagnosticSeverity.ERROR,
+    "warning": DiagnosticSeverity.WARNING,
+    "info": DiagnosticSeverity.INFORMATION,
 }
 _TAGS: Final = {
-    "W1102": lsp.DiagnosticTag.Unnecessary,  # unreachable
-    "W1103": lsp.DiagnosticTag.Unnecessary,  # unused variable
-    "W1115": lsp.DiagnosticTag.Unnecessary,  # unused label
-    "W1203": lsp.DiagnosticTag.Deprecated,  # obsolete
+    "W1102": DiagnosticTag.UNNECESSARY,  # unreachable
+    "W1103": DiagnosticTag.UNNECESSARY,  # unused variable
+    "W1115": DiagnosticTag.UNNECESSARY,  # unused label
+    "W1203": DiagnosticTag.DEPRECATED,  # obsolete
 }
-_FOLD_KINDS: Final = {
-    "comment": lsp.FoldingRangeKind.Comment,
-    "region": lsp.FoldingRangeKind.Region,
+_FOLD_KINDS: Final[dict[str, Literal["comment", "region"]]] = {
+    "comment": "comment",
+    "region": "region",
 }
 
 
-def location(place: Place, shown: Shown) -> lsp.Location | None:
+def location(place: Place, shown: Shown) -> Location | None:
     """A place in some document; None for one that the client does not show."""
     document = shown(place.document)
     found = document.range(place.span)
-    return None if found is None else lsp.Location(document.spelled, found)
+    return None if found is None else Location(document.spelled, found)
 
 
 def completion_list(items: Sequence[Completion], line: str, position: Position) -> lsp.CompletionList:
@@ -114,24 +126,20 @@ def _completion(
 ) -> lsp.CompletionItem:
     text = item.insert if item.insert is not None else item.label
     start = units(line, max(word - item.over, 0))
-    edit = lsp.TextEdit(
-        lsp.Range(
-            lsp.Position(position.line, start), lsp.Position(position.line, units(line, position.column))
-        ),
+    edit = TextEdit(
+        Range(LspPosition(position.line, start), LspPosition(position.line, units(line, position.column))),
         text,
     )
     name = item.label.split(" ")[0] if item.kind is ItemKind.PARAMETER else item.label
     return lsp.CompletionItem(
         label=item.label,
-        kind=_COMPLETION_KINDS.get(item.kind, lsp.CompletionItemKind.Text),
+        kind=_COMPLETION_KINDS.get(item.kind, lsp.CompletionItemKind.TEXT),
         detail=item.detail or None,
-        documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, escaped(item.comment))
-        if item.comment
-        else None,
+        documentation=MarkupContent("markdown", escaped(item.comment)) if item.comment else None,
         sort_text=f"{item.rank}{number:05}",
         filter_text=line[max(word - item.over, 0) : word] + name if item.over else name,
-        insert_text_format=lsp.InsertTextFormat.Snippet if item.snippet else None,
-        tags=[lsp.CompletionItemTag.Deprecated] if item.deprecated else None,
+        insert_text_format=lsp.InsertTextFormat.SNIPPET if item.snippet else None,
+        tags=[lsp.CompletionItemTag.DEPRECATED] if item.deprecated else None,
         text_edit=edit,
     )
 
@@ -147,7 +155,7 @@ def hover(found: Hover, shown: ShownDocument) -> lsp.Hover:
     parts = [f"```{LANGUAGE_ID}\n{found.code}\n```"]
     if found.text:
         parts.append("\n\n".join(_prose(piece) for piece in found.text.split("\n\n")))
-    content = lsp.MarkupContent(lsp.MarkupKind.Markdown, "\n\n".join(parts))
+    content = MarkupContent("markdown", "\n\n".join(parts))
     return lsp.Hover(content, shown.range(found.span))
 
 
@@ -161,12 +169,12 @@ def signature_help(found: Signature) -> lsp.SignatureHelp:
     parameters = [
         lsp.ParameterInformation(
             (units(found.label, item.start), units(found.label, item.end)),
-            lsp.MarkupContent(lsp.MarkupKind.Markdown, escaped(item.comment)) if item.comment else None,
+            MarkupContent("markdown", escaped(item.comment)) if item.comment else None,
         )
         for item in found.parameters
     ]
-    comment = lsp.MarkupContent(lsp.MarkupKind.Markdown, escaped(found.comment)) if found.comment else None
-    information = lsp.SignatureInformation(found.label, comment, parameters, found.active)
+    comment = MarkupContent("markdown", escaped(found.comment)) if found.comment else None
+    information = lsp.SignatureInformation(found.label, parameters, found.active, comment)
     return lsp.SignatureHelp([information], 0, found.active)
 
 
@@ -179,7 +187,7 @@ def document_symbols(entries: Iterable[Outline], shown: ShownDocument) -> list[l
         if whole is None or name is None:
             found += children
             continue
-        kind = _SYMBOL_KINDS.get(entry.kind, lsp.SymbolKind.Variable)
+        kind = _SYMBOL_KINDS.get(entry.kind, lsp.SymbolKind.VARIABLE)
         found.append(
             lsp.DocumentSymbol(entry.name, kind, whole, name, entry.detail or None, children=children or None)
         )
@@ -188,7 +196,7 @@ def document_symbols(entries: Iterable[Outline], shown: ShownDocument) -> list[l
 
 def highlights(found: Iterable[Reference], shown: ShownDocument) -> list[lsp.DocumentHighlight]:
     """The places of a name in its document."""
-    write, read = lsp.DocumentHighlightKind.Write, lsp.DocumentHighlightKind.Read
+    write, read = lsp.DocumentHighlightKind.WRITE, lsp.DocumentHighlightKind.READ
     places = ((shown.range(item.place.span), item.role) for item in found)
     return [
         lsp.DocumentHighlight(place, write if role in ("write", "declaration") else read)
@@ -197,9 +205,9 @@ def highlights(found: Iterable[Reference], shown: ShownDocument) -> list[lsp.Doc
     ]
 
 
-def text_edits(edits: Iterable[Edit], shown: Shown) -> dict[str, list[lsp.TextEdit]]:
+def text_edits(edits: Iterable[Edit], shown: Shown) -> dict[str, list[TextEdit]]:
     """Edits by document. Raises OtherTextError for one in lines that the client does not show."""
-    found: dict[str, list[lsp.TextEdit]] = {}
+    found: dict[str, list[TextEdit]] = {}
     for edit in edits:
         document = shown(edit.place.document)
         place = document.range(edit.place.span)
@@ -208,7 +216,7 @@ def text_edits(edits: Iterable[Edit], shown: Shown) -> dict[str, list[lsp.TextEd
                 f"Somebody else is writing in '{document.spelled}', in lines that this concerns; "
                 "try again when they are saved"
             )
-        found.setdefault(document.spelled, []).append(lsp.TextEdit(place, edit.text))
+        found.setdefault(document.spelled, []).append(TextEdit(place, edit.text))
     return found
 
 
@@ -219,23 +227,20 @@ def code_action(item: CodeAction, document: str, shown: Shown, language: Languag
     """
     reported = diagnostics([item.report], document, shown, False, language)
     changes = text_edits(item.edits, shown)
-    members = [
-        {"kind": m.kind, "name": m.name, "declaration": m.declaration, "accessors": list(m.accessors)}
-        for m in item.members
-    ]
+    members = [product.Member(m.kind, m.name, m.declaration, list(m.accessors)) for m in item.members]
     return lsp.CodeAction(
         title=item.title,
-        kind=lsp.CodeActionKind.QuickFix,
+        kind="quickfix",
         diagnostics=reported,
         is_preferred=item.preferred or None,
-        edit=lsp.WorkspaceEdit(changes) if changes else None,
-        data={
-            "key": item.key,
-            "values": dict(item.values),
-            "declare": {"name": item.declare, "type": item.type} if item.declare else None,
-            "library": item.library or None,
-            "members": {"owner": shown(item.owner).spelled, "items": members} if members else None,
-        },
+        edit=WorkspaceEdit(changes) if changes else None,
+        data=product.CodeActionData(
+            key=item.key,
+            values=dict(item.values),
+            declare=product.Declaration(item.declare, item.type) if item.declare else None,
+            library=item.library or None,
+            members=product.Members(shown(item.owner).spelled, members) if members else None,
+        ),
     )
 
 
@@ -293,7 +298,7 @@ def folding_ranges(found: Iterable[Fold], shown: ShownDocument) -> list[lsp.Fold
 
 def diagnostics(
     reports: Iterable[Report], document: str, shown: Shown, advise: bool, language: Language = "en"
-) -> list[lsp.Diagnostic]:
+) -> list[Diagnostic]:
     """The messages of a document, those in lines that the client does not show left out; with `advise` the
     advice is in the text, for clients that show no data."""
     here = shown(document)
@@ -307,12 +312,12 @@ def diagnostics(
             message = f"{message}. {advice}"
         tag = _TAGS.get(report.code)
         related = [
-            lsp.DiagnosticRelatedInformation(found_at, phrase(item.message, language))
+            DiagnosticRelatedInformation(found_at, phrase(item.message, language))
             for item in report.related
             if (found_at := location(item.place, shown)) is not None
         ]
         found.append(
-            lsp.Diagnostic(
+            Diagnostic(
                 range=place,
                 message=message,
                 severity=_SEVERITIES[report.severity],
@@ -320,8 +325,7 @@ def diagnostics(
                 source="tappet",
                 tags=[tag] if tag is not None else None,
                 related_information=related or None,
-                data={"advice": advice, "facts": dict(report.facts)}
-                | ({} if report.element is None else {"element": report.element}),
+                data=product.DiagnosticData(advice, dict(report.facts), report.element),
             )
         )
     return found

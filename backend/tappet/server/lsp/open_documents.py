@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from tappet.server.lsp.utf16 import TextEdit, edited
+from tappet.server.lsp.protocol.synchronization import TextDocumentContentChangeEvent
+from tappet.server.lsp.utf16 import edited
 
 MAX_DOCUMENT: Final = 4_000_000
 """Characters of one document."""
@@ -68,7 +69,7 @@ class OpenDocuments:
         self._set(uri, OpenDocument(spelled, version, text))
         return uri
 
-    def change(self, spelled: str, version: int, edits: Iterable[TextEdit]) -> str:
+    def change(self, spelled: str, version: int, edits: Iterable[TextDocumentContentChangeEvent]) -> str:
         """Edits of an open document, one after the other; its canonical uri. Raises DocumentRefusedError."""
         uri = self._canonical(spelled)
         known = self._open.get(uri)

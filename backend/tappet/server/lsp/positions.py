@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lsprotocol import types as lsp
-
 from tappet.lang.services.documents import Position
 from tappet.lang.source import Span, split_lines
-from tappet.server.lsp.utf16 import Edge, TextEdit, column_of, units
+from tappet.server.lsp.protocol import structures as lsp
+from tappet.server.lsp.utf16 import column_of, units
 
 Line = Callable[[int], str]
 """The text of a line of some document; '' behind its end."""
@@ -25,14 +24,6 @@ def to_range(line: Line, span: Span) -> lsp.Range:
         lsp.Position(span.line, units(line(span.line), span.column)),
         lsp.Position(span.end_line, units(line(span.end_line), span.end_column)),
     )
-
-
-def to_edit(change: lsp.TextDocumentContentChangeEvent) -> TextEdit:
-    """An edit of the client."""
-    if isinstance(change, lsp.TextDocumentContentChangeWholeDocument):
-        return TextEdit(change.text)
-    start, end = change.range.start, change.range.end
-    return TextEdit(change.text, (Edge(start.line, start.character), Edge(end.line, end.character)))
 
 
 def lines_of(text: str) -> Line:

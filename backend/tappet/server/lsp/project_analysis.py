@@ -17,13 +17,12 @@ from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor
 from typing import Any, Final, Protocol
 
-from lsprotocol import types as lsp
-
 from tappet.lang.deep_trees import deep_recursion
 from tappet.lang.services.documents import Programs
 from tappet.lang.services.reports import reports
 from tappet.lang.services.results import Report
 from tappet.lang.services.workspace import Snapshot, Workspace
+from tappet.server.lsp.protocol.synchronization import PublishDiagnosticsParams
 from tappet.server.lsp.publication import Publication, Published
 from tappet.server.lsp.reached_libraries import ReachedLibraries
 from tappet.server.lsp.rpc import Endpoint
@@ -54,7 +53,7 @@ class Subscriber(Protocol):
         """Whether the client wants messages."""
 
 
-Message = tuple[Subscriber, Any]
+Message = tuple[Subscriber, PublishDiagnosticsParams]
 """Params of published messages, and who gets them."""
 
 
@@ -207,7 +206,7 @@ class ProjectAnalysis:
     async def _send_new(self, messages: Callable[[], list[Message]]) -> None:
         """Publish the messages that are new."""
         for session, params in await self.run(messages):
-            await session.endpoint.notify(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, params, params["uri"])
+            await session.endpoint.notify("textDocument/publishDiagnostics", params, params.uri)
 
     def _first_messages(self) -> list[Message]:
         """What to publish first: everything that can be said without the texts of libraries that no program

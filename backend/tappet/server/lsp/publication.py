@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from typing import Any
-
-from lsprotocol import converters
 
 from tappet.lang.diagnostic_translations import Language
 from tappet.lang.services.results import Report
 from tappet.server.lsp import convert
 from tappet.server.lsp.client import Client
+from tappet.server.lsp.protocol.structures import Diagnostic
+from tappet.server.lsp.protocol.synchronization import PublishDiagnosticsParams
 
-_CONVERTER = converters.get_converter()
-Published = dict[tuple[str, Language, bool], Any]
-"""Messages of documents as they go out, in one language: sessions that show the same text share them."""
+Published = dict[tuple[str, Language, bool], list[Diagnostic]]
+"""Messages of documents in one language: sessions that show the same text share them."""
 
 
 class Publication:
@@ -35,7 +33,7 @@ class Publication:
 
     def news(
         self, found: Mapping[str, list[Report]], only: Collection[str] | None, published: Published
-    ) -> list[dict[str, Any]]:
+    ) -> list[PublishDiagnosticsParams]:
         """Params of what is new, by the messages of all documents or of `only` these."""
         out = []
         due = self._due if only is None else {document for document in self._due if document in only}
@@ -55,19 +53,15 @@ class Publication:
             self._reports = {k: v for k, v in self._reports.items() if k not in only} | dict(found)
         return out
 
-    def _params(self, document: str, now: list[Report], published: Published) -> dict[str, Any]:
+    def _params(self, document: str, now: list[Report], published: Published) -> PublishDiagnosticsParams:
         client = self._client
         key = (document, client.language, client.advise)
         mine = any(report.related for report in now) or client.shown(document).is_other
         diagnostics = None if mine else published.get(key)
         if diagnostics is None:
-            diagnostics = _CONVERTER.unstructure(
-                convert.diagnostics(now, document, client.shown, client.advise, client.language)
-            )
+            diagnostics = convert.diagnostics(now, document, client.shown, client.advise, client.language)
             if not mine:
                 published[key] = diagnostics
-        open_document = client.documents.get(document)
-        params: dict[str, Any] = {"uri": client.documents.spelled(document), "diagnostics": diagnostics}
-        if open_document is not None:
-            params["version"] = open_document.version
-        return params
+        shown = client.documents.get(document)
+        version = shown.version if shown is not None else None
+        return PublishDiagnosticsParams(client.documents.spelled(document), diagnostics, version)

@@ -9,14 +9,18 @@ cancelled.
 from __future__ import annotations
 
 import asyncio
-import json
 import logging
 from collections import deque
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Annotated, Any, Literal, TypeVar
+
+import msgspec
+
+from tappet.server.lsp.utf16 import without_half_pairs
 
 log = logging.getLogger(__name__)
 
@@ -32,7 +36,47 @@ REQUEST_CANCELLED = -32800
 MAX_WAITING = 1000
 """Requests that may wait; a client that sends more without reading answers is refused."""
 
-Id = int | str
+Id = Annotated[int, msgspec.Meta(ge=-(2**63), le=2**63 - 1)] | str
+_T = TypeVar("_T")
+
+
+class Message(msgspec.Struct, frozen=True):
+    """A request, or without an id a notification; without a method an answer."""
+
+    jsonrpc: Literal["2.0"]
+    method: str | None = None
+    id: Id | None = None
+    params: msgspec.Raw = msgspec.Raw(b"null")
+    """As JSON, which is read when the type is known: see `params_as`."""
+
+
+class _Cancel(msgspec.Struct):
+    """Params of `$/cancelRequest`."""
+
+    id: Id
+
+
+class _Result(msgspec.Struct):
+    id: Id
+    result: msgspec.Raw
+    jsonrpc: str = "2.0"
+
+
+class _Fault(msgspec.Struct):
+    code: int
+    message: str
+
+
+class _Failure(msgspec.Struct):
+    id: Id | None
+    error: _Fault
+    jsonrpc: str = "2.0"
+
+
+class _Notification(msgspec.Struct):
+    method: str
+    params: Any
+    jsonrpc: str = "2.0"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +91,8 @@ class Outgoing:
 
 
 Send = Callable[[Outgoing], Awaitable[None]]
-Work = Callable[[Any], Any]
-"""Carries out one method with its raw params and gives its raw result; runs in the thread of the endpoint."""
+Work = Callable[[msgspec.Raw], Any]
+"""Carries out one method with its params as JSON and gives its result; runs in the thread of the endpoint."""
 
 
 class RpcError(Exception):
@@ -57,6 +101,43 @@ class RpcError(Exception):
     def __init__(self, code: int, message: str) -> None:
         super().__init__(message)
         self.code = code
+
+
+def read(text: str) -> Message:
+    """A message as it has come. Raises RpcError for one that is no JSON, or JSON that is no message."""
+    try:
+        message = _MESSAGES.decode(without_half_pairs(text))
+    except msgspec.ValidationError as error:
+        expected = "A message is an object with jsonrpc: '2.0', a method and, if it is a request, an id"
+        raise RpcError(INVALID_REQUEST, f"{expected}: {error}") from error
+    except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
+        raise RpcError(PARSE_ERROR, f"This is no JSON: {error}") from error
+    if message.method is None and message.id is None:
+        raise RpcError(INVALID_REQUEST, "A request has a method and an id")
+    return message
+
+
+def params_as(kind: type[_T], method: str | None, params: msgspec.Raw) -> _T:
+    """The params of a method. Raises RpcError that names the field that is wrong."""
+    try:
+        return msgspec.json.decode(params, type=kind)
+    except (msgspec.DecodeError, RecursionError) as error:
+        text = f"The parameters of '{method}' are not as they should be: {error}"
+        raise RpcError(INVALID_PARAMS, text) from error
+
+
+_MESSAGES = msgspec.json.Decoder(Message)
+_ENCODER = msgspec.json.Encoder()
+
+
+def failure(identifier: Id | None, code: int, message: str) -> str:
+    """The answer to a request that cannot be carried out; without an id to what is no request."""
+    return _ENCODER.encode(_Failure(identifier, _Fault(code, message))).decode()
+
+
+def notification(method: str, params: Any) -> str:
+    """A message without an answer."""
+    return _ENCODER.encode(_Notification(method, params)).decode()
 
 
 class Endpoint:
@@ -76,32 +157,23 @@ class Endpoint:
     async def receive(self, text: str) -> None:
         """Take one message. Never raises for what it says; answers follow later."""
         try:
-            message = json.loads(text)
-        except (ValueError, RecursionError) as error:
-            await self._answer_error(None, PARSE_ERROR, f"This is no JSON: {error}")
+            message = read(text)
+        except RpcError as error:
+            await self._answer_error(None, error.code, str(error))
             return
-        if not isinstance(message, dict) or message.get("jsonrpc") != "2.0":
-            await self._answer_error(None, INVALID_REQUEST, "A message is an object with jsonrpc: '2.0'")
-            return
-        method = message.get("method")
-        identifier = message.get("id")
-        if method is None and identifier is not None:
+        if message.method is None:
             return  # an answer to a request of ours; we ask nothing whose answer matters
-        if not isinstance(method, str) or isinstance(identifier, bool | float | dict | list):
-            await self._answer_error(None, INVALID_REQUEST, "A request has a method and an id")
-            return
-        params = message.get("params")
-        if identifier is None:
-            self._notification(method, params)
+        if message.id is None:
+            self._notification(message.method, message.params)
         else:
-            await self._request(identifier, method, params)
+            await self._request(message.id, message.method, message.params)
 
-    def _notification(self, method: str, params: Any) -> None:
+    def _notification(self, method: str, params: msgspec.Raw) -> None:
         if method == "$/cancelRequest":
-            identifier = params.get("id") if isinstance(params, dict) else None
-            waiting = self._waiting.get(identifier) if isinstance(identifier, int | str) else None
-            if waiting is not None:
-                waiting.cancel()
+            with suppress(RpcError):
+                waiting = self._waiting.get(params_as(_Cancel, method, params).id)
+                if waiting is not None:
+                    waiting.cancel()
             return
         work = self._find(method, False)
         if work is not None:
@@ -111,7 +183,7 @@ class Endpoint:
         """Have something done behind what has come so far, without an answer; `name` is for the log."""
         self._keep(self._report(self._in_turn(work), name))
 
-    async def _request(self, identifier: Id, method: str, params: Any) -> None:
+    async def _request(self, identifier: Id, method: str, params: msgspec.Raw) -> None:
         work = self._find(method, True)
         if work is None:
             await self._answer_error(identifier, METHOD_NOT_FOUND, f"There is no method '{method}'")
@@ -122,8 +194,8 @@ class Endpoint:
         else:
             self._keep(self._reply(identifier, method, self._submit(identifier, work, params)))
 
-    def _submit(self, identifier: Id, work: Work, params: Any) -> asyncio.Future[Any]:
-        future = self._in_turn(partial(work, params))
+    def _submit(self, identifier: Id, work: Work, params: msgspec.Raw) -> asyncio.Future[Any]:
+        future = self._in_turn(lambda: msgspec.Raw(_ENCODER.encode(work(params))))
         self._waiting[identifier] = future
         return future
 
@@ -169,7 +241,8 @@ class Endpoint:
                 identifier, INTERNAL_ERROR, f"'{method}' failed; the server's log says more"
             )
         else:
-            await self._write({"jsonrpc": "2.0", "id": identifier, "result": result}, identifier)
+            answer = _ENCODER.encode(_Result(identifier, result)).decode()
+            await self._send(Outgoing(answer, identifier))
         finally:
             self._waiting.pop(identifier, None)
 
@@ -183,7 +256,7 @@ class Endpoint:
 
     async def notify(self, method: str, params: Any, replaces: str = "") -> None:
         """Send a notification; `replaces`: in place of an unsent one with this key."""
-        await self._write({"jsonrpc": "2.0", "method": method, "params": params}, replaces=replaces)
+        await self._send(Outgoing(notification(method, params), replaces=replaces))
 
     async def close(self) -> None:
         """Drop what waits; what is done in the thread now ends without an answer."""
@@ -203,9 +276,4 @@ class Endpoint:
         task.add_done_callback(self._tasks.discard)
 
     async def _answer_error(self, identifier: Id | None, code: int, message: str) -> None:
-        error = {"code": code, "message": message}
-        await self._write({"jsonrpc": "2.0", "id": identifier, "error": error}, identifier)
-
-    async def _write(self, message: dict[str, Any], answers: Id | None = None, replaces: str = "") -> None:
-        text = json.dumps(message, ensure_ascii=False, separators=(",", ":"))
-        await self._send(Outgoing(text, answers, replaces))
+        await self._send(Outgoing(failure(identifier, code, message), identifier))

@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-from cattrs.errors import BaseValidationError
-from lsprotocol import converters
-from lsprotocol import types as lsp
+from msgspec import Raw
 
 from tappet import __version__
 from tappet.lang.diagnostic_translations import Language, language_of
@@ -27,30 +25,20 @@ from tappet.lang.services.semantic_tokens import TOKEN_MODIFIERS, TOKEN_TYPES
 from tappet.lang.services.workspace import Snapshot, Workspace
 from tappet.lang.source import split_lines
 from tappet.server.lsp import convert, questions, rpc
-from tappet.server.lsp.client import Positioned
+from tappet.server.lsp.client import Methods
 from tappet.server.lsp.open_documents import DocumentRefusedError, OpenDocument, OpenDocuments
-from tappet.server.lsp.positions import lines_of, to_edit
+from tappet.server.lsp.positions import lines_of
 from tappet.server.lsp.project_analysis import ProjectAnalysis
+from tappet.server.lsp.protocol import lifecycle, synchronization
+from tappet.server.lsp.protocol.features import TextDocumentPositionParams
+from tappet.server.lsp.protocol.structures import Location
 from tappet.server.lsp.publication import Publication
 from tappet.server.lsp.shown import OtherTextError, ShownDocument
 from tappet.server.lsp.text_difference import TextDifference
 
-READ_DOCUMENT: Final = "tappet/document"
-"""Our own request: the text of a document that is not open, such as one of a library."""
-EXPAND_SHORTHAND: Final = "tappet/shorthand"
-"""Our own request: `{line}` to the declaration it is short for, or null."""
-COMPLETION_IN: Final = "tappet/completionIn"
-"""Our own request: completion in a text that is being tried, see `questions.completion_in`."""
-ELEMENT_VARIABLES: Final = "tappet/elementVariables"
-"""Our own request: what the elements of a drawing show, see `questions.element_variables`."""
-OPERAND_FACTS: Final = "tappet/operandFacts"
-"""Our own request: what is declared for the operands of a table, see `questions.operand_facts`."""
-CROSS_REFERENCES: Final = "tappet/crossReferences"
-"""Our own request: every place that names something, see `questions.cross_reference_list`."""
-_REFUSING: Final = frozenset({lsp.TEXT_DOCUMENT_RENAME, lsp.TEXT_DOCUMENT_PREPARE_RENAME, CROSS_REFERENCES})
+_REFUSING: Final = frozenset({"textDocument/rename", "textDocument/prepareRename", "tappet/crossReferences"})
 """Requests that say why where the client shows another text than the analysed one; others answer nothing."""
 
-_CONVERTER = converters.get_converter()
 _State = Literal["new", "initialized", "shut down"]
 
 
@@ -58,10 +46,10 @@ _State = Literal["new", "initialized", "shut down"]
 class Attached:
     """A client as an earlier session has left it, for one that takes its place."""
 
-    initialize: Any = None
-    """Params of `initialize`; None: the client has not begun."""
-    configuration: Any = None
-    """Params of the newest `workspace/didChangeConfiguration`."""
+    initialize: str | None = None
+    """Params of `initialize` as JSON; None: the client has not begun."""
+    configuration: str | None = None
+    """Params of the newest `workspace/didChangeConfiguration` as JSON."""
     documents: tuple[OpenDocument, ...] = ()
     published: tuple[str, ...] = ()
     """Documents of which the client shows messages."""
@@ -120,10 +108,14 @@ class LanguageSession:
 
         def restore() -> None:
             if client.initialize is not None:
-                self.initialize(_structured(lsp.INITIALIZE, client.initialize))
+                known = Raw(client.initialize)
+                self.initialize(rpc.params_as(lifecycle.InitializeParams, "initialize", known))
             if client.configuration is not None:
-                changed = lsp.WORKSPACE_DID_CHANGE_CONFIGURATION
-                self.configuration_changed(_structured(changed, client.configuration))
+                with suppress(rpc.RpcError):  # they were refused the first time as well
+                    kind, settings = lifecycle.DidChangeConfigurationParams, Raw(client.configuration)
+                    self.configuration_changed(
+                        rpc.params_as(kind, "workspace/didChangeConfiguration", settings)
+                    )
             for document in client.documents:
                 self._put(
                     self.documents.open(document.spelled, document.version, document.text), edited=False
@@ -141,41 +133,43 @@ class LanguageSession:
     # -- dispatch
 
     def _find(self, method: str, request: bool) -> rpc.Work | None:
-        handler = (_REQUESTS if request else _NOTIFICATIONS).get(method)
-        if handler is None:
+        found = (_REQUESTS if request else _NOTIFICATIONS).get(method)
+        if found is None:
             return None
+        kind, carry_out = found
 
-        def work(params: Any) -> Any:
+        def work(params: Raw) -> Any:
             if self._state != "initialized" and method not in ("initialize", "exit", "shutdown"):
                 raise rpc.RpcError(rpc.NOT_INITIALIZED, f"'{method}' before 'initialize' or after 'shutdown'")
             try:
-                result = handler(self, _structured(method, params))
+                return carry_out(self, rpc.params_as(kind, method, params) if kind is not None else None)
             except OtherTextError as error:
                 if request and method not in _REFUSING:
                     return None
                 raise rpc.RpcError(rpc.REQUEST_FAILED, str(error)) from error
             except ServiceError as error:
                 raise rpc.RpcError(rpc.REQUEST_FAILED, str(error)) from error
-            return _CONVERTER.unstructure(result)
 
         return work
 
     # -- life
 
-    def initialize(self, params: lsp.InitializeParams) -> lsp.InitializeResult:
+    def initialize(self, params: lifecycle.InitializeParams) -> lifecycle.InitializeResult:
         """The capabilities of this server."""
         self.language = language_of(params.locale)
         self._state = "initialized"
-        full = lsp.SemanticTokensLegend(list(TOKEN_TYPES), list(TOKEN_MODIFIERS))
-        return lsp.InitializeResult(
-            lsp.ServerCapabilities(
-                position_encoding=lsp.PositionEncodingKind.Utf16,
-                text_document_sync=lsp.TextDocumentSyncOptions(
-                    open_close=True, change=lsp.TextDocumentSyncKind.Incremental, save=lsp.SaveOptions(False)
+        full = lifecycle.SemanticTokensLegend(list(TOKEN_TYPES), list(TOKEN_MODIFIERS))
+        return lifecycle.InitializeResult(
+            lifecycle.ServerCapabilities(
+                position_encoding="utf-16",
+                text_document_sync=lifecycle.TextDocumentSyncOptions(
+                    open_close=True,
+                    change=lifecycle.TextDocumentSyncKind.INCREMENTAL,
+                    save=lifecycle.SaveOptions(include_text=False),
                 ),
-                completion_provider=lsp.CompletionOptions(trigger_characters=[".", "(", ",", "'"]),
+                completion_provider=lifecycle.CompletionOptions(trigger_characters=[".", "(", ",", "'"]),
                 hover_provider=True,
-                signature_help_provider=lsp.SignatureHelpOptions(["(", ","], [")"]),
+                signature_help_provider=lifecycle.SignatureHelpOptions(["(", ","], [")"]),
                 definition_provider=True,
                 type_definition_provider=True,
                 implementation_provider=True,
@@ -184,15 +178,15 @@ class LanguageSession:
                 document_symbol_provider=True,
                 workspace_symbol_provider=True,
                 document_formatting_provider=True,
-                code_action_provider=lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix]),
+                code_action_provider=lifecycle.CodeActionOptions(["quickfix"]),
                 folding_range_provider=True,
-                rename_provider=lsp.RenameOptions(prepare_provider=True),
-                semantic_tokens_provider=lsp.SemanticTokensOptions(full, full=True),
+                rename_provider=lifecycle.RenameOptions(prepare_provider=True),
+                semantic_tokens_provider=lifecycle.SemanticTokensOptions(full, full=True),
             ),
-            lsp.ServerInfo("tappet", __version__),
+            lifecycle.ServerInfo("tappet", __version__),
         )
 
-    def initialized(self, params: lsp.InitializedParams) -> None:
+    def initialized(self, params: None) -> None:
         """The client is ready: begin with the messages."""
         self.analysis.schedule_from_thread(False)
 
@@ -204,13 +198,13 @@ class LanguageSession:
         """The client has ended."""
         self.analysis.loop.call_soon_threadsafe(self.exit.set)
 
-    def configuration_changed(self, params: lsp.DidChangeConfigurationParams) -> None:
+    def configuration_changed(self, params: lifecycle.DidChangeConfigurationParams) -> None:
         """How texts are formatted: `{tappet: {format: {keywords, operators, commas}}}`."""
         self.style = convert.style(params.settings)
 
     # -- documents
 
-    def did_open(self, params: lsp.DidOpenTextDocumentParams) -> None:
+    def did_open(self, params: synchronization.DidOpenTextDocumentParams) -> None:
         """A text of the editor replaces a stored document from now on."""
         item = params.text_document
         with _refusals():
@@ -218,24 +212,24 @@ class LanguageSession:
         self.publication.expect([uri])
         self._put(uri, edited=False)
 
-    def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
+    def did_change(self, params: synchronization.DidChangeTextDocumentParams) -> None:
         """Edits of an open document."""
-        edits = [to_edit(change) for change in params.content_changes]
+        item = params.text_document
         with _refusals():
-            uri = self.documents.change(params.text_document.uri, params.text_document.version, edits)
+            uri = self.documents.change(item.uri, item.version, params.content_changes)
         self._put(uri, edited=True)
 
-    def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
+    def did_close(self, params: synchronization.DidCloseTextDocumentParams) -> None:
         """The stored text, or that of another session, counts again."""
         uri = self.documents.close(params.text_document.uri)
         self._shown = (-1, {})
         self.analysis.drop(self, uri)
 
-    def did_save(self, params: lsp.DidSaveTextDocumentParams) -> None:
+    def did_save(self, params: None) -> None:
         """What is stored has changed."""
         self.analysis.refresh()
 
-    def watched_files_changed(self, params: lsp.DidChangeWatchedFilesParams) -> None:
+    def watched_files_changed(self, params: None) -> None:
         """Files have changed on disk."""
         self.analysis.refresh()
 
@@ -288,7 +282,7 @@ class LanguageSession:
         stored = own if own is not None else self.analysis.texts.stored(document)
         return stored if stored is not None else self._composed_text(document)
 
-    def at(self, params: Positioned) -> tuple[str, Position]:
+    def at(self, params: TextDocumentPositionParams) -> tuple[str, Position]:
         """Document and place of a request, in the analysed text. Raises OtherTextError."""
         uri = self.canonical(params.text_document.uri)
         return uri, self.shown(uri).position(params.position)
@@ -297,11 +291,11 @@ class LanguageSession:
         """The program that shows a document."""
         return self.workspace.snapshot(uri)
 
-    def location(self, place: docs.Place) -> lsp.Location | None:
+    def location(self, place: docs.Place) -> Location | None:
         """A place as the client names it; None where it shows another text."""
         return convert.location(place, self.shown)
 
-    def locations(self, places: Iterable[docs.Place]) -> list[lsp.Location]:
+    def locations(self, places: Iterable[docs.Place]) -> list[Location]:
         """Places as the client names them, those left out where it shows another text."""
         found = (self.location(place) for place in places)
         return [place for place in found if place is not None]
@@ -316,53 +310,21 @@ def _refusals() -> Iterator[None]:
         raise rpc.RpcError(rpc.INVALID_PARAMS, str(error)) from error
 
 
-def _structured(method: str, params: Any) -> Any:
-    """The params of a method as their class. Raises RpcError naming what is wrong."""
-    types = lsp.METHOD_TO_TYPES.get(method)
-    kind: Any = types[2] if types is not None else None
-    if kind is None:
-        return params
-    try:
-        return _CONVERTER.structure(params if params is not None else {}, kind)
-    except (BaseValidationError, TypeError, ValueError, KeyError, AttributeError) as error:
-        raise rpc.RpcError(
-            rpc.INVALID_PARAMS, f"The parameters of '{method}' are not as they should be"
-        ) from error
-
-
-_REQUESTS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
-    lsp.INITIALIZE: LanguageSession.initialize,
-    lsp.SHUTDOWN: LanguageSession.shutdown,
-    lsp.TEXT_DOCUMENT_COMPLETION: questions.completion,
-    lsp.TEXT_DOCUMENT_HOVER: questions.hover,
-    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: questions.signature_help,
-    lsp.TEXT_DOCUMENT_DEFINITION: questions.definition,
-    lsp.TEXT_DOCUMENT_TYPE_DEFINITION: questions.type_definition,
-    lsp.TEXT_DOCUMENT_IMPLEMENTATION: questions.implementation,
-    lsp.TEXT_DOCUMENT_REFERENCES: questions.references,
-    lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: questions.document_highlight,
-    lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: questions.document_symbol,
-    lsp.WORKSPACE_SYMBOL: questions.workspace_symbol,
-    lsp.TEXT_DOCUMENT_CODE_ACTION: questions.code_action,
-    CROSS_REFERENCES: questions.cross_reference_list,
-    COMPLETION_IN: questions.completion_in,
-    OPERAND_FACTS: questions.operand_facts,
-    ELEMENT_VARIABLES: questions.element_variables,
-    lsp.TEXT_DOCUMENT_FORMATTING: questions.formatting,
-    lsp.TEXT_DOCUMENT_FOLDING_RANGE: questions.folding_range,
-    lsp.TEXT_DOCUMENT_PREPARE_RENAME: questions.prepare_rename,
-    lsp.TEXT_DOCUMENT_RENAME: questions.rename,
-    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: questions.semantic_tokens,
-    READ_DOCUMENT: questions.read_document,
-    EXPAND_SHORTHAND: questions.expand_shorthand,
+_REQUESTS: Final[Methods] = {
+    "initialize": (lifecycle.InitializeParams, LanguageSession.initialize),
+    "shutdown": (None, LanguageSession.shutdown),
+    **questions.QUESTIONS,
 }
-_NOTIFICATIONS: Final[dict[str, Callable[[LanguageSession, Any], Any]]] = {
-    lsp.INITIALIZED: LanguageSession.initialized,
-    lsp.EXIT: LanguageSession.on_exit,
-    lsp.TEXT_DOCUMENT_DID_OPEN: LanguageSession.did_open,
-    lsp.TEXT_DOCUMENT_DID_CHANGE: LanguageSession.did_change,
-    lsp.TEXT_DOCUMENT_DID_CLOSE: LanguageSession.did_close,
-    lsp.TEXT_DOCUMENT_DID_SAVE: LanguageSession.did_save,
-    lsp.WORKSPACE_DID_CHANGE_CONFIGURATION: LanguageSession.configuration_changed,
-    lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: LanguageSession.watched_files_changed,
+_NOTIFICATIONS: Final[Methods] = {
+    "initialized": (None, LanguageSession.initialized),
+    "exit": (None, LanguageSession.on_exit),
+    "textDocument/didOpen": (synchronization.DidOpenTextDocumentParams, LanguageSession.did_open),
+    "textDocument/didChange": (synchronization.DidChangeTextDocumentParams, LanguageSession.did_change),
+    "textDocument/didClose": (synchronization.DidCloseTextDocumentParams, LanguageSession.did_close),
+    "textDocument/didSave": (None, LanguageSession.did_save),
+    "workspace/didChangeConfiguration": (
+        lifecycle.DidChangeConfigurationParams,
+        LanguageSession.configuration_changed,
+    ),
+    "workspace/didChangeWatchedFiles": (None, LanguageSession.watched_files_changed),
 }

@@ -7,12 +7,11 @@ client at all.
 
 from __future__ import annotations
 
-from lsprotocol import types as lsp
-
 from tappet.lang.services.documents import Position
 from tappet.lang.services.results import ServiceError
 from tappet.lang.source import Span
 from tappet.server.lsp.positions import Line, to_position, to_range
+from tappet.server.lsp.protocol import structures as lsp
 from tappet.server.lsp.text_difference import TextDifference
 
 
@@ -57,8 +56,9 @@ class ShownDocument:
         moved = self._difference.span_to_here(span)
         if moved is None:
             return None
-        found.start.line, found.end.line = moved.line, moved.end_line
-        return found
+        return lsp.Range(
+            lsp.Position(moved.line, found.start.character), lsp.Position(moved.end_line, found.end.character)
+        )
 
     def own_position(self, position: lsp.Position) -> Position:
         """A position of the client in its own text."""

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+
+from tappet.server.lsp.protocol.structures import Position
+from tappet.server.lsp.protocol.synchronization import TextDocumentContentChangeEvent
 
 _NOT_SPLIT = re.compile("[\U00010000-\U0010ffff]")
 _LINE_END = re.compile(r"\r\n|\n|\r")
+_ESCAPE = re.compile(
+    r"\\(?:[^u]|u[dD][89abAB][0-9a-fA-F]{2}\\u[dD][c-fC-F][0-9a-fA-F]{2}"
+    r"|(u[dD][89a-fA-F][0-9a-fA-F]{2})|u)"
+)
 
 
-class Edge(NamedTuple):
-    """A position as the client counts it."""
+def without_half_pairs(json: str) -> str:
+    """JSON with U+FFFD for each escape of half a surrogate pair: editors may hold one, no text of ours can.
 
-    line: int
-    character: int
-
-
-class TextEdit(NamedTuple):
-    """One edit of an open document; without a range the text replaces all of it."""
-
-    text: str
-    range: tuple[Edge, Edge] | None = None
+    Both are one UTF-16 unit, so the positions behind it stay.
+    """
+    if "\\u" not in json:
+        return json
+    return _ESCAPE.sub(lambda found: "\\ufffd" if found[1] else found[0], json)
 
 
 def units(line: str, column: int) -> int:
@@ -45,16 +47,16 @@ def column_of(line: str, character: int) -> int:
     return len(line)
 
 
-def edited(text: str, edit: TextEdit) -> str:
+def edited(text: str, edit: TextDocumentContentChangeEvent) -> str:
     """The text after an edit; positions outside of it count as its end."""
     if edit.range is None:
         return edit.text
-    start = _offset(text, edit.range[0])
-    end = max(start, _offset(text, edit.range[1]))
+    start = _offset(text, edit.range.start)
+    end = max(start, _offset(text, edit.range.end))
     return text[:start] + edit.text + text[end:]
 
 
-def _offset(text: str, at: Edge) -> int:
+def _offset(text: str, at: Position) -> int:
     start = 0
     for _ in range(at.line):
         match = _LINE_END.search(text, start)
