@@ -50,6 +50,13 @@ def test_csv_records_are_those_of_python() -> None:
             assert program.literal(f"Main.aField[{n}]") == _literal(field)
             assert program.literal(f"Main.aEnd[{n}]") == str(last).upper()
         assert program.literal("Main.rd.cbRead") == str(size)
+        assert program.literal("Main.w.cbFree") == str(2000 - size)
+        assert program.literal("Main.w.cbWrite") == str(len(_field(*fields[-1])) + (len(rows[-1]) > 1))
+
+
+def _field(text: str, last: bool) -> bytes:
+    """A field as it is written, with the end of its record."""
+    return ('"' + text.replace('"', '""') + '"' + "\r\n" * last).encode()
 
 
 def test_csv_without_room_and_without_an_end() -> None:
@@ -58,7 +65,7 @@ def test_csv_without_room_and_without_an_end() -> None:
         VAR
             w : FB_CSVMemBufferWriter; rd : FB_CSVMemBufferReader;
             a : ARRAY[0..5] OF BYTE; n : DWORD := 9;
-            x : ARRAY[0..3] OF BOOL; s : STRING(255); i : INT; sOut : STRING(255);
+            x : ARRAY[0..4] OF BOOL; s : STRING(255); i : INT; sOut : STRING(255);
         END_VAR
         w(eCmd := eEnumCmd_First, putValue := 'abcd', bCRLF := TRUE, pBuffer := ADR(a), cbBuffer := 6);
         x[0] := w.bOk;
@@ -66,11 +73,13 @@ def test_csv_without_room_and_without_an_end() -> None:
         x[1] := w.bOk;
         rd(eCmd := eEnumCmd_First, pBuffer := ADR(a), cbBuffer := 5); x[2] := rd.bOk;
         rd(eCmd := eEnumCmd_First, pBuffer := ADR(a), cbBuffer := 6); x[3] := rd.bOk;
+        a[0] := 59; rd(eCmd := eEnumCmd_First, pBuffer := ADR(a), cbBuffer := 6);
+        x[4] := rd.bOk AND rd.pValue = 0 AND rd.cbValue = 0 AND rd.cbRead = 1;
         FOR i := 0 TO 253 DO s[i] := 65; END_FOR
         sOut := STRING_TO_CSVFIELD(s, TRUE);
         END_PROGRAM"""
     with run(text, 1) as program:
-        assert program.literal("Main.x") == "[TRUE, FALSE, FALSE, TRUE]"
+        assert program.literal("Main.x") == "[TRUE, FALSE, FALSE, TRUE, TRUE]"
         assert program.literal("Main.n") == "9"
         assert program.literal("Main.sOut") == "''"
 
@@ -138,6 +147,57 @@ def test_a_ring_buffer_of_texts_is_a_queue() -> None:
         assert program.literal("Main.ok") == str([done for done, _, _ in expected]).upper()
         assert program.literal("Main.c") == str([count for _, count, _ in expected])
         assert program.literal("Main.s") == str([head for _, _, head in expected])
+
+
+def test_a_ring_buffer_shows_its_records_where_they_lie() -> None:
+    room, queue, lines, expected = 61, deque[list[int]](), [], []
+    for n in range(120):
+        if NUMBERS.random() < 0.55:
+            record = [NUMBERS.randrange(256) for _ in range(NUMBERS.randint(1, 20))]
+            values = " ".join(f"aData[{k}] := {byte};" for k, byte in enumerate(record))
+            lines.append(f"fb.A_GetFreeSize(); nFit := fb.cbFree; {values} fb.cbWrite := {len(record)};")
+            lines.append(f"fb.A_AddTail(); wrong := wrong OR fb.bOk <> (nFit >= {len(record) + 4});")
+            lines.append(f"added[{n}] := fb.bOk;")
+            expected.append(("add", record))
+        else:
+            action = NUMBERS.choice(["A_GetHead", "A_FreeHead"])
+            lines.append("fb.A_GetHead(); sum := fb.cbRead; i := 0;")
+            lines.append("WHILE i < fb.cbRead DO sum := sum * 31 + fb.pRead[i]; i := i + 1; END_WHILE")
+            lines.append(f"sums[{n}] := sum; fb.{action}(); added[{n}] := fb.bOk;")
+            expected.append((action, []))
+    text = f"""
+        PROGRAM Main
+        VAR
+            fb : FB_MemRingBufferEx; aRoom : ARRAY[0..{room - 1}] OF BYTE; aData : ARRAY[0..19] OF BYTE;
+            added : ARRAY[0..119] OF BOOL; sums : ARRAY[0..119] OF UDINT; sum, i, nFit : UDINT; wrong : BOOL;
+            nEmpty : UDINT;
+        END_VAR
+        fb.pBuffer := ADR(aRoom); fb.cbBuffer := SIZEOF(aRoom); fb.pWrite := ADR(aData); fb.A_Reset();
+        fb.A_GetFreeSize(); nEmpty := fb.cbFree;
+        {" ".join(lines)}
+        END_PROGRAM"""
+    with run(text, 1) as program:
+        done = program.literal("Main.added").strip("[]").split(", ")
+        sums = program.literal("Main.sums").strip("[]").split(", ")
+        refused = 0
+        for n, (action, record) in enumerate(expected):
+            if action == "add":
+                if done[n] == "TRUE":
+                    queue.append(record)
+                refused += done[n] == "FALSE"
+                continue
+            assert (done[n] == "TRUE") == bool(queue)
+            total = len(queue[0]) if queue else 0
+            for byte in queue[0] if queue else []:
+                total = (total * 31 + byte) % 2**32
+            assert int(sums[n]) == total
+            if queue and action == "A_FreeHead":
+                queue.popleft()
+        assert refused
+        assert program.literal("Main.wrong") == "FALSE"
+        assert program.literal("Main.nEmpty") == str(room)
+        assert program.literal("Main.fb.nCount") == str(len(queue))
+        assert program.literal("Main.fb.cbSize") == str(sum(len(record) + 4 for record in queue))
 
 
 def test_a_hash_table_is_a_dictionary() -> None:

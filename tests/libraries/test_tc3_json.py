@@ -1,5 +1,6 @@
 """Documents of Tc3_JsonXml against Python's json module."""
 
+import base64
 import json
 import random
 from typing import Any
@@ -257,3 +258,30 @@ def test_the_writer_makes_the_document_of_the_manual() -> None:
         ]  # fmt: skip
         fail = "-2147467259"
         assert program.literal("Main.h") == f"[0, {fail}, {fail}, {fail}, {fail}, {fail}, 0]"
+
+
+def test_bytes_and_times_are_written_as_texts() -> None:
+    rows = [bytes(NUMBERS.randrange(256) for _ in range(size)) for size in range(8)]
+    lines = []
+    for row in rows:
+        lines += [f"a[{k}] := {byte};" for k, byte in enumerate(row)]
+        lines.append(f"fb.AddBase64(ADR(a), {len(row)}); fb.AddHexBinary(ADR(a), {len(row)});")
+    text = f"""
+        PROGRAM Main
+        VAR
+            fb : FB_JsonSaxWriter; a : ARRAY[0..9] OF BYTE; s : STRING(2000); t : STRING(255); h : HRESULT;
+            ft : FILETIME := 131357833620000007; dc : DCTIME := 544624962000000005;
+        END_VAR
+        fb.StartArray(); {" ".join(lines)} fb.EndArray(); fb.CopyDocument(s, SIZEOF(s));
+        fb.ResetDocument(); fb.StartObject(); fb.AddKeyFileTime('f', ft); fb.AddKeyDcTime('d', dc);
+        fb.AddKeyDcTime('e', 0); fb.AddKey('g'); fb.AddFileTime(ft - 7); fb.EndObject();
+        t := fb.GetDocument(); fb.ResetDocument(); h := fb.AddFileTime(1);
+        END_PROGRAM"""
+    with run(text, 1) as program:
+        wanted = [text for row in rows for text in (base64.b64encode(row).decode(), row.hex().upper())]
+        assert json.loads(_text_of(program.literal("Main.s"))) == wanted
+        assert json.loads(_text_of(program.literal("Main.t"))) == {
+            "f": "2017-04-04T12:42:42.0000007", "d": "2017-04-04T12:42:42.000000005",
+            "e": "2000-01-01T00:00:00", "g": "2017-04-04T12:42:42",
+        }  # fmt: skip
+        assert program.literal("Main.h") == "-2147467259"

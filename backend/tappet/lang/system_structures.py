@@ -49,6 +49,8 @@ TWINCAT_TYPES = {
     for name, type_ in (
         ("HRESULT", t.DINT),
         ("OTCID", t.UDINT),
+        ("DCTIME", t.ULINT),
+        ("FILETIME", t.ULINT),
         ("PVOID", t.Pointer(t.BYTE)),
         ("AMSNETID", _NET_ID),
         ("AMSADDR", _AMS_ADDRESS),

@@ -9,6 +9,7 @@ from pathlib import Path
 from tappet.codegen.constants import constants_within
 from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
 from tappet.runtime.contexts import FAULTED, RUNNING, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
+from tappet.runtime.described_types import SERVICE, DescribedTypes
 from tappet.runtime.executive.loader import FILE_SERVICES, Executive
 from tappet.runtime.executive.records import Block
 from tappet.runtime.faults import RawFault
@@ -126,6 +127,7 @@ class LoadedApplication:
         """From its next cycle on every task runs `code`."""
         self.code = code
         self.connect_files()
+        self.connect_types()
         for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):
             self.executive.store(task.place("pCode"), code[spec.symbol])
 
@@ -142,6 +144,13 @@ class LoadedApplication:
         self.files.open()
         if not self.virtual:
             self.tasks.launch_files(self.files.wake)
+
+    def connect_types(self) -> None:
+        """Describe types and variables to code that asks for them."""
+        if SERVICE not in self.code.imported:
+            return
+        described = DescribedTypes(self.executive, self.package.symbols, self.image.address)
+        self.tasks.publish(self.contexts.application.place("pTypes"), described.address, described)
 
     def connect_io(self) -> None:
         """The bus cycle task moves both areas between the image and the drivers' buffers."""

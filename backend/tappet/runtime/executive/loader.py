@@ -24,7 +24,8 @@ STRUCTURES = (
     "VALUE_ITEM", "VALUE_LIST", "WRITE_QUEUE", "IO_RANGE", "IO_LIST", "MEMORY_RANGE", "RECORDER",
     "RECORDER_LIST", "FLIGHT_ENTRY", "FLIGHT_RECORDER", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD",
     "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT", "APPLICATION_CONTEXT", "THREAD_ENTRY",
-    "EXECUTIVE_REGISTRY", "LOG_MESSAGE", "LOG_RING", "FILE_STORE",
+    "EXECUTIVE_REGISTRY", "LOG_MESSAGE", "LOG_RING", "FILE_STORE", "DESCRIPTION",
+    "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
 
@@ -45,7 +46,7 @@ SERVICES = (
     "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
     "tappet_keep_fault", "tappet_rethrow", "tappet_exception_code",
     "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_allocate", "tappet_release",
-    "tappet_unix_ns", "tappet_task_facts", "tappet_application_facts", "tappet_log",
+    "tappet_unix_ns", "tappet_task_facts", "tappet_application_facts", "tappet_log", "tappet_types",
     *FILE_SERVICES,
 )  # fmt: skip
 """What compiled applications and libraries may call."""
