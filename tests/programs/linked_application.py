@@ -65,6 +65,8 @@ define i32 @tappet_exception_code(i32 %code) {
     i32 3, label %access
     i32 4, label %access
     i32 9, label %user
+    i32 10, label %access
+    i32 11, label %access
   ]
 division:
   ret i32 258
@@ -101,6 +103,24 @@ none:
 define void @tappet_release(ptr %memory) {
   %head = getelementptr i8, ptr %memory, i64 -16
   call void @free(ptr %head)
+  ret void
+}
+define i64 @tappet_elements(ptr %memory) {
+  %head = getelementptr i8, ptr %memory, i64 -16
+  %count = load i64, ptr %head
+  ret i64 %count
+}
+define i64 @tappet_element_size(ptr %memory) {
+  %second = getelementptr i8, ptr %memory, i64 -8
+  %size = load i64, ptr %second
+  ret i64 %size
+}
+define ptr @tappet_set_aside(i64 %size) {
+  %memory = call ptr @calloc(i64 1, i64 %size)
+  ret ptr %memory
+}
+define void @tappet_take_back(ptr %memory) {
+  call void @free(ptr %memory)
   ret void
 }
 define i64 @tappet_now_ns() {

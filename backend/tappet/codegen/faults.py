@@ -29,6 +29,10 @@ class Fault(IntEnum):
     """A value that the conversion cannot take."""
     USER = 9
     """Raised by the program with code a."""
+    INVALID_RELEASE = 10
+    """`__DELETE` of address b, where nothing of `__NEW` begins; a: RELEASE_ERROR of heap.st."""
+    HEAP_DAMAGED = 11
+    """Memory of `__NEW` at b, c bytes, was written before (a = 1) or behind its bounds (a = 2)."""
 
 
 _MESSAGES: dict[int, str] = {
@@ -41,6 +45,16 @@ _MESSAGES: dict[int, str] = {
     Fault.ASSERT: "assertion failed",
     Fault.ILLEGAL_CONVERSION: "value cannot be converted",
     Fault.USER: "exception {a} raised by the program",
+    Fault.INVALID_RELEASE: "__DELETE of address 16#{b:X}, {reason}",
+    Fault.HEAP_DAMAGED: "memory of __NEW at 16#{b:X}, {c} bytes, was written {reason}",
+}
+
+_REASONS: dict[tuple[int, int], str] = {
+    (Fault.INVALID_RELEASE, 1): "which is not memory of __NEW",
+    (Fault.INVALID_RELEASE, 2): "which lies inside memory of __NEW, not at its begin",
+    (Fault.INVALID_RELEASE, 3): "which is not in use: it was given back already, or never made",
+    (Fault.HEAP_DAMAGED, 1): "before its begin",
+    (Fault.HEAP_DAMAGED, 2): "behind its end",
 }
 
 
@@ -49,4 +63,4 @@ def fault_message(code: int, a: int = 0, b: int = 0, c: int = 0) -> str:
     template = _MESSAGES.get(code)
     if template is None:
         return f"fault {code} ({a}, {b}, {c})"
-    return template.format(a=a, b=b, c=c)
+    return template.format(a=a, b=b, c=c, reason=_REASONS.get((code, a), f"({a})"))

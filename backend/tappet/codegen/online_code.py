@@ -142,12 +142,12 @@ def _initialise_moved(
     """FB_Init of a moved instance finds initial values; then those it had are put back (LDEC-106)."""
     assert isinstance(step.type, t.FunctionBlock)
     externals = b.program.module.externals
-    externals.setdefault("tappet_allocate", ir.External("tappet_allocate", [ir.U64, ir.U64], ir.PTR))
-    externals.setdefault("tappet_release", ir.External("tappet_release", [ir.PTR]))
+    externals.setdefault("tappet_set_aside", ir.External("tappet_set_aside", [ir.U64], ir.PTR))
+    externals.setdefault("tappet_take_back", ir.External("tappet_take_back", [ir.PTR]))
     pointer = b.temp(ir.PTR)
     read = ir.Load(ir.PTR, ir.Place(pointer))
     size = ir.Const(ir.U64, max(step.type.size, 1))
-    b.emit(ir.Store(ir.Place(pointer), ir.Call(ir.PTR, "tappet_allocate", [ir.Const(ir.U64, 1), size])))
+    b.emit(ir.Store(ir.Place(pointer), ir.Call(ir.PTR, "tappet_set_aside", [size])))
     bytes_ = b.program.string_constant(bytes(template.data), 8)
     initial_values = ir.Place(ir.Data(bytes_.symbol))
     aside = ir.Place(ir.Indirect(read))
@@ -159,7 +159,7 @@ def _initialise_moved(
         initial.construct_moved(b, place, step.type, step.args)
         for offset, length in kept:
             b.emit(ir.Copy(places.at(place, offset), places.at(aside, offset), length))
-        b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_release", [read])))
+        b.emit(ir.Evaluate(ir.Call(ir.VOID, "tappet_take_back", [read])))
     b.emit(ir.If(ir.Compare(ir.BOOL, "ne", read, ir.Const(ir.PTR, 0)), body, []))
 
 

@@ -18,7 +18,7 @@ from tappet.iec.places import SourceMap
 from tappet.iec.task import Watchdog
 
 MAGIC = b"TAPPET-PKG"
-VERSION = 2
+VERSION = 3
 MAX_IMAGE = 1 << 30
 """Largest accepted memory image in bytes; the image has to lie below 2 GiB."""
 MAX_PACKAGE = 1 << 30
@@ -121,6 +121,10 @@ class Facts(Struct):
     """PLC-02."""
     outputs_in_stop: Literal["keep", "default"] = "keep"
     """PLC-03."""
+    heap_limit: Natural = 64 << 20
+    """Bytes that __NEW may take in all."""
+    heap_poison: bool = False
+    """Whether memory is filled when __DELETE gives it back."""
 
 
 class CodePackage(Struct, repr_omit_defaults=True):

@@ -1,6 +1,7 @@
 """`__NEW` and `__DELETE`: memory, initial values, FB_Init and FB_Exit of all elements (LOPR-100, LOPR-103).
 
-The number of elements and the bytes of one stand before the memory, where `tappet_allocate` puts them.
+The runtime knows of memory of `tappet_allocate` how many elements it has and how long one is. All services that take
+its address end in a fault when nothing of __NEW begins there, or its bounds were not kept.
 """
 
 from __future__ import annotations
@@ -14,9 +15,6 @@ from tappet.lang import types as t
 from tappet.lang.parts import innermost
 from tappet.lang.symbols import BuiltinSymbol
 
-_COUNT_BEFORE = 16
-"""Bytes from the number of elements to the memory."""
-_SIZE_BEFORE = 8
 
 
 def new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
@@ -97,15 +95,17 @@ def delete(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> None:
 
 
 def _destruct_elements(b: Body, memory: ir.Expr, type_: t.Type) -> None:
-    start = b.temp(ir.PTR)
+    start, count, size = b.temp(ir.PTR), b.temp(ir.I64), b.temp(ir.I64)
     b.emit(ir.Store(ir.Place(start), memory))
     first = ir.Load(ir.PTR, ir.Place(start))
+    for local, service in ((count, "tappet_elements"), (size, "tappet_element_size")):
+        b.program.module.externals.setdefault(service, ir.External(service, [ir.PTR], ir.I64))
+        b.emit(ir.Store(ir.Place(local), ir.Call(ir.I64, service, [first])))
     counter = b.temp(ir.I64, once=False)
     number = ir.Load(ir.I64, ir.Place(counter))
-    size = ir.Load(ir.I64, ir.Place(ir.Indirect(first), -_SIZE_BEFORE))
     element = b.temp(ir.PTR, once=False)
     with b.block_of() as body:
-        offset = ir.Binary(ir.I64, "mul", number, size)
+        offset = ir.Binary(ir.I64, "mul", number, ir.Load(ir.I64, ir.Place(size)))
         b.emit(ir.Store(ir.Place(element), ir.Binary(ir.PTR, "offset", first, offset)))
         initial.destruct_all(b, ir.Place(ir.Indirect(ir.Load(ir.PTR, ir.Place(element)))), type_)
-    _for_each(b, counter, ir.Load(ir.U64, ir.Place(ir.Indirect(first), -_COUNT_BEFORE)), body)
+    _for_each(b, counter, ir.Load(ir.I64, ir.Place(count)), body)

@@ -16,8 +16,9 @@ from tappet.runtime.faults import RawFault
 from tappet.runtime.files import ApplicationFiles
 from tappet.runtime.flight import FlightRecorder, FlightSettings
 from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
+from tappet.runtime.heap import ApplicationHeap
 from tappet.runtime.image import Image
-from tappet.runtime.link import LinkedCode
+from tappet.runtime.link import LinkedCode, LinkError
 from tappet.runtime.places import Place
 from tappet.runtime.program_log import ProgramLog
 from tappet.runtime.recorder import Recorder, RecorderList, RecorderSpec
@@ -51,9 +52,13 @@ class LoadedApplication:
         self.virtual = virtual
         self.stuck_limit_s = stuck_limit_s
         self.image = Image(package.image_size)
+        self.heap = ApplicationHeap(
+            executive, package.facts.heap_limit, poison=package.facts.heap_poison
+        )
         try:
             self.code = self.link(package)
         except BaseException:
+            self.heap.close()
             self.image.close()
             raise
         self.contexts = Contexts(
@@ -64,6 +69,7 @@ class LoadedApplication:
         self.files = ApplicationFiles(executive, folder)
         self.contexts.application["pLog"] = self.log.address
         self.contexts.application["pFiles"] = self.files.address
+        self.contexts.application["pHeap"] = self.heap.address
         self.ownership = TaskOwnership(package)
         self.forces = ForceTable()
         self.recorders: dict[int, list[Recorder]] = {}
@@ -121,7 +127,13 @@ class LoadedApplication:
         imports = dict(self.executive.services)
         imports |= {symbol: base + place.offset for symbol, place in package.data_objects.items()}
         wanted = {INIT_SYMBOL, *(t.symbol for t in package.tasks), *package.exports}
-        return self.executive.linker.link(package.objects, sorted(wanted), imports)
+        code = self.executive.linker.link(package.objects, sorted(wanted), imports)
+        try:
+            self.heap.serve(code)
+        except OSError as error:
+            code.close()
+            raise LinkError(f"there is no memory for __NEW: {error}") from error
+        return code
 
     def connect_code(self, code: LinkedCode) -> None:
         """From its next cycle on every task runs `code`."""
@@ -171,6 +183,7 @@ class LoadedApplication:
         saved = [(o, self.image.read(o, n)) for o, n in self.package.no_init] if keep_no_init else []
         self.image.write(0, self.package.initial_image)
         self.files.reset()
+        self.heap.reset()
         for task in self.contexts.tasks:
             task["started"] = 0
             task["eventLast"] = 0
@@ -479,4 +492,5 @@ class LoadedApplication:
         self.close_retain_file()
         self.code.close()
         self.tasks.close()
+        self.heap.close()
         self.image.close()

@@ -31,6 +31,8 @@ class RawFault:
     stack_top: int
     cycle: int
     frames: tuple[int, ...]
+    origin: int = 0
+    """Return address of the __NEW that made the memory which is damaged; 0 when it is none."""
 
     @classmethod
     def read(cls, record: Record, memory: bytes) -> RawFault:
@@ -39,7 +41,7 @@ class RawFault:
         return cls(
             record["code"], record["a"], record["b"], record["c"], record["address"], record["pc"],
             bool(record["pcIsReturn"]), record["stackTop"], record["cycle"],
-            struct.unpack_from(f"<{count}Q", memory),
+            struct.unpack_from(f"<{count}Q", memory), record["origin"],
         )  # fmt: skip
 
 
@@ -64,6 +66,8 @@ def describe(raw: RawFault) -> tuple[str, dict[str, str]]:
         case Fault.WATCHDOG:
             took, limit = f"{raw.a / 1e6:g} ms", f"{raw.b / 1e6:g} ms"
             return f"watchdog: the cycle took {took}, its limit is {limit}", {"time": took, "limit": limit}
+        case Fault.INVALID_RELEASE | Fault.HEAP_DAMAGED:
+            return fault_message(raw.code, raw.a, raw.b, raw.c), {"address": f"16#{raw.b:X}"}
         case Fault.USER:
             return fault_message(raw.code, raw.a, raw.b, raw.c), {"code": str(raw.a)}
     return fault_message(raw.code, raw.a, raw.b, raw.c), {}

@@ -18,7 +18,7 @@ PAGE = mmap.PAGESIZE
 LOW_LIMIT = 1 << 32
 """Application data lie below this address, as CODESYS-style code keeps pointers in DWORD (decision 12)."""
 
-_MAP_32BIT = 0x40
+_MAP_32BIT, _MAP_FIXED = 0x40, 0x10
 _MAP_FIXED_NOREPLACE = 0x100000
 _MAP_FAILED = (1 << 64) - 1
 _HINT_STEP = 16 << 20
@@ -29,6 +29,7 @@ WATCHDOG_SIGNAL = 42
 FAULT_SIGNALS = (4, 7, 8, 11)  # SIGILL, SIGBUS, SIGFPE, SIGSEGV
 _SA_SIGINFO, _SA_ONSTACK, _SA_NODEFER = 0x4, 0x08000000, 0x40000000
 SIGACTION_SIZE = 152
+_PRIO_INHERIT = 1
 _MCL_CURRENT, _MCL_FUTURE, _MCL_ONFAULT = 1, 2, 4
 
 
@@ -56,6 +57,10 @@ _declare("pthread_kill", c_int, c_uint64, c_int)
 _declare("pthread_setname_np", c_int, c_uint64, c_char_p)
 _declare("pthread_key_create", c_int, c_void_p, c_void_p)
 _declare("sigaction", c_int, c_int, c_void_p, c_void_p)
+_declare("pthread_mutexattr_init", c_int, c_void_p)
+_declare("pthread_mutexattr_setprotocol", c_int, c_void_p, c_int)
+_declare("pthread_mutexattr_destroy", c_int, c_void_p)
+_declare("pthread_mutex_init", c_int, c_uint64, c_void_p)
 _declare("sem_init", c_int, c_uint64, c_int, c_int)
 _declare("sem_post", c_int, c_uint64)
 
@@ -116,6 +121,13 @@ class Mapping:
         flags = mmap.PROT_READ | mmap.PROT_WRITE if accessible else 0
         if libc.mprotect(self.address + offset, size, flags):
             raise _error("mprotect")
+
+    def clear(self, offset: int, size: int) -> None:
+        """Replace a page-aligned part of an anonymous mapping by fresh zeroed memory, which takes no room."""
+        flags = _MAP_FIXED | mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS
+        place = self.address + offset
+        if libc.mmap(place, size, mmap.PROT_READ | mmap.PROT_WRITE, flags, -1, 0) != place:
+            raise _error(f"cannot map {size} bytes")
 
     def sync(self) -> None:
         """Write a shared file mapping back to its file (blocks; never call it from a task)."""
@@ -234,6 +246,19 @@ def join_thread(thread: int, timeout_s: float) -> bool:
 def signal_thread(thread: int, signal: int) -> None:
     """Send a signal to a native thread that has not been joined."""
     libc.pthread_kill(thread, signal)
+
+
+def create_mutex(address: int) -> None:
+    """Make a mutex at `address` (40 bytes). Who holds it runs at the priority of the highest that waits for it."""
+    attributes = ctypes.create_string_buffer(16)
+    libc.pthread_mutexattr_init(attributes)
+    try:
+        libc.pthread_mutexattr_setprotocol(attributes, _PRIO_INHERIT)
+        status = libc.pthread_mutex_init(address, attributes)
+    finally:
+        libc.pthread_mutexattr_destroy(attributes)
+    if status:
+        raise _error("pthread_mutex_init", status)
 
 
 def create_thread_key() -> int:

@@ -31,7 +31,9 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
     except Exception as error:  # whatever is wrong with the debug information, the exception is reported
         log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
         stack = []
-    here = stack[0] if stack else CallFrame("", "", 0)
+    made = _maker(application, raw.origin)
+    values |= _heap_values(application, raw, made)
+    here = stack[0] if stack else made or CallFrame("", "", 0)
     values |= _values_of(application, [frame.pou for frame in stack])
     return ExceptionReport(
         raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
@@ -46,6 +48,24 @@ def _with_place(frame: CallFrame, maps: Mapping[str, SourceMap]) -> CallFrame:
         return frame
     line = frame.line - 1
     return replace(frame, place=shown.place(Span(line, 0, line, 0)))
+
+
+def _heap_values(application: LoadedApplication, raw: RawFault, made: CallFrame | None) -> dict[str, str]:
+    """The __NEW that made the memory which is damaged; for other faults, memory that is damaged besides."""
+    values = {}
+    if not raw.origin and (block := application.heap.damaged()) is not None:
+        values["damaged memory"] = f"16#{block.address:X}, {block.size} bytes"
+        made = _maker(application, block.origin)
+    if made is not None:
+        line = made.place.span.line + 1 if made.place is not None else made.line
+        values["made by __NEW in"] = f"{made.pou}, line {line}"
+    return values
+
+
+def _maker(application: LoadedApplication, origin: int) -> CallFrame | None:
+    """Where the __NEW stands that returned to `origin`; None when that code is gone."""
+    frames = Locator(application.code).frames_at(origin - 1) if origin else []
+    return _with_place(frames[0], application.package.source_maps) if frames else None
 
 
 def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str, str]:

@@ -25,7 +25,7 @@ STRUCTURES = (
     "RECORDER_LIST", "FLIGHT_ENTRY", "FLIGHT_RECORDER", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD",
     "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT", "APPLICATION_CONTEXT", "THREAD_ENTRY",
     "EXECUTIVE_REGISTRY", "LOG_MESSAGE", "LOG_RING", "FILE_STORE", "DESCRIPTION",
-    "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT",
+    "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT", "HEAP_ARENA", "HEAP_BLOCK",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
 
@@ -33,7 +33,7 @@ ENTRIES = (
     "tappet_task_thread", "tappet_scheduler_thread", "tappet_virtual_thread", "tappet_call_thread",
     "tappet_signal", "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag",
     "tappet_load", "tappet_file_thread", "tappet_files_reset",
-    "tappet_files_sweep",
+    "tappet_files_sweep", "tappet_heap_begin", "tappet_heap_check",
 )  # fmt: skip
 """What Python starts or calls."""
 
@@ -42,18 +42,22 @@ FILE_SERVICES = (
 )  # fmt: skip
 """What libraries call for files."""
 
+HEAP_SERVICES = ("tappet_allocate", "tappet_release", "tappet_elements", "tappet_element_size")
+"""What __NEW and __DELETE call."""
+
 SERVICES = (
     "tappet_fault", "tappet_now_ns", "tappet_sleep_ns", "tappet_guard", "tappet_task_current",
     "tappet_keep_fault", "tappet_rethrow", "tappet_exception_code",
-    "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_allocate", "tappet_release",
+    "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_set_aside", "tappet_take_back",
     "tappet_unix_ns", "tappet_task_facts", "tappet_application_facts", "tappet_log", "tappet_types",
-    *FILE_SERVICES,
+    *FILE_SERVICES, *HEAP_SERVICES,
 )  # fmt: skip
 """What compiled applications and libraries may call."""
 
 HOST_FUNCTIONS = (
     "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self",
-    "pthread_getspecific", "pthread_setspecific", "pthread_sigmask", "sigaltstack", "signal", "prctl",
+    "pthread_getspecific", "pthread_setspecific", "pthread_sigmask",
+    "pthread_mutex_lock", "pthread_mutex_trylock", "pthread_mutex_unlock", "sigaltstack", "signal", "prctl",
     "sem_post", "sem_wait", "abort", "calloc", "free", "_setjmp", "longjmp", "_longjmp",
     "__errno_location", "openat", "close", "read", "write", "lseek", "ftruncate", "fsync", "statx",
     "unlinkat", "renameat", "mkdirat", "fdopendir", "readdir", "closedir",
@@ -146,6 +150,10 @@ class Executive:
             self.entries["tappet_files_reset"]
         )
         self._sweep_files = ctypes.CFUNCTYPE(None, ctypes.c_uint64)(self.entries["tappet_files_sweep"])
+        self._begin_heap = ctypes.CFUNCTYPE(None, ctypes.c_uint64)(self.entries["tappet_heap_begin"])
+        self._check_heap = ctypes.CFUNCTYPE(ctypes.c_uint32, ctypes.c_uint64)(
+            self.entries["tappet_heap_check"]
+        )
         self._install_handlers()
 
     def _fill_registry(self) -> None:
@@ -201,3 +209,11 @@ class Executive:
     def sweep_files(self, address: int) -> None:
         """Abandon the requests of blocks that an online change has removed; only while no task runs."""
         self._sweep_files(address)
+
+    def begin_heap(self, address: int) -> None:
+        """Make the arena of a HEAP_ARENA one free block; only while no task runs."""
+        self._begin_heap(address)
+
+    def check_heap(self, address: int) -> int:
+        """Number of a block of a HEAP_ARENA that was written beyond its bounds, or 0."""
+        return int(self._check_heap(address))
