@@ -16,7 +16,6 @@ from tappet.lang.parts import innermost
 from tappet.lang.symbols import BuiltinSymbol
 
 
-
 def new(b: Body, e: ast.Call, symbol: BuiltinSymbol) -> ir.Expr:
     """Zeroed memory with initial values; 0 when there is none left."""
     assert isinstance(symbol.return_type, t.Pointer)

@@ -52,9 +52,7 @@ class LoadedApplication:
         self.virtual = virtual
         self.stuck_limit_s = stuck_limit_s
         self.image = Image(package.image_size)
-        self.heap = ApplicationHeap(
-            executive, package.facts.heap_limit, poison=package.facts.heap_poison
-        )
+        self.heap = ApplicationHeap(executive, package.facts.heap_limit, poison=package.facts.heap_poison)
         try:
             self.code = self.link(package)
         except BaseException:

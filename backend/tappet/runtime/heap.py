@@ -110,6 +110,16 @@ class ApplicationHeap:
         start = self._heap["pArena"] + block["start"] * GRANULE
         return DamagedBlock(start + GRANULE // 2, block["bytes"], block["origin"])
 
+    def free_blocks(self) -> int:
+        """Into how many parts what is free falls; only while no task runs."""
+        layout = self._executive.layouts["HEAP_BLOCK"]
+        first, count, number = self._heap["pBlocks"], 0, 1
+        while number:
+            block = Record(layout, first + number * layout.size)
+            count += block["element"] == 0
+            number = block["above"]
+        return count
+
     def _unmap(self) -> None:
         for mapping in self._mappings:
             mapping.close()
