@@ -1,4 +1,4 @@
-"""Memory of __NEW: bounded, checked, the application's own; what is done to it wrongly ends in an exception."""
+"""Memory of __NEW: bounded, checked, the application's own; wrong use ends in an exception."""
 
 from __future__ import annotations
 
@@ -104,7 +104,8 @@ def test_an_exception_for_another_reason_tells_of_damage() -> None:
 
 
 def test_a_program_may_catch_a_wrong_release() -> None:
-    body = "__TRY\np := ADR(v);\n__DELETE(p);\n__CATCH\ncaught := caught + 1;\n__ENDTRY\nq := __NEW(DINT); __DELETE(q);"
+    body = """__TRY p := ADR(v); __DELETE(p); __CATCH caught := caught + 1; __ENDTRY
+    q := __NEW(DINT); __DELETE(q);"""
     with LocalRuntime(application(body)) as runtime:
         runtime.run(cycles=3)
         assert runtime.read("PLC_PRG.caught") == 3

@@ -1,7 +1,7 @@
 """`__NEW` and `__DELETE`: memory, initial values, FB_Init and FB_Exit of all elements (LOPR-100, LOPR-103).
 
-The runtime knows of memory of `tappet_allocate` how many elements it has and how long one is. All services that take
-its address end in a fault when nothing of __NEW begins there, or its bounds were not kept.
+The runtime knows of memory of `tappet_allocate` how many elements it has and how long one is. Services that
+take its address end in a fault when nothing of __NEW begins there, or its bounds were not kept.
 """
 
 from __future__ import annotations

@@ -249,7 +249,7 @@ def signal_thread(thread: int, signal: int) -> None:
 
 
 def create_mutex(address: int) -> None:
-    """Make a mutex at `address` (40 bytes). Who holds it runs at the priority of the highest that waits for it."""
+    """Make a mutex at `address` (40 bytes); who holds it runs at the priority of the highest that waits."""
     attributes = ctypes.create_string_buffer(16)
     libc.pthread_mutexattr_init(attributes)
     try:

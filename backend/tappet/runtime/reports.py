@@ -10,7 +10,7 @@ from tappet.codegen.symbol_map import SymbolError
 from tappet.iec.places import SourceMap, Span
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
-from tappet.runtime.faults import Locator, describe, fault_name
+from tappet.runtime.faults import Locator, RawFault, describe, fault_name
 from tappet.runtime.logbook import Logbook
 
 _MOST_VALUES = 200
