@@ -9,10 +9,11 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
-import tempfile
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+
+from tappet.whole_file import PRIVATE, replace_file
 
 _COMPILER = ("lang", "core", "codegen")
 _ROOT = Path(__file__).parent
@@ -52,10 +53,4 @@ def compiler_stamp() -> str:
 def store(path: Path, data: bytes) -> None:
     """Writes a file that other processes may read and write at the same time; a full disk is no error."""
     with suppress(OSError):
-        handle, temporary = tempfile.mkstemp(dir=path.parent)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-            os.replace(temporary, path)
-        except OSError:
-            os.unlink(temporary)
+        replace_file(path, data, mode=PRIVATE)

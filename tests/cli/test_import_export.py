@@ -116,3 +116,10 @@ def test_libraries_that_are_not_installed_are_named(tmp_path: Path) -> None:
     assert (
         "kept Plant Parts: the library is not installed: what it declares is unknown until it is" in lines[0]
     )
+
+
+def test_a_full_disk_is_said_in_a_sentence(tmp_path: Path) -> None:
+    source = tmp_path / "a.st"
+    source.write_text("PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n")
+    done = tappet("run", source, "--virtual", "--cycles", 2, "--trace", "/dev/full", "--print", "Main.n")
+    assert done == (2, "the disk is full: /dev/full was not written")

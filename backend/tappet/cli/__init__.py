@@ -39,6 +39,13 @@ def _guarded(words: list[str]) -> int:
     except BrokenPipeError:  # who reads has seen enough; the interpreter would complain when it ends
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
+    except OSError as error:
+        from tappet.disk_full import is_disk_full
+
+        if not is_disk_full(error):
+            raise
+        complain(f"the disk is full: {error.filename or 'the output'} was not written")
+        return 2
     except KeyboardInterrupt:
         return INTERRUPTED
 

@@ -16,6 +16,7 @@ from tappet.libraries import archive
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.catalog import Item, Pin, items
 from tappet.libraries.library import Library
+from tappet.whole_file import write_output
 
 
 def list_libraries_arguments(parser: ArgumentParser) -> None:
@@ -108,7 +109,7 @@ def save(given: Namespace) -> int:
         print(format_diagnostic(diagnostic), file=sys.stderr)
     if errors:
         return 1
-    given.to.write_bytes(archive.pack(facts, texts))
+    write_output(given.to, archive.pack(facts, texts))
     print(f"{facts['name']} {given.version}: {len(texts)} objects in {given.to}")
     return 0
 

@@ -17,6 +17,7 @@ from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.archive import unpack
 from tappet.project.model import Project
 from tappet.project.project_file import is_project
+from tappet.whole_file import write_output
 
 
 def import_project_arguments(parser: ArgumentParser) -> None:
@@ -131,6 +132,6 @@ def export_project(given: Namespace) -> int:
     project, to = load_project(given.source), given.to
     if to.suffix.lower() not in (".xml", ".zip"):
         raise UsageError(f"{to}: the name should end in .xml (PLCopen XML) or .zip (archive of the folder)")
-    to.write_bytes(write_plcopen(project) if to.suffix.lower() == ".xml" else folder.write_zip(project))
+    write_output(to, write_plcopen(project) if to.suffix.lower() == ".xml" else folder.write_zip(project))
     print(f"{project.name}: {len(project.objects)} objects in {to}")
     return 0

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from tappet.cli.arguments import ArgumentParser, integer
 from tappet.cli.errors import UsageError, complain
 from tappet.cli.output import show_json
+from tappet.whole_file import write_output
 
 if TYPE_CHECKING:
     from tappet.codegen.package import CodePackage
@@ -153,14 +154,16 @@ def _values(runtime: LocalRuntime, expressions: Sequence[str]) -> dict[str, str]
 
 def _write_trace(path: Path, trace: Trace, expressions: Sequence[str]) -> None:
     import csv
+    import io
 
     trace.collect()
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["cycle", "timestamp_ns", *expressions])
-        for sample in trace.samples:
-            cells = [_cell(sample.values[expression]) for expression in expressions]
-            writer.writerow([sample.cycle, sample.timestamp_ns, *cells])
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(["cycle", "timestamp_ns", *expressions])
+    for sample in trace.samples:
+        cells = [_cell(sample.values[expression]) for expression in expressions]
+        writer.writerow([sample.cycle, sample.timestamp_ns, *cells])
+    write_output(path, text.getvalue().encode())
 
 
 def _cell(value: Any) -> Any:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tappet.cli.arguments import ArgumentParser, integer
 from tappet.cli.errors import UsageError, complain
 from tappet.cli.output import show_json
+from tappet.whole_file import write_output
 
 if TYPE_CHECKING:
     from tappet.runtime.unit_tests.results import Failure, Report
@@ -71,7 +72,7 @@ def run_unit_tests(given: Namespace) -> int:
     ]
     merged = reports[0] if len(reports) == 1 else _merge(reports)
     if given.junit is not None:
-        given.junit.write_bytes(to_xml(merged))
+        write_output(given.junit, to_xml(merged))
     if given.format == "json":
         show_json(merged.to_dict())
     else:

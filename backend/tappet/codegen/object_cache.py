@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
@@ -12,6 +10,7 @@ from pathlib import Path
 import llvmlite
 
 from tappet.codegen.compile_options import FLAGS, OptimiseOptions
+from tappet.whole_file import PRIVATE, replace_file
 
 
 class ObjectCache:
@@ -66,14 +65,9 @@ class ObjectCache:
             self._trimmed = True
             self.trim()
         folder = self.folder / name[:2]
-        try:
+        with suppress(OSError):
             folder.mkdir(parents=True, exist_ok=True)
-            handle, temporary = tempfile.mkstemp(dir=folder)
-            with os.fdopen(handle, "wb") as file:
-                file.write(hashlib.blake2b(data, digest_size=16).digest() + data)
-            os.replace(temporary, folder / name)
-        except OSError:
-            return
+            replace_file(folder / name, hashlib.blake2b(data, digest_size=16).digest() + data, mode=PRIVATE)
 
     def forget(self, keep: Iterable[str]) -> None:
         """Drop the objects in memory that are not in `keep`."""

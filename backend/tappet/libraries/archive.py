@@ -113,11 +113,15 @@ def install(facts: Mapping[str, Any], texts: Mapping[str, str]) -> Installed:
     fresh = folder.with_name(f".{version}.new")
     shutil.rmtree(fresh, ignore_errors=True)
     fresh.mkdir(parents=True)
-    for stem, text in texts.items():
-        (fresh / f"{stem}.st").write_text(text, encoding="utf-8")
-    (fresh / MANIFEST).write_text(_manifest_text(facts), encoding="utf-8")
-    shutil.rmtree(folder, ignore_errors=True)
-    fresh.rename(folder)
+    try:
+        for stem, text in texts.items():
+            (fresh / f"{stem}.st").write_text(text, encoding="utf-8")
+        (fresh / MANIFEST).write_text(_manifest_text(facts), encoding="utf-8")
+        shutil.rmtree(folder, ignore_errors=True)
+        fresh.rename(folder)
+    except OSError:
+        shutil.rmtree(fresh, ignore_errors=True)
+        raise
     return repository.find(name, version)
 
 

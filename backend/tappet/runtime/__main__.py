@@ -9,6 +9,7 @@ import os
 import secrets
 import signal
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from tappet.runtime.contexts import STUCK_LIMIT_S
@@ -16,9 +17,9 @@ from tappet.runtime.flight import FlightSettings
 from tappet.runtime.logbook import Logbook, LogEntry
 from tappet.runtime.plc import SoftPlc
 from tappet.runtime.posix import lock_memory
-from tappet.runtime.retain import write_atomically
 from tappet.runtime.service import RuntimeService
 from tappet.runtime.threads import NORMAL, Scheduling, real_time_scheduling
+from tappet.whole_file import PRIVATE, replace_file
 
 DEFAULT_PORT = 11740
 
@@ -64,14 +65,15 @@ def read_token(path: Path) -> str:
         token = path.read_text(encoding="ascii").strip()
     except FileNotFoundError:
         token = secrets.token_urlsafe(32)
-        write_atomically(path, token.encode() + b"\n")
+        replace_file(path, token.encode() + b"\n", mode=PRIVATE, to_disk=True)
     if len(token) < 16:
         raise ValueError(f"{path}: a token has at least 16 characters")
     return token
 
 
 def _echo(entry: LogEntry) -> None:
-    print(f"{entry.severity}: {entry.component}: {entry.message}", file=sys.stderr, flush=True)
+    with suppress(OSError):  # of a full disk, say: what is logged goes on
+        print(f"{entry.severity}: {entry.component}: {entry.message}", file=sys.stderr, flush=True)
 
 
 def _scheduling(arguments: argparse.Namespace, log: Logbook) -> Scheduling:

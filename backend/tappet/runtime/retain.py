@@ -8,7 +8,6 @@ file is torn.
 
 from __future__ import annotations
 
-import contextlib
 import os
 import struct
 import zlib
@@ -23,6 +22,7 @@ import msgpack
 from tappet.codegen.package import RemanentRange
 from tappet.runtime.executive.records import Block, Record
 from tappet.runtime.posix import Mapping, map_memory, read_memory, write_memory
+from tappet.whole_file import PRIVATE, replace_file, sync_folder
 
 if TYPE_CHECKING:
     from tappet.runtime.executive.loader import Executive
@@ -118,6 +118,29 @@ def _round_up(size: int) -> int:
     return -(-size // _PAGE) * _PAGE
 
 
+def _size(places: list[GroupPlace], table: bytes) -> int:
+    return max((p.slots[1] + _SLOT.size + p.size for p in places), default=_HEAD.size + len(table))
+
+
+def _allocate(path: Path, size: int) -> int:
+    """A new file with room on the disk: a full one is an error now, not a fault in a task."""
+    fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, PRIVATE)
+    try:
+        os.posix_fallocate(fd, 0, _round_up(size))
+    except OSError:
+        os.close(fd)
+        path.unlink(missing_ok=True)
+        raise
+    return fd
+
+
+def check_retain_room(path: Path, groups: Sequence[Sequence[Remanent]]) -> None:
+    """Raises OSError when the disk has no room for a file of these groups beside the one that is there."""
+    temporary = path.with_suffix(".new")
+    os.close(_allocate(temporary, _size(*_plan(groups))))
+    temporary.unlink()
+
+
 class RetainFile:
     """The mapped file and the groups that tasks save into it."""
 
@@ -126,13 +149,10 @@ class RetainFile:
     ) -> None:
         self.path = path
         places, table = _plan(groups)
-        self.size = max((p.slots[1] + _SLOT.size + p.size for p in places), default=_HEAD.size + len(table))
+        self.size = _size(places, table)
         temporary = path.with_suffix(".new")
-        fd = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+        fd = _allocate(temporary, self.size)
         try:
-            os.posix_fallocate(
-                fd, 0, _round_up(self.size)
-            )  # a full disk is an error now, not a fault in a task
             os.pwrite(fd, _HEAD.pack(MAGIC, VERSION, len(table), zlib.crc32(table)) + table, 0)
             self._mapping: Mapping = map_memory(_round_up(self.size), fd)
         finally:
@@ -141,7 +161,7 @@ class RetainFile:
         self.groups = [self._group(executive, place, image) for place in places]
         self._mapping.sync()
         os.replace(temporary, path)
-        _sync_folder(path.parent)
+        sync_folder(path.parent)
 
     def _group(self, executive: Executive, place: GroupPlace, image: int) -> Record:
         layout, ranges = executive.layouts["RETAIN_GROUP"], executive.layouts["MEMORY_RANGE"]
@@ -184,36 +204,11 @@ class RetainFile:
     def save(self) -> None:
         """Write the saved copy: complete or not at all."""
         data = self.path.read_bytes()
-        write_atomically(self.path.with_name(SAVED), data)
+        replace_file(self.path.with_name(SAVED), data, mode=PRIVATE, to_disk=True)
 
     def close(self) -> None:
         """Unmap; no task may use the groups any more."""
         self._mapping.close()
-
-
-def write_atomically(path: Path, data: bytes) -> None:
-    """Replace a file by `data`, readable by the owner only; after a crash the old or the new one is there."""
-    temporary = path.with_name(path.name + ".tmp")
-    fd = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
-    try:
-        with os.fdopen(fd, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
-    except OSError:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
-        raise
-    _sync_folder(path.parent)
-
-
-def _sync_folder(folder: Path) -> None:
-    fd = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(fd)
-    finally:
-        os.close(fd)
 
 
 def parse_retain(data: bytes) -> Kept:

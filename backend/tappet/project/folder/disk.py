@@ -12,6 +12,7 @@ from tappet.project.folder.layout import DEVICES, POUS
 from tappet.project.model import Project
 from tappet.project.naming import name_key, normal_name
 from tappet.project.project_file import INDEX_FILE, PROJECT_FILE
+from tappet.whole_file import replace_file
 
 MAX_FILES = 100_000
 MAX_BYTES = 1 << 30
@@ -110,9 +111,7 @@ def _write(path: Path, content: bytes) -> None:
     if path.is_file() and not path.is_symlink() and path.read_bytes() == content:
         return
     _make_parents(path)
-    partial = path.with_name(f".{path.name[:100]}.{os.getpid()}.part")
-    partial.write_bytes(content)
-    partial.replace(path)
+    replace_file(path, content)
 
 
 def _make_parents(path: Path) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tappet.codegen.package import CodePackage, PackageError
-from tappet.runtime.retain import write_atomically
+from tappet.whole_file import PRIVATE, replace_file
 
 KEEP = 10
 """Newest packages of one application that are kept."""
@@ -32,9 +32,9 @@ class PackageStore:
 
     def put(self, project_id: str, application_id: str, code_id: str, data: bytes) -> None:
         """Keeps a package; the oldest ones of the application go."""
-        self._folder.mkdir(parents=True, exist_ok=True)
+        self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         path = self._folder / f"{_safe(project_id)}.{_safe(application_id)}.{_safe(code_id)}.package"
-        write_atomically(path, data)
+        replace_file(path, data, mode=PRIVATE, to_disk=True)
         for old in self._newest_first(f"{project_id}.{application_id}.*.package")[KEEP:]:
             old.unlink(missing_ok=True)
 
