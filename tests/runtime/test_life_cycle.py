@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from plc_programs import build
 
-from tappet.runtime.boot import store_boot
+from tappet.runtime.boot import FILE
 from tappet.runtime.errors import PlcError
 from tappet.runtime.plc import Event, SoftPlc
 
@@ -168,7 +168,7 @@ def test_constants_of_remanent_instances_are_those_of_the_boot_application(tmp_p
     first.download(with_constants(1).to_bytes())
     first.single_cycle()
     first.close()
-    store_boot(tmp_path, with_constants(2).to_bytes())
+    (tmp_path / FILE).write_bytes(with_constants(2).to_bytes())
     second = SoftPlc(tmp_path)
     assert second.boot()
     second.stop()

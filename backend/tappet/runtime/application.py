@@ -22,7 +22,15 @@ from tappet.runtime.link import LinkedCode, LinkError
 from tappet.runtime.places import Place
 from tappet.runtime.program_log import ProgramLog
 from tappet.runtime.recorder import Recorder, RecorderList, RecorderSpec
-from tappet.runtime.retain import LIVE, Kept, KeptValue, Remanent, RetainFile, matching
+from tappet.runtime.retain import (
+    LIVE,
+    Kept,
+    KeptValue,
+    Remanent,
+    RetainFile,
+    matching,
+)
+from tappet.runtime.retain_groups import by_task, remanent_of
 from tappet.runtime.task_group import TaskError, TaskGroup
 from tappet.runtime.tasks import TaskOwnership, TaskStatistics, read_statistics
 from tappet.runtime.threads import NORMAL, Scheduling
@@ -240,9 +248,7 @@ class LoadedApplication:
 
     def remanent(self) -> list[Remanent]:
         """All RETAIN and PERSISTENT variables."""
-        return [Remanent(r, False) for r in self.package.retain] + [
-            Remanent(r, True) for r in self.package.persistent
-        ]
+        return remanent_of(self.package)
 
     def kept_values(self, *, retain: bool) -> Kept:
         """Present values of the persistent variables, of the retained ones if asked for; only while no task
@@ -261,9 +267,7 @@ class LoadedApplication:
         variables = self.remanent()
         if not variables:
             return
-        groups: dict[int | None, list[Remanent]] = {}
-        for r in variables:
-            groups.setdefault(self.ownership.of(r.variable.offset), []).append(r)
+        groups = by_task(variables, self.ownership)
         file = RetainFile(self.executive, folder / LIVE, list(groups.values()), self.image.address)
         self.retain_file = file
         for task, group in zip(groups, file.groups, strict=True):

@@ -2,24 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from tappet.codegen.package import CodePackage, PackageError
-from tappet.runtime.retain import write_atomically
+from tappet.disk_full import is_disk_full
+from tappet.runtime.errors import DiskFullError
+from tappet.runtime.logbook import Logbook
+from tappet.whole_file import PRIVATE, replacing_file
 
 FILE = "boot.tappet"
 
 
 class BootError(RuntimeError):
-    """The boot application could not be read or written."""
+    """The boot application could not be read."""
 
 
-def store_boot(folder: Path, package: bytes) -> None:
-    """Make `package` the boot application; after a crash the old or the new one is there."""
-    try:
-        write_atomically(folder / FILE, package)
-    except OSError as error:
-        raise BootError(f"the boot application could not be stored: {error}") from error
+@contextmanager
+def storing_boot(folder: Path | None, package: bytes, log: Logbook) -> Iterator[None]:
+    """Makes `package` the boot application when the block succeeds; its room on the disk is taken before.
+
+    A full disk is a DiskFullError: after a power failure, another application would start than the one that
+    was downloaded last. Where a folder cannot be written for other reasons, that is logged.
+    """
+    with ExitStack() as stack:
+        if folder is not None:
+            storing = replacing_file(folder / FILE, package, mode=PRIVATE, to_disk=True)
+            try:
+                stack.enter_context(storing)
+            except OSError as error:
+                if is_disk_full(error):
+                    raise DiskFullError("there is no room for the boot application") from error
+                log.add("error", "boot", f"the boot application could not be stored: {error}")
+        yield
 
 
 def load_boot(folder: Path) -> CodePackage | None:

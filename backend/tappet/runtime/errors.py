@@ -7,6 +7,10 @@ class PlcError(RuntimeError):
     """The PLC cannot do that in its present state; the message says what would be right."""
 
 
+class DiskFullError(PlcError):
+    """There is no room for what has to be kept; nothing was changed."""
+
+
 class NoApplicationError(PlcError):
     """What is asked for needs an application."""
 

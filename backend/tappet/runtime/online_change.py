@@ -27,6 +27,8 @@ class ChangeResult:
     fault: RawFault | None
     lost_forces: tuple[Place, ...] = ()
     paused: bool = False
+    retain_problem: str = ""
+    """Why remanent variables are kept no more."""
 
 
 def check_change(running: CodePackage, package: CodePackage) -> None:
@@ -88,9 +90,13 @@ def apply_change(
         application.connect_code(code)
         lost = _relocate(application, running, package)
         application.watched.load(package)
+        problem = ""
         remanence = (running.retain, running.persistent) != (package.retain, package.persistent)
         if remanence and retain_folder is not None:
-            application.open_retain_file(retain_folder)
+            try:
+                application.open_retain_file(retain_folder)
+            except OSError as error:
+                problem = str(error)
         if ONLINE_CHANGE_SYMBOL in package.exports:
             faults.append(application.tasks.call(code[ONLINE_CHANGE_SYMBOL]))
         application.files.sweep()
@@ -99,7 +105,7 @@ def apply_change(
             application.mark_faulted()
         old_code.close()
         application.connect_flight()  # in what was kept, places would name other variables
-    return ChangeResult(fault, tuple(lost), paused=True)
+    return ChangeResult(fault, tuple(lost), paused=True, retain_problem=problem)
 
 
 def _rearrange(application: LoadedApplication, package: CodePackage) -> None:

@@ -15,11 +15,12 @@ from typing import get_args
 
 from tappet import __version__
 from tappet.codegen.package import CodePackage, PackageError
+from tappet.disk_full import is_disk_full
 from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.boot import BootError, load_boot, remove_boot, store_boot
+from tappet.runtime.boot import BootError, load_boot, remove_boot, storing_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
-from tappet.runtime.errors import PlcError
+from tappet.runtime.errors import DiskFullError, PlcError
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.faults import RawFault, describe
@@ -31,6 +32,7 @@ from tappet.runtime.online_change import OnlineChangeError, apply_change
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.reports import build_report, summary
 from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
+from tappet.runtime.retain_groups import check_room
 from tappet.runtime.state import ResetKind, RuntimeInfo, State
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.threads import NORMAL, Scheduling
@@ -241,17 +243,13 @@ class SoftPlc(ApplicationAccess):
         except PackageError as error:
             raise PlcError(f"the package was refused: {error}") from error
         with self._lock:
-            if mode == "online_change":
-                self._change(package)
-            elif mode == "download":
-                self._load(package, None)
-            else:
-                raise PlcError(f"unknown mode '{mode}'; known are download and online_change")
-            if self.folder is not None:
-                try:
-                    store_boot(self.folder, data)
-                except BootError as error:
-                    self.log.add("error", "boot", str(error))
+            with storing_boot(self.folder, data, self.log):
+                if mode == "online_change":
+                    self._change(package)
+                elif mode == "download":
+                    self._load(package, None)
+                else:
+                    raise PlcError(f"unknown mode '{mode}'; known are download and online_change")
             self._notify("application")
 
     def load(self, package: CodePackage) -> None:
@@ -279,7 +277,14 @@ class SoftPlc(ApplicationAccess):
                 folder=self.folder,
             )
         except (LinkError, ImageError, OSError) as error:
+            if is_disk_full(error):
+                raise DiskFullError("there is no room for the files of the application") from error
             raise PlcError(f"the package was refused: {error}") from error
+        try:
+            check_room(self.folder, package)
+        except DiskFullError:
+            application.close()
+            raise
         old = self.application
         if kept is None:
             kept = self._persistent_of(old, package)
@@ -346,6 +351,7 @@ class SoftPlc(ApplicationAccess):
 
     def _change(self, package: CodePackage) -> None:
         application = self._need()
+        check_room(self.folder, package)
         begun = time.monotonic()
         try:
             result = apply_change(application, package, self.folder)
@@ -354,6 +360,8 @@ class SoftPlc(ApplicationAccess):
         took = (time.monotonic() - begun) * 1000
         how = "tasks paused" if result.paused else "code exchanged while running"
         self.log.add("info", "application", f"{package.application} changed online in {took:.0f} ms, {how}")
+        if result.retain_problem:
+            self.log.add("error", "retain", f"remanent variables are not kept: {result.retain_problem}")
         if result.paused:
             self._note_flight(application)
         if result.lost_forces:

@@ -16,7 +16,7 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 from tappet.runtime import protocol
-from tappet.runtime.errors import NoApplicationError, PlcError
+from tappet.runtime.errors import DiskFullError, NoApplicationError, PlcError
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import OperationError
 from tappet.runtime.operations.life_cycle import Hello
@@ -125,6 +125,8 @@ def refusal_code(error: Exception) -> str:
         return error.code
     if isinstance(error, NoApplicationError):
         return "no_application"
+    if isinstance(error, DiskFullError):
+        return "disk_full"
     return "refused" if isinstance(error, PlcError | TaskError) else "bad_request"
 
 

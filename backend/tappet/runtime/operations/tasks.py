@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
-from tappet.runtime.operations.declaration import Operation, OperationError, Rest, Text
+from tappet.runtime.operations.declaration import Fact, Operation, OperationError, Rest, Text
 from tappet.runtime.tasks import TaskStatistics
 
 if TYPE_CHECKING:
@@ -68,7 +68,9 @@ class ResetStatistics(Operation[None], frozen=True):
     """Reset the statistics of a task, of all tasks without a name."""
 
     op: ClassVar[str] = "reset_statistics"
-    rest: ClassVar[Rest | None] = Rest("POST", "/tasks/{task}/reset", "operator", None)
+    rest: ClassVar[Rest | None] = Rest(
+        "POST", "/tasks/{task}/reset", "operator", lambda order: Fact("statistics-reset", order.task or "")
+    )
     task: Text | None = None
 
     def run(self, plc: SoftPlc) -> None:
