@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -32,12 +32,14 @@ def until(condition: Callable[[], Any], what: str, seconds: float = 60) -> Any:
 
 
 @contextmanager
-def process(command: list[str], log: Path, **environment: str) -> Iterator[subprocess.Popen[bytes]]:
-    """`tappet ...` in the background; ended as a user ends it."""
+def process(
+    command: list[str], log: Path, wrapped: Sequence[str] = (), **environment: str
+) -> Iterator[subprocess.Popen[bytes]]:
+    """`tappet ...` in the background, run by the command `wrapped` if there is one; ended as a user does."""
     inherited = {k: v for k, v in os.environ.items() if k not in ("DATABASE_URL", "TAPPET_RUNTIME_TOKEN")}
     with log.open("a") as out:
         started = subprocess.Popen(
-            [sys.executable, "-m", "tappet", *command],
+            [*wrapped, sys.executable, "-m", "tappet", *command],
             stdin=subprocess.DEVNULL,
             stdout=out,
             stderr=subprocess.STDOUT,
@@ -222,12 +224,14 @@ def _command(pid: int) -> str:
 
 
 @contextmanager
-def station(folder: Path, *options: str, **environment: str) -> Iterator[Station]:
+def station(
+    folder: Path, *options: str, wrapped: Sequence[str] = (), **environment: str
+) -> Iterator[Station]:
     """A server on a free port; logged in by its local link, working with a token made from that."""
     log = folder / "server.log"
     already = len(log.read_text()) if log.exists() else 0
     command = ["serve", "--port", "0", "--data", str(folder / "data"), "--local-link", *options]
-    with process(command, log, **environment) as started:
+    with process(command, log, wrapped, **environment) as started:
 
         def printed_link() -> str | None:
             assert started.poll() is None, log.read_text()

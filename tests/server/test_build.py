@@ -10,6 +10,8 @@ from fastapi.testclient import TestClient
 
 from tappet.codegen.package import CodePackage
 from tappet.project.model import ProjectObject
+from tappet.runtime.errors import PlcError
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.server.services import Services
 
 
@@ -156,6 +158,28 @@ def test_downloads_are_audited(admin: TestClient, project: Stored, runtime_id: s
     entry = admin.get("/api/v1/audit").json()[0]
     assert (entry["action"], entry["old_value"], entry["new_value"]) == ("download", "code1", code_id)
     assert (entry["project_id"], entry["runtime_id"]) == (project.id, runtime_id)
+
+
+def test_a_download_that_does_not_start_says_why_and_where(
+    admin: TestClient, project: Stored, runtime_id: str, plc: FakePlc, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def start() -> None:
+        plc.state = "exception"
+        plc.report = ExceptionReport(
+            1, "DivisionByZero", "division by zero", "MainTask", "PLC_PRG", "PLC_PRG.st", 7, 1, 1
+        )
+        raise PlcError("the application is in the state exception")
+
+    monkeypatch.setattr(plc, "start", start)
+    answer = _download(admin, project, runtime_id)
+    problem = answer.json()
+    assert (answer.status_code, problem["type"]) == (409, "urn:tappet:problem:start-failed")
+    assert "task MainTask: division by zero in PLC_PRG, line 7" in problem["detail"]
+    assert {k: problem["exception"][k] for k in ("pou", "line")} == {"pou": "PLC_PRG", "line": 7}
+    start_entry, download_entry = admin.get("/api/v1/audit").json()[:2]
+    assert (start_entry["action"], start_entry["result"]) == ("start", "refused")
+    assert "division by zero in PLC_PRG, line 7" in start_entry["reason"]
+    assert (download_entry["action"], download_entry["result"]) == ("download", "ok")
 
 
 def test_online_change_needs_a_known_base(

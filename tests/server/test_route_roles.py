@@ -13,6 +13,7 @@ from fastapi.testclient import TestClient
 from server_clients import PAGE, SOCKETS, bare, browser
 from starlette.testclient import WebSocketDenialResponse
 
+from tappet.server.audited import Audited
 from tappet.server.dependencies import RequireRole
 
 OPEN = {
@@ -33,7 +34,8 @@ def _dependants(dependant: Dependant) -> Iterator[Dependant]:
 
 
 def _minimum_role(context: RouteContext) -> str | None:
-    roles = [d.call.role for d in _dependants(context.dependant) if isinstance(d.call, RequireRole)]
+    guards = (d.call for d in _dependants(context.dependant))
+    roles = [guard.role for guard in guards if isinstance(guard, RequireRole | Audited)]
     return max(roles, key=lambda role: role.rank).value if roles else None
 
 

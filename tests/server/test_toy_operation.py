@@ -114,14 +114,16 @@ def test_a_wrong_field_is_named(
     assert as_role["admin"].get("/api/v1/audit").json()[0]["action"] != "toy-nudge"
 
 
-def test_its_own_refusal_is_a_problem_and_is_not_audited(
+def test_its_own_refusal_is_a_problem_and_a_refused_act(
     as_role: dict[str, TestClient], runtime_id: str, plc: FakePlc
 ) -> None:
     plc.set("PLC_PRG.nCount", 32_760)
     answer = as_role["engineer"].post(f"/api/v1/runtimes/{runtime_id}/toy/2/nudge", json={"by": 100})
     assert answer.status_code == 409
     assert answer.json()["detail"] == "'test stand' refused: 32860 is no INT"
-    assert as_role["admin"].get("/api/v1/audit").json()[0]["action"] != "toy-nudge"
+    entry = as_role["admin"].get("/api/v1/audit").json()[0]
+    assert (entry["action"], entry["result"]) == ("toy-nudge", "refused")
+    assert entry["reason"] == answer.json()["detail"]
 
 
 def test_no_such_route_without_the_runtime(as_role: dict[str, TestClient]) -> None:

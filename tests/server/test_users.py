@@ -28,9 +28,10 @@ def test_create_change_delete(admin: TestClient) -> None:
     assert [u["username"] for u in admin.get(USERS).json()] == ["admin", "bob"]
     assert admin.delete(f"{USERS}/{bob['id']}").status_code == 204
     assert admin.patch(f"{USERS}/{bob['id']}", json={"role": "viewer"}).status_code == 404
-    actions = [e["action"] for e in admin.get("/api/v1/audit").json()]
-    assert actions[:3] == ["user-deleted", "user-changed", "user-created"]
-    changed = admin.get("/api/v1/audit", params={"action": "user-changed"}).json()[0]
+    entries = [(e["action"], e["result"]) for e in admin.get("/api/v1/audit").json()]
+    assert entries[:2] == [("user-changed", "refused"), ("user-deleted", "ok")]
+    assert entries[2:4] == [("user-changed", "ok"), ("user-created", "ok")]
+    changed = admin.get("/api/v1/audit", params={"action": "user-changed"}).json()[1]
     assert (changed["subject"], changed["old_value"], changed["new_value"]) == ("bob", "viewer", "engineer")
 
 

@@ -13,11 +13,15 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
 from tappet.project.store import Store
+from tappet.server import audit
+from tappet.server.audit import Act
 from tappet.server.auth import identity as identities
+from tappet.server.auth import origin
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.database import Database
+from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
@@ -69,19 +73,35 @@ async def session_check(connection: HTTPConnection) -> StillAllowed:
     return still_allowed
 
 
+async def identify(connection: HTTPConnection) -> Identity | None:
+    """Who asks, or None. Raises 401 problems for what is no credential, 403 for cookies of foreign pages."""
+    services: Services = connection.app.state.services
+    credential = identities.credential_of(connection)
+    if credential is not None:
+        identities.check_request(connection, credential, services.settings)
+    return await optional_identity(connection)
+
+
 class RequireRole:
-    """Dependency of routes and sockets: who asks, having at least `role`; also refuses foreign pages."""
+    """Dependency of routes and sockets: who asks, having at least `role`; also refuses foreign pages.
+
+    Routes that change something take `audited` instead, or are refused in the audit log here.
+    """
 
     def __init__(self, role: Role) -> None:
         self.role = role
 
     async def __call__(self, connection: HTTPConnection) -> Identity:
         """Raises 401 and 403 problems."""
-        services: Services = connection.app.state.services
-        credential = identities.credential_of(connection)
-        if credential is not None:
-            identities.check_request(connection, credential, services.settings)
-        return identities.require(await optional_identity(connection), self.role)
+        who = await identify(connection)
+        try:
+            return identities.require(who, self.role)
+        except Problem as problem:
+            if who is not None and connection.scope.get("method") not in origin.SAFE_METHODS:
+                act = Act("no-right", f"{connection.scope.get('method', 'SOCKET')} {connection.url.path}")
+                database = await database_of(connection)
+                await run_in_threadpool(audit.note_refusal, database, who, act, problem.detail)
+            raise
 
 
 require_viewer = RequireRole(Role.VIEWER)

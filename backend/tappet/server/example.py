@@ -14,6 +14,11 @@ from tappet.project.edit import change_data
 from tappet.project.errors import ProjectError
 from tappet.project.kinds.device import DEVICE, DeviceData
 from tappet.project.model import Project
+from tappet.server.audit import Act, Result
+from tappet.server.audited import ActRecord
+from tappet.server.auth.identity import Identity
+from tappet.server.auth.roles import Role
+from tappet.server.builds.recording import recording
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.services import Services
 from tappet.server.settings import LOCAL_RUNTIME
@@ -62,7 +67,17 @@ async def run_example(services: Services, project_id: str) -> None:
         return
     project = await run_in_threadpool(services.store.load, project_id)
     for application in project.applications()[:1]:
-        await services.commissioning.download(project_id, application.id, link, "download", start=True)
+        act = ActRecord(services.database, Identity("", AUTHOR, Role.ADMIN, "console"))
+        begin = recording(act, project_id, link)
+        try:
+            await services.commissioning.download(
+                project_id, application.id, link, "download", start=True, begin=begin
+            )
+        except Exception as error:
+            refused = Act("download", application.name, project_id=project_id, runtime_id=link.id)
+            await run_in_threadpool(act.stop, error, refused)
+            raise
+        await run_in_threadpool(act.end, Result.OK)
         log.info("the example '%s' runs on the local runtime", project.name)
 
 

@@ -10,11 +10,13 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.encoders import jsonable_encoder
 from fastapi.exceptions import RequestValidationError, WebSocketRequestValidationError
+from sqlalchemy.exc import DBAPIError
 from starlette.exceptions import HTTPException
-from starlette.requests import HTTPConnection, Request
+from starlette.requests import HTTPConnection
 from starlette.responses import JSONResponse
-from starlette.websockets import WebSocket
+from starlette.websockets import WebSocket, WebSocketState
 
+from tappet.disk_full import is_disk_full
 from tappet.project.errors import ProjectError
 from tappet.project.store import StaleRevision
 from tappet.server.objects.replies import object_detail
@@ -79,31 +81,6 @@ async def _answer(connection: HTTPConnection, problem: Problem) -> JSONResponse 
     return response
 
 
-async def _on_problem(connection: HTTPConnection, error: Exception) -> Any:
-    assert isinstance(error, Problem)
-    return await _answer(connection, error)
-
-
-async def _on_http_exception(connection: HTTPConnection, error: Exception) -> Any:
-    assert isinstance(error, HTTPException)
-    phrase = HTTPStatus(error.status_code).phrase
-    kind = phrase.lower().replace(" ", "-").replace("'", "")
-    detail = str(error.detail) if error.detail != phrase else f"{phrase}: {connection.url.path}"
-    headers = dict(error.headers) if error.headers else None
-    return await _answer(connection, Problem(error.status_code, kind, detail, headers=headers))
-
-
-async def _on_invalid(connection: HTTPConnection, error: Exception) -> Any:
-    assert isinstance(error, RequestValidationError | WebSocketRequestValidationError)
-    errors = [
-        {"location": ".".join(str(part) for part in item["loc"]), "message": item["msg"]}
-        for item in error.errors()
-    ]
-    first = errors[0] if errors else {"location": "request", "message": "invalid"}
-    detail = f"{first['location']}: {first['message']}"
-    return await _answer(connection, Problem(422, "invalid-request", detail, errors=errors))
-
-
 PROJECT_STATUS = {
     "unknown_object": 404,
     "unknown_project": 404,
@@ -115,8 +92,37 @@ PROJECT_STATUS = {
 """HTTP status of errors of the project room by their code; all others are 422."""
 
 
-async def _on_project_error(connection: HTTPConnection, error: Exception) -> Any:
-    assert isinstance(error, ProjectError)
+def disk_full(where: str) -> Problem:
+    """A 507 problem; what could not be written is as it was."""
+    detail = f"The disk is full: {where}. Nothing was changed; make room there, then try again."
+    return Problem(507, "disk-full", detail)
+
+
+def as_problem(error: Exception) -> Problem:
+    """What a client hears of an error; one that no client can help is a 500 with a reference to the log."""
+    if isinstance(error, Problem):
+        return error
+    if is_disk_full(error):
+        return disk_full("the server has no room for its database and files")
+    if isinstance(error, ProjectError):
+        return _of_project(error)
+    if isinstance(error, RequestValidationError | WebSocketRequestValidationError):
+        return _invalid(error)
+    if isinstance(error, UnicodeEncodeError):
+        # JSON can carry halves of characters (surrogates), which no text file and no database can.
+        detail = "The request contains half of a character (a lone surrogate), which no text can hold."
+        return Problem(422, "invalid-request", detail)
+    if isinstance(error, HTTPException):
+        phrase = HTTPStatus(error.status_code).phrase
+        kind = phrase.lower().replace(" ", "-").replace("'", "")
+        headers = dict(error.headers) if error.headers else None
+        return Problem(error.status_code, kind, str(error.detail), headers=headers)
+    reference = secrets.token_hex(4)
+    detail = f"The server failed to handle this request; its log has the cause under reference {reference}."
+    return Problem(500, "internal-error", detail, reference=reference)
+
+
+def _of_project(error: ProjectError) -> Problem:
     fields: dict[str, Any] = {}
     if isinstance(error, StaleRevision):
         fields = {
@@ -126,32 +132,46 @@ async def _on_project_error(connection: HTTPConnection, error: Exception) -> Any
             "object_id": error.object_id,
         }
     status = PROJECT_STATUS.get(error.code, 422)
-    return await _answer(connection, Problem(status, error.code.replace("_", "-"), str(error), **fields))
+    return Problem(status, error.code.replace("_", "-"), str(error), **fields)
 
 
-async def _on_no_text(connection: HTTPConnection, error: Exception) -> Any:
-    """JSON can carry halves of characters (surrogates), which no text file and no database can."""
-    detail = "The request contains half of a character (a lone surrogate), which no text can hold."
-    return await _answer(connection, Problem(422, "invalid-request", detail))
+def _invalid(error: RequestValidationError | WebSocketRequestValidationError) -> Problem:
+    errors = [
+        {"location": ".".join(str(part) for part in item["loc"]), "message": item["msg"]}
+        for item in error.errors()
+    ]
+    first = errors[0] if errors else {"location": "request", "message": "invalid"}
+    return Problem(422, "invalid-request", f"{first['location']}: {first['message']}", errors=errors)
 
 
-async def _on_crash(request: Request, error: Exception) -> JSONResponse:
-    reference = secrets.token_hex(4)
-    log.error("request %s %s failed (%s)", request.method, request.url.path, reference, exc_info=error)
-    return Problem(
-        500,
-        "internal-error",
-        f"The server failed to handle this request; its log has the cause under reference {reference}.",
-        reference=reference,
-    ).response()
+async def _on_error(connection: HTTPConnection, error: Exception) -> Any:
+    if isinstance(connection, WebSocket) and connection.application_state is not WebSocketState.CONNECTING:
+        raise error  # an open socket has no answer to give
+    problem = as_problem(error)
+    if problem.kind == "internal-error":
+        log.error(
+            "%s %s failed (%s)",
+            connection.scope.get("method", "SOCKET"),
+            connection.url.path,
+            problem.fields["reference"],
+            exc_info=error,
+        )
+    elif isinstance(error, HTTPException) and error.detail == problem.title:
+        problem.detail = f"{problem.title}: {connection.url.path}"
+    return await _answer(connection, problem)
 
 
 def install(app: FastAPI) -> None:
     """Makes every error of `app` a problem."""
-    app.add_exception_handler(Problem, _on_problem)
-    app.add_exception_handler(ProjectError, _on_project_error)
-    app.add_exception_handler(HTTPException, _on_http_exception)
-    app.add_exception_handler(RequestValidationError, _on_invalid)
-    app.add_exception_handler(UnicodeEncodeError, _on_no_text)
-    app.add_exception_handler(WebSocketRequestValidationError, _on_invalid)
-    app.add_exception_handler(Exception, _on_crash)
+    for kind in (
+        Problem,
+        ProjectError,
+        HTTPException,
+        RequestValidationError,
+        WebSocketRequestValidationError,
+        UnicodeEncodeError,
+        OSError,
+        DBAPIError,
+        Exception,
+    ):
+        app.add_exception_handler(kind, _on_error)

@@ -85,6 +85,10 @@ audit = Table(
     Column("runtime_id", String(32), nullable=True),
     Column("old_value", Text, nullable=True),
     Column("new_value", Text, nullable=True),
+    Column("result", String(8), nullable=False, default="ok", server_default="ok"),
+    Column("reason", Text, nullable=True),
+    Column("count", Integer, nullable=False, default=1, server_default="1"),
+    Column("last_at", UtcDateTime, nullable=True),
     Index("ix_audit_action", "action"),
 )
 

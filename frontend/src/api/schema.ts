@@ -1696,14 +1696,28 @@ export interface components {
              * Format: date-time
              */
             at: string;
+            /**
+             * Count
+             * @description How often the same was refused, until `last_at`.
+             */
+            count: number;
             /** Id */
             id: number;
+            /** Last At */
+            last_at: string | null;
             /** New Value */
             new_value: string | null;
             /** Old Value */
             old_value: string | null;
             /** Project Id */
             project_id: string | null;
+            /**
+             * Reason
+             * @description Why it was refused or has failed.
+             */
+            reason: string | null;
+            /** @description `begun`: the server ended before the result was known. */
+            result: components["schemas"]["Result"];
             /** Runtime Id */
             runtime_id: string | null;
             /** Subject */
@@ -3855,6 +3869,12 @@ export interface components {
             /** @enum {unknown} */
             kind: "cold" | "origin" | "warm";
         };
+        /**
+         * Result
+         * @description What became of an act.
+         * @enum {string}
+         */
+        Result: "begun" | "ok" | "refused" | "failed";
         /**
          * RevertTarget
          * @description The revision to go back to, as a new revision.

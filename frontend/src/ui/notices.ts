@@ -53,6 +53,8 @@ export function explain(error: unknown): { title: string; text?: string } {
       return { title: t('error.tooLarge'), text };
     case 422:
       return { title: t('error.refused'), text };
+    case 507:
+      return { title: t('error.diskFull'), text: t('error.diskFullText') };
     default:
       return { title: error.status >= 500 ? t('error.server') : error.problem.title, text };
   }

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+from sqlalchemy import Connection
+from sqlalchemy.exc import DBAPIError
 from starlette.requests import HTTPConnection
 
+from tappet.disk_full import is_disk_full
 from tappet.server.auth import origin, sessions, tokens
 from tappet.server.auth.roles import Role
 from tappet.server.database import Database
@@ -71,14 +75,23 @@ def resolve(
         if token is None:
             return None
         if touch and token.touch_due:
-            database.write(lambda db: tokens.touch(db, token.id, now))
+            _touch(database, lambda db: tokens.touch(db, token.id, now))
         return Identity(token.user_id, token.username, token.role, address, token_id=token.id)
     session = database.read(lambda db: sessions.find(db, credential.secret, settings, now))
     if session is None:
         return None
     if touch and session.touch_due:
-        database.write(lambda db: sessions.touch(db, session.id, now))
+        _touch(database, lambda db: sessions.touch(db, session.id, now))
     return Identity(session.user_id, session.username, session.role, address, session_id=session.id)
+
+
+def _touch(database: Database, write: Callable[[Connection], None]) -> None:
+    """Notes a use, unless the disk is full: reading goes on then."""
+    try:
+        database.write(write)
+    except DBAPIError as error:
+        if not is_disk_full(error):
+            raise
 
 
 def unauthenticated(detail: str = "Log in, or send 'Authorization: Bearer <token>'.") -> Problem:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
@@ -56,9 +57,8 @@ class Login:
         account = self._database.read(lambda db: accounts.by_name(db, username))
         matches = self._passwords.verify(account.password_hash if account else None, password)
         if account is None or account.disabled or not matches:
-            act = Act("login-failed", username)
-            self._database.write(lambda db: audit.write(db, username, client.address, act))
-            raise Problem(401, "login-failed", "User name or password is wrong.")
+            problem = Problem(401, "login-failed", "User name or password is wrong.")
+            raise self._refused("login-failed", username, client, problem)
         renewed = self._passwords.hash(password) if self._passwords.outdated(account.password_hash) else None
 
         def start(db: Connection) -> LoggedIn:
@@ -74,12 +74,9 @@ class Login:
         keys = [lockout.address_key(client.address)]
         self._attempt(keys, username, client)
         if not self._secrets.matches(FIRST_ACCOUNT, token):
-            self._database.write(
-                lambda db: audit.write(db, username, client.address, Act("first-account-refused", username))
-            )
-            raise Problem(
-                403, "wrong-token", "This is not the open token for the first account; the console shows it."
-            )
+            detail = "This is not the open token for the first account; the console shows it."
+            problem = Problem(403, "wrong-token", detail)
+            raise self._refused("first-account-refused", username, client, problem)
         accounts.check_password(password, username)
         encoded = self._passwords.hash(password)
         if not self._secrets.redeem(FIRST_ACCOUNT, token):
@@ -100,11 +97,9 @@ class Login:
         keys = [lockout.address_key(client.address)]
         self._attempt(keys, accounts.LOCAL_USER, client)
         if not self._secrets.redeem(LOCAL_LINK, token):
-            raise Problem(
-                403,
-                "link-expired",
-                "This login link has been used or is too old. Press Enter on the server's console.",
-            )
+            detail = "This login link has been used or is too old. Press Enter on the server's console."
+            problem = Problem(403, "link-expired", detail)
+            raise self._refused("link-refused", accounts.LOCAL_USER, client, problem)
 
         def start(db: Connection) -> LoggedIn:
             account = accounts.by_name(db, accounts.LOCAL_USER)
@@ -115,22 +110,25 @@ class Login:
 
         return self._database.write(start)
 
-    def change_own_password(self, who: Identity, current: str, new: str) -> None:
-        """Sets a password after checking the current one, where there is one. Raises a 403 problem."""
+    def change_own_password(
+        self, who: Identity, current: str, new: str, begin: Callable[[Act], None]
+    ) -> None:
+        """Sets a password after checking the current one, where there is one. Raises a 403 problem.
+
+        `begin` records the act, right before it is done.
+        """
         keys = [lockout.account_key(who.username), lockout.address_key(who.address)]
         client = Client(who.address, "")
         self._attempt(keys, who.username, client)
         account = self._database.read(lambda db: accounts.by_id(db, who.user_id))
         if account.has_password and not self._passwords.verify(account.password_hash, current):
-            act = Act("password-change-refused", who.username)
-            self._database.write(lambda db: audit.record(db, who, act))
             raise Problem(403, "wrong-password", "The current password is wrong.")
         encoded = self._passwords.hash(new)
+        begin(Act("password-set", who.username))
 
         def change(db: Connection) -> None:
             lockout.succeeded(db, keys)
             accounts.set_password(db, who.user_id, encoded, keep_session=who.session_id)
-            audit.record(db, who, Act("password-set", who.username))
 
         self._database.write(change)
 
@@ -148,17 +146,21 @@ class Login:
         now = datetime.now(UTC)
         pause = self._database.write(lambda db: lockout.attempt(db, keys, now))
         if pause:
-            self._database.write(
-                lambda db: audit.write(db, username, client.address, Act("login-locked-out", username))
-            )
             seconds = max(1, round(pause.total_seconds()))
-            raise Problem(
+            problem = Problem(
                 429,
                 "locked-out",
                 f"Too many failed attempts; try again in {seconds} s.",
                 headers={"Retry-After": str(seconds)},
                 retry_after=seconds,
             )
+            raise self._refused("login-locked-out", username, client, problem)
+
+    def _refused(self, action: str, username: str, client: Client, problem: Problem) -> Problem:
+        """The problem, with a row in the audit log that counts equal ones."""
+        act = Act(action, username)
+        self._database.write(lambda db: audit.refuse(db, username, client.address, act, problem.detail))
+        return problem
 
     def _start(self, db: Connection, account: Account, client: Client, way: str) -> LoggedIn:
         if client.old_secret:

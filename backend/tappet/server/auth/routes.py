@@ -10,11 +10,12 @@ from fastapi import APIRouter, Query, Request, Response
 from sqlalchemy import Connection
 from starlette.responses import RedirectResponse
 
-from tappet.server import audit
 from tappet.server.audit import Act
+from tappet.server.audited import ActRecord, audited
 from tappet.server.auth import accounts, identity, origin, sessions, tokens
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.login import Client, LoggedIn
+from tappet.server.auth.roles import Role
 from tappet.server.auth.shapes import (
     AuthStatus,
     Credentials,
@@ -131,17 +132,17 @@ def follow_link(
 
 @router.post("/logout", status_code=204)
 def logout(
-    who: Viewer, request: Request, response: Response, database: DatabaseDep, settings: SettingsDep
+    act: Annotated[ActRecord, audited("logout", Role.VIEWER)],
+    request: Request,
+    response: Response,
+    database: DatabaseDep,
+    settings: SettingsDep,
 ) -> None:
     """End this session; its open sockets are closed."""
-
-    def end(db: Connection) -> None:
-        secret = request.cookies.get(sessions.COOKIE)
-        if secret and who.session_id:
-            sessions.end(db, secret)
-            audit.record(db, who, Act("logout", who.username))
-
-    database.write(end)
+    act.begin(Act("logout", act.who.username))
+    secret = request.cookies.get(sessions.COOKIE)
+    if secret and act.who.session_id:
+        database.write(lambda db: sessions.end(db, secret))
     sessions.clear_cookie(response, settings)
 
 
@@ -152,12 +153,17 @@ def me(who: Viewer, database: DatabaseDep) -> Me:
 
 
 @router.post("/password", status_code=204)
-def change_password(body: PasswordChange, who: Viewer, services: ServicesDep) -> None:
+def change_password(
+    act: Annotated[ActRecord, audited("password-set", Role.VIEWER)],
+    body: PasswordChange,
+    services: ServicesDep,
+) -> None:
     """Set a new password for oneself; all other sessions end."""
+    who = act.who
     if who.session_id is None:
         raise Problem(403, "session-needed", "A token cannot change a password; log in.")
     accounts.check_password(body.new, who.username)
-    services.login.change_own_password(who, body.current, body.new)
+    services.login.change_own_password(who, body.current, body.new, act.begin)
 
 
 @router.get("/tokens")
@@ -167,29 +173,32 @@ def list_tokens(who: Viewer, database: DatabaseDep) -> list[Token]:
 
 
 @router.post("/tokens", status_code=201)
-def create_token(body: NewToken, who: Viewer, database: DatabaseDep) -> IssuedToken:
+def create_token(
+    act: Annotated[ActRecord, audited("token-created", Role.VIEWER)],
+    body: NewToken,
+    database: DatabaseDep,
+) -> IssuedToken:
     """Make a token for scripts. The secret is in this answer only."""
+    who = act.who
     if not who.role.includes(body.role):
         raise Problem(403, "role-too-low", f"A token of '{who.username}' cannot have the role '{body.role}'.")
     if who.token_id is not None:
         raise Problem(403, "session-needed", "A token cannot make tokens; log in.")
     now = datetime.now(UTC)
     expires = now + timedelta(days=body.expires_in_days) if body.expires_in_days else None
-
-    def issue(db: Connection) -> IssuedToken:
-        token, secret = tokens.issue(db, who.user_id, body.name, body.role, expires, now)
-        audit.record(db, who, Act("token-created", body.name, new_value=body.role.value))
-        return IssuedToken(**Token.of(token).model_dump(), secret=secret)
-
-    return database.write(issue)
+    act.begin(Act("token-created", body.name, new_value=body.role.value))
+    token, secret = database.write(
+        lambda db: tokens.issue(db, who.user_id, body.name, body.role, expires, now)
+    )
+    return IssuedToken(**Token.of(token).model_dump(), secret=secret)
 
 
 @router.delete("/tokens/{token_id}", status_code=204)
-def revoke_token(token_id: str, who: Viewer, database: DatabaseDep) -> None:
+def revoke_token(
+    act: Annotated[ActRecord, audited("token-revoked", Role.VIEWER)],
+    token_id: str,
+    database: DatabaseDep,
+) -> None:
     """End one of one's own tokens at once."""
-
-    def revoke(db: Connection) -> None:
-        name = tokens.revoke(db, who.user_id, token_id)
-        audit.record(db, who, Act("token-revoked", name))
-
-    database.write(revoke)
+    act.begin(Act("token-revoked", token_id))
+    act.resulted(subject=database.write(lambda db: tokens.revoke(db, act.who.user_id, token_id)))

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.kinds.application import ApplicationData
 from tappet.project.store import Store
+from tappet.runtime.client import RuntimeRefused
 from tappet.runtime.operations.life_cycle import Start
+from tappet.runtime.reports import summary
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
 from tappet.server.builds.shapes import BuildReport, LoginReport, Relation
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import LoadMode
+
+Step = Literal["download", "online_change", "start"]
+Begin = Callable[[Step, Built], Awaitable[None]]
+"""Called with what is to be done next; when it raises, it is not done."""
 
 
 @dataclass(slots=True)
@@ -87,9 +95,18 @@ class Commissioning:
         return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons)
 
     async def download(
-        self, project_id: str, application_id: str, link: RuntimeLink, mode: LoadMode, start: bool
+        self,
+        project_id: str,
+        application_id: str,
+        link: RuntimeLink,
+        mode: LoadMode,
+        start: bool,
+        begin: Begin,
     ) -> Built:
-        """Builds and loads. Raises problems: 422 errors in the project, 409 no such online change."""
+        """Builds and loads; `begin` is called right before what changes the runtime.
+
+        Raises problems: 422 errors in the project, 409 no such online change, or loaded but not started.
+        """
         application = await self.application(project_id, application_id)
         loaded: StoredPackage | None = None
         if link.info is not None and link.info.code_id is not None:
@@ -115,12 +132,29 @@ class Commissioning:
         code_id = built.report.code_id
         # Kept first: without it the next login would take the application for a stranger's.
         await run_in_threadpool(self.packages.put, project_id, application_id, code_id, built.package)
+        await begin(mode, built)
         async with link.client() as client:
             await client.download(built.package, mode)
-            if start and mode == "download":
-                await client.call(Start())
+        if start and mode == "download":
+            await begin("start", built)
+            await _start(link, built)
         await link.refresh()
         return built
+
+
+async def _start(link: RuntimeLink, built: Built) -> None:
+    async with link.client() as client:
+        try:
+            await client.call(Start())
+        except RuntimeRefused as refusal:
+            await link.refresh()
+            why = summary(link.exception) if link.exception is not None else str(refusal)
+            raise Problem(
+                409,
+                "start-failed",
+                f"'{built.application.name}' was downloaded to '{link.name}', but does not start: {why}.",
+                exception=link.state().model_dump(mode="json")["exception"],
+            ) from refusal
 
 
 def _base(stored: StoredPackage | None) -> tuple[str, bytes] | None:

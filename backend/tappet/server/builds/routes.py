@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from fastapi import APIRouter
 
 from tappet.lang.diagnostic_translations import Language
-from tappet.server import audit
-from tappet.server.audit import Act
+from tappet.server.audited import ActRecord, audited
+from tappet.server.auth.roles import Role
 from tappet.server.builds.commissioning import Commissioning
+from tappet.server.builds.recording import recording
 from tappet.server.builds.shapes import (
     BuildReport,
     DownloadOrder,
@@ -17,7 +20,6 @@ from tappet.server.builds.shapes import (
 )
 from tappet.server.dependencies import (
     CommissioningDep,
-    DatabaseDep,
     Engineer,
     RuntimesDep,
     ServicesDep,
@@ -86,27 +88,17 @@ async def log_out(project_id: str, application_id: str, who: Viewer, commissioni
 
 @router.post("/download")
 async def download(
+    act: Annotated[ActRecord, audited("download", Role.ENGINEER, quoted=True)],
     project_id: str,
     application_id: str,
     body: DownloadOrder,
-    who: Engineer,
     commissioning: CommissioningDep,
     runtimes: RuntimesDep,
-    database: DatabaseDep,
 ) -> DownloadReport:
     """Build and load the application, by download (which stops) or online change (which does not)."""
     link = runtimes.get(body.runtime_id)
-    old = link.info.code_id if link.info is not None else None
-    built = await commissioning.download(project_id, application_id, link, body.mode, body.start)
-    act = Act(
-        body.mode.replace("_", "-"),
-        built.application.name,
-        old_value=old,
-        new_value=built.report.code_id,
-        project_id=project_id,
-        runtime_id=link.id,
-    )
-    await database.write_async(lambda db: audit.record(db, who, act))
+    begin = recording(act, project_id, link)
+    built = await commissioning.download(project_id, application_id, link, body.mode, body.start, begin)
     info = link.info
     return DownloadReport(
         application=built.application.name,

@@ -17,9 +17,10 @@ from tappet.project.folder.archive import DEFAULT_LIMITS, unpack, zip_files
 from tappet.project.model import Project
 from tappet.project.project_file import PROJECT_FILE
 from tappet.project.store import Store
-from tappet.server import audit
 from tappet.server.audit import Act
-from tappet.server.dependencies import DatabaseDep, Engineer, StoreDep, Viewer
+from tappet.server.audited import ActRecord, audited
+from tappet.server.auth.roles import Role
+from tappet.server.dependencies import Engineer, StoreDep, Viewer
 from tappet.server.exchange.shapes import ImportFormats, ImportPreview, ImportResult
 from tappet.server.problems import Problem
 from tappet.server.projects.replies import project_summary
@@ -63,10 +64,9 @@ def preview_files(
 
 @router.post("/projects/import-files", status_code=201, max_body_size=MAX_ARCHIVE_BYTES)
 def import_files_as_project(
+    act: Annotated[ActRecord, audited("project-imported", Role.ENGINEER)],
     files: list[UploadFile],
-    who: Engineer,
     store: StoreDep,
-    database: DatabaseDep,
     name: Annotated[str | None, Form(description="Another name than the one in the files.")] = None,
     chosen: Chosen = None,
 ) -> ImportResult:
@@ -74,26 +74,25 @@ def import_files_as_project(
     imported = import_files(_uploaded(files), name=name or "", chosen=_keys(chosen))
     content = imported.project
     report_missing(content, imported.report)
+    act.begin(Act("project-imported", name or content.name, new_value=_named(files)))
     info = store.create_project(
         name or content.name,
-        who.username,
+        act.who.username,
         description=content.description,
         content=content,
         comment=_named(files),
         free_name=True,
     )
-    act = Act("project-imported", info.name, new_value=_named(files), project_id=info.id)
-    database.write(lambda db: audit.record(db, who, act))
+    act.resulted(subject=info.name, project_id=info.id)
     return ImportResult(project=project_summary(info), report=imported.report)
 
 
 @router.post("/projects/{project_id}/import-files", max_body_size=MAX_ARCHIVE_BYTES)
 def import_files_into_project(
+    act: Annotated[ActRecord, audited("files-imported", Role.ENGINEER)],
     project_id: str,
     files: list[UploadFile],
-    who: Engineer,
     store: StoreDep,
-    database: DatabaseDep,
     place: PlaceId = None,
     chosen: Chosen = None,
 ) -> ImportResult:
@@ -108,10 +107,10 @@ def import_files_into_project(
         report_missing(imported.project, imported.report)
         return imported.project, imported.report
 
-    report = store.edit(project_id, who.username, "import", grown, _named(files))
     info = store.project(project_id)
-    act = Act("files-imported", info.name, new_value=_named(files), project_id=project_id)
-    database.write(lambda db: audit.record(db, who, act))
+    act.begin(Act("files-imported", info.name, new_value=_named(files), project_id=project_id))
+    report = store.edit(project_id, act.who.username, "import", grown, _named(files))
+    info = store.project(project_id)
     return ImportResult(project=project_summary(info), report=report)
 
 

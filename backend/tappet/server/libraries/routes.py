@@ -16,12 +16,12 @@ from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.library import Library
 from tappet.project.errors import ProjectError
 from tappet.project.library_texts import library_requirements, library_texts, requirements
-from tappet.server import audit
 from tappet.server.audit import Act
-from tappet.server.auth.identity import Identity
+from tappet.server.audited import ActRecord, audited
+from tappet.server.auth.roles import Role
 from tappet.server.builds.builder import Application
 from tappet.server.builds.shapes import BuildReport, Severity
-from tappet.server.dependencies import CommissioningDep, Engineer, ServicesDep, StoreDep, Viewer
+from tappet.server.dependencies import CommissioningDep, ServicesDep, StoreDep, Viewer
 from tappet.server.libraries.shapes import (
     LibraryDetail,
     LibraryItem,
@@ -102,32 +102,43 @@ def get_library_file(name: str, version: str, who: Viewer) -> Response:
 
 
 @router.post("/libraries", status_code=201, max_body_size=archive.MAX_BYTES)
-def install_library(file: UploadFile, who: Engineer, services: ServicesDep) -> LibrarySummary:
+def install_library(
+    act: Annotated[ActRecord, audited("library-installed", Role.ENGINEER)],
+    file: UploadFile,
+    services: ServicesDep,
+) -> LibrarySummary:
     """Install a library file; the same version of a library is replaced."""
     try:
         facts, texts = archive.unpack(file.file.read())
+        act.begin(Act("library-installed", f"{facts['name']} {facts['version']}"))
         found = archive.install(facts, texts)
     except LibraryFileError as error:
         raise Problem(422, "library-file", f"{error}.") from None
-    return _installed(services, who, found.name, found.version)
+    return _installed(services, found.name, found.version)
 
 
 @router.delete("/libraries/{name}/{version}", status_code=204)
-def remove_library(name: str, version: str, who: Engineer, services: ServicesDep) -> None:
+def remove_library(
+    act: Annotated[ActRecord, audited("library-removed", Role.ENGINEER)],
+    name: str,
+    version: str,
+    services: ServicesDep,
+) -> None:
     """Uninstall one version of a library; those of the product stay."""
     library = _load(name, version)
+    act.begin(Act("library-removed", f"{library.name} {library.version}"))
     try:
         archive.remove(library.name, library.version)
     except LibraryFileError as error:
         raise Problem(409, "library-stays", f"{error}.") from None
-    _note(services, who, "library-removed", f"{library.name} {library.version}")
+    services.analysis.libraries_changed()
 
 
 @router.post("/projects/{project_id}/library", status_code=201)
 async def save_as_library(
+    act: Annotated[ActRecord, audited("library-installed", Role.ENGINEER)],
     project_id: str,
     body: NewLibrary,
-    who: Engineer,
     store: StoreDep,
     services: ServicesDep,
     commissioning: CommissioningDep,
@@ -151,10 +162,12 @@ async def save_as_library(
         report = await commissioning.builder.check(Application.library(project_id, project))
         if not report.ok:
             raise _with_errors(report)
+        subject = f"{facts['name']} {facts['version']}"
+        await act.begin_async(Act("library-installed", subject, project_id=project_id))
         found = await run_in_threadpool(archive.install, facts, texts)
     except (ProjectError, LibraryFileError) as error:
         raise Problem(422, "no-library", f"{error}.") from None
-    return await run_in_threadpool(_installed, services, who, found.name, found.version)
+    return await run_in_threadpool(_installed, services, found.name, found.version)
 
 
 def _with_errors(report: BuildReport) -> Problem:
@@ -167,11 +180,6 @@ def _with_errors(report: BuildReport) -> Problem:
     )
 
 
-def _installed(services: Services, who: Identity, name: str, version: str) -> LibrarySummary:
-    _note(services, who, "library-installed", f"{name} {version}")
-    return LibrarySummary.of(libraries.load(name, version))
-
-
-def _note(services: Services, who: Identity, action: str, target: str) -> None:
+def _installed(services: Services, name: str, version: str) -> LibrarySummary:
     services.analysis.libraries_changed()
-    services.database.write(lambda db: audit.record(db, who, Act(action, target)))
+    return LibrarySummary.of(libraries.load(name, version))

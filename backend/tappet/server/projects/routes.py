@@ -13,11 +13,10 @@ from tappet.project.exchange.parts import part_of
 from tappet.project.folder import read_zip, write_zip
 from tappet.project.model import Project
 from tappet.project.placement import PlacementRule, placement_rules
-from tappet.server import audit
 from tappet.server.audit import Act
-from tappet.server.auth.identity import Identity
-from tappet.server.database import Database
-from tappet.server.dependencies import DatabaseDep, Engineer, ServicesDep, StoreDep, Viewer
+from tappet.server.audited import ActRecord, audited
+from tappet.server.auth.roles import Role
+from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
 from tappet.server.projects.replies import project_revision, project_summary
 from tappet.server.projects.shapes import (
     BodyLanguage,
@@ -45,33 +44,38 @@ def list_projects(
 
 
 @router.post("/projects", status_code=201)
-def create_project(body: NewProject, who: Engineer, store: StoreDep, database: DatabaseDep) -> ProjectSummary:
+def create_project(
+    act: Annotated[ActRecord, audited("project-created", Role.ENGINEER)],
+    body: NewProject,
+    store: StoreDep,
+) -> ProjectSummary:
     """Make a project: with a soft PLC, PLC_PRG and a task that calls it, or empty."""
     content = Project(body.name, body.description) if body.template == "empty" else None
-    info = store.create_project(body.name, who.username, description=body.description, content=content)
-    _note(database, who, Act("project-created", info.name, project_id=info.id))
+    act.begin(Act("project-created", body.name))
+    info = store.create_project(body.name, act.who.username, description=body.description, content=content)
+    act.resulted(subject=info.name, project_id=info.id)
     return project_summary(info)
 
 
 @router.post("/projects/import", status_code=201, max_body_size=MAX_ARCHIVE_BYTES)
 def import_project(
+    act: Annotated[ActRecord, audited("project-imported", Role.ENGINEER)],
     file: UploadFile,
-    who: Engineer,
     store: StoreDep,
-    database: DatabaseDep,
     name: Annotated[str | None, Form(description="Another name than the one in the archive.")] = None,
 ) -> ProjectSummary:
     """Make a project from a zip archive of a project folder. A name that is taken is counted on."""
     content = read_zip(file.file)
+    act.begin(Act("project-imported", name or content.name, new_value=file.filename))
     info = store.create_project(
         name or content.name,
-        who.username,
+        act.who.username,
         description=content.description,
         content=content,
         comment=(file.filename or "")[:200],
         free_name=True,
     )
-    _note(database, who, Act("project-imported", info.name, new_value=file.filename, project_id=info.id))
+    act.resulted(subject=info.name, project_id=info.id)
     return project_summary(info)
 
 
@@ -83,30 +87,45 @@ def read_project(project_id: str, who: Viewer, store: StoreDep) -> ProjectSummar
 
 @router.patch("/projects/{project_id}")
 def change_project(
-    project_id: str, body: ProjectChange, who: Engineer, store: StoreDep, database: DatabaseDep
+    act: Annotated[ActRecord, audited("project-changed", Role.ENGINEER)],
+    project_id: str,
+    body: ProjectChange,
+    store: StoreDep,
 ) -> ProjectSummary:
     """Rename or describe a project."""
     old = store.project(project_id)
-    new = store.change_project(project_id, who.username, name=body.name, description=body.description)
-    if old.name != new.name:
-        _note(database, who, Act("project-renamed", new.name, old.name, new.name, project_id))
-    return project_summary(new)
+    if body.name is not None and body.name != old.name:
+        act.begin(Act("project-renamed", old.name, old.name, body.name, project_id))
+    else:
+        act.begin(Act("project-described", old.name, old.description, body.description, project_id))
+    return project_summary(
+        store.change_project(project_id, act.who.username, name=body.name, description=body.description)
+    )
 
 
 @router.delete("/projects/{project_id}", status_code=204)
-def delete_project(project_id: str, who: Engineer, store: StoreDep, services: ServicesDep) -> None:
+def delete_project(
+    act: Annotated[ActRecord, audited("project-deleted", Role.ENGINEER)],
+    project_id: str,
+    store: StoreDep,
+    services: ServicesDep,
+) -> None:
     """Delete a project; it can be restored."""
-    name = store.project(project_id).name
-    store.delete_project(project_id, who.username)
+    act.begin(Act("project-deleted", store.project(project_id).name, project_id=project_id))
+    store.delete_project(project_id, act.who.username)
     services.analysis.project_deleted(project_id)
-    _note(services.database, who, Act("project-deleted", name, project_id=project_id))
 
 
 @router.post("/projects/{project_id}/restore")
-def restore_project(project_id: str, who: Engineer, store: StoreDep, database: DatabaseDep) -> ProjectSummary:
+def restore_project(
+    act: Annotated[ActRecord, audited("project-restored", Role.ENGINEER)],
+    project_id: str,
+    store: StoreDep,
+) -> ProjectSummary:
     """Bring a deleted project back; if its name is taken by now, it is counted on."""
-    info = store.restore_project(project_id, who.username)
-    _note(database, who, Act("project-restored", info.name, project_id=project_id))
+    act.begin(Act("project-restored", "", project_id=project_id))
+    info = store.restore_project(project_id, act.who.username)
+    act.resulted(subject=info.name)
     return project_summary(info)
 
 
@@ -158,12 +177,15 @@ def list_project_revisions(
 
 @router.post("/projects/{project_id}/revert")
 def revert_project(
-    project_id: str, body: RevertTarget, who: Engineer, store: StoreDep, database: DatabaseDep
+    act: Annotated[ActRecord, audited("project-reverted", Role.ENGINEER)],
+    project_id: str,
+    body: RevertTarget,
+    store: StoreDep,
 ) -> ProjectSummary:
     """Make a project what it was after a change, as a new change; deleted objects come back."""
-    info = store.revert_project(project_id, body.revision, who.username, comment=body.comment)
-    act = Act("project-reverted", info.name, new_value=f"revision {body.revision}", project_id=project_id)
-    _note(database, who, act)
+    name, wanted = store.project(project_id).name, f"revision {body.revision}"
+    act.begin(Act("project-reverted", name, new_value=wanted, project_id=project_id))
+    info = store.revert_project(project_id, body.revision, act.who.username, comment=body.comment)
     return project_summary(info)
 
 
@@ -187,7 +209,3 @@ def read_languages(who: Viewer) -> list[BodyLanguage]:
 def read_placement(who: Viewer) -> list[PlacementRule]:
     """Which kind of object may be where, and how it may be named."""
     return placement_rules()
-
-
-def _note(database: Database, who: Identity, act: Act) -> None:
-    database.write(lambda db: audit.record(db, who, act))

@@ -17,7 +17,7 @@ from tappet.runtime.operations.life_cycle import GetInfo
 from tappet.runtime.operations.reports import GetException, exception_of
 from tappet.runtime.operations.values import ForcedValue, ListForces
 from tappet.runtime.state import RuntimeInfo
-from tappet.server.problems import Problem, not_found
+from tappet.server.problems import Problem, disk_full, not_found
 from tappet.server.runtimes.plc_client import Connect, PlcClient
 from tappet.server.runtimes.shapes import RuntimeState
 
@@ -255,6 +255,8 @@ class RuntimeLink:
     def _refused(self, error: RuntimeRefused) -> Problem:
         if error.code == "no_application":
             return self._no_application()
+        if error.code == "disk_full":
+            return disk_full(f"'{self.name}': {error}")
         if error.code == "not_found":
             return Problem(404, "not-found", f"'{self.name}': {error}.")
         return Problem(409, "runtime-refused", f"'{self.name}' refused: {error}")

@@ -17,12 +17,11 @@ from starlette.responses import Response
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import Rest, WireOperation, reply_type
 from tappet.runtime.protocol import place_and_reason
-from tappet.server import audit
 from tappet.server.audit import Act
+from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
-from tappet.server.database import Database
-from tappet.server.dependencies import RequireRole, database_of, link_of
+from tappet.server.dependencies import RequireRole, link_of
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.shapes import RuntimeState
@@ -86,24 +85,25 @@ def _leave_out(schema: dict[str, Any], names: Iterable[str]) -> None:
 
 
 def _endpoint(kind: type[WireOperation[Any]], rest: Rest) -> Callable[..., Awaitable[Any]]:
-    guard = Depends(RequireRole(Role(rest.role)))
+    role, facts = Role(rest.role), rest.audit
+    action = kind.op.replace("_", "-")
+    guard = Depends(RequireRole(role)) if facts is None else audited(action, role, quoted=True)
     shape = rest.answer if callable(rest.answer) else None
 
     async def endpoint(
         request: Request,
-        who: Identity = guard,
+        who: ActRecord | Identity = guard,
         link: RuntimeLink = Depends(link_of),  # noqa: B008 - how FastAPI declares dependencies
-        database: Database = Depends(database_of),  # noqa: B008
     ) -> Any:
         operation = await _read(request, kind, rest)
         async with link.client() as client:
+            if facts is not None and isinstance(who, ActRecord):
+                fact = facts(operation)
+                subject = fact.subject or link.name
+                await who.begin_async(Act(fact.action, subject, None, fact.new_value, None, link.id))
             reply = await client.call(operation)
         if rest.answer == "state":
             await link.refresh()
-        if rest.audit is not None:
-            fact = rest.audit(operation)
-            act = Act(fact.action, fact.subject or link.name, new_value=fact.new_value, runtime_id=link.id)
-            await database.write_async(lambda db: audit.record(db, who, act))
         if rest.answer == "state":
             return link.state()
         if reply is None and answer_type(kind, rest) is None:

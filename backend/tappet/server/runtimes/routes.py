@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import uuid
 from datetime import UTC, datetime
 from typing import Annotated
 
 from fastapi import APIRouter, Query
-from sqlalchemy import Connection, delete, insert
+from sqlalchemy import delete, insert
 
 from tappet.codegen.symbol_map import SymbolError
-from tappet.server import audit
 from tappet.server.audit import Act
+from tappet.server.audited import ActRecord, audited
+from tappet.server.auth.roles import Role
 from tappet.server.dependencies import (
     DatabaseDep,
-    Engineer,
     LinkDep,
     RuntimesDep,
     Viewer,
@@ -39,23 +40,21 @@ async def list_runtimes(who: Viewer, runtimes: RuntimesDep) -> list[RuntimeState
 
 @router.post("", status_code=201)
 async def add_runtime(
-    body: NewRuntime, who: Engineer, runtimes: RuntimesDep, database: DatabaseDep
+    act: Annotated[ActRecord, audited("runtime-added", Role.ENGINEER)],
+    body: NewRuntime,
+    runtimes: RuntimesDep,
+    database: DatabaseDep,
 ) -> RuntimeState:
     """Add a running soft PLC; the server keeps connected to it from now on."""
     if any(link.name.casefold() == body.name.casefold() for link in runtimes.all()):
         raise Problem(409, "name-taken", f"There already is a runtime '{body.name}'.")
-    link = runtimes.add(body.name, body.url, body.token)
-
-    def store(db: Connection) -> None:
-        db.execute(
-            insert(table).values(
-                id=link.id, name=body.name, url=body.url, token=body.token, created_at=datetime.now(UTC)
-            )
-        )
-        audit.record(db, who, Act("runtime-added", body.name, new_value=body.url, runtime_id=link.id))
-
-    await database.write_async(store)
-    return link.state()
+    runtime_id = uuid.uuid4().hex
+    await act.begin_async(Act("runtime-added", body.name, new_value=body.url, runtime_id=runtime_id))
+    row = {"id": runtime_id, "name": body.name, "url": body.url, "token": body.token}
+    await database.write_async(
+        lambda db: db.execute(insert(table).values(row | {"created_at": datetime.now(UTC)}))
+    )
+    return runtimes.add(body.name, body.url, body.token, runtime_id).state()
 
 
 @router.get("/{runtime_id}")
@@ -65,16 +64,17 @@ async def get_runtime(who: Viewer, link: LinkDep) -> RuntimeState:
 
 
 @router.delete("/{runtime_id}", status_code=204)
-async def remove_runtime(who: Engineer, link: LinkDep, runtimes: RuntimesDep, database: DatabaseDep) -> None:
+async def remove_runtime(
+    act: Annotated[ActRecord, audited("runtime-removed", Role.ENGINEER)],
+    link: LinkDep,
+    runtimes: RuntimesDep,
+    database: DatabaseDep,
+) -> None:
     """Forget a runtime; the soft PLC itself continues to run."""
     if link.id == LOCAL_RUNTIME:
         raise Problem(409, "local-runtime", "The local runtime belongs to this server and cannot be removed.")
-
-    def forget(db: Connection) -> None:
-        db.execute(delete(table).where(table.c.id == link.id))
-        audit.record(db, who, Act("runtime-removed", link.name, old_value=link.url, runtime_id=link.id))
-
-    await database.write_async(forget)
+    await act.begin_async(Act("runtime-removed", link.name, old_value=link.url, runtime_id=link.id))
+    await database.write_async(lambda db: db.execute(delete(table).where(table.c.id == link.id)))
     await runtimes.remove(link.id)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Annotated
 
@@ -10,8 +11,10 @@ from sqlalchemy import Connection
 
 from tappet.server import audit
 from tappet.server.audit import Act
+from tappet.server.audited import ActRecord, audited
 from tappet.server.auth import accounts
 from tappet.server.auth.accounts import Account
+from tappet.server.auth.roles import Role
 from tappet.server.dependencies import Admin, DatabaseDep, Engineer, ServicesDep
 from tappet.server.problems import Problem
 from tappet.server.users.shapes import AuditEntry, NewUser, User, UserChange
@@ -26,25 +29,33 @@ def list_users(who: Admin, database: DatabaseDep) -> list[User]:
 
 
 @router.post("/users", status_code=201)
-def create_user(body: NewUser, who: Admin, services: ServicesDep) -> User:
+def create_user(
+    act: Annotated[ActRecord, audited("user-created", Role.ADMIN)],
+    body: NewUser,
+    services: ServicesDep,
+) -> User:
     """Make an account."""
     accounts.check_password(body.password, body.username)
     encoded = services.passwords.hash(body.password)
 
-    def create(db: Connection) -> User:
-        account = accounts.create(db, body.username, encoded, body.role, datetime.now(UTC))
-        audit.record(db, who, Act("user-created", account.username, new_value=account.role.value))
-        return User.of(account)
-
-    return services.database.write(create)
+    act.begin(Act("user-created", body.username, new_value=body.role.value))
+    now = datetime.now(UTC)
+    return User.of(
+        services.database.write(lambda db: accounts.create(db, body.username, encoded, body.role, now))
+    )
 
 
 @router.patch("/users/{user_id}")
-def change_user(user_id: str, body: UserChange, who: Admin, services: ServicesDep) -> User:
+def change_user(
+    act: Annotated[ActRecord, audited("user-changed", Role.ADMIN)],
+    user_id: str,
+    body: UserChange,
+    services: ServicesDep,
+) -> User:
     """Change role or password, or disable an account; its sessions end."""
     encoded = None
+    account = services.database.read(lambda db: accounts.by_id(db, user_id))
     if body.password is not None:
-        account = services.database.read(lambda db: accounts.by_id(db, user_id))
         accounts.check_password(body.password, account.username)
         encoded = services.passwords.hash(body.password)
 
@@ -52,29 +63,35 @@ def change_user(user_id: str, body: UserChange, who: Admin, services: ServicesDe
         old = accounts.by_id(db, user_id)
         new = accounts.change(db, old, body.role, body.disabled)
         if encoded is not None:
-            accounts.set_password(db, user_id, encoded, keep_session=who.session_id)
-            audit.record(db, who, Act("password-set", old.username))
-        if (old.role, old.disabled) != (new.role, new.disabled):
-            audit.record(db, who, Act("user-changed", old.username, _summary(old), _summary(new)))
-        return User.of(accounts.by_id(db, user_id))
+            accounts.set_password(db, user_id, encoded, keep_session=act.who.session_id)
+        return User.of(new)
 
+    wanted = replace(
+        account,
+        role=body.role or account.role,
+        disabled=account.disabled if body.disabled is None else body.disabled,
+    )
+    acts = [Act("password-set", account.username)] if encoded is not None else []
+    if wanted != account or not acts:
+        acts.append(Act("user-changed", account.username, _summary(account), _summary(wanted)))
+    act.begin(*acts)
     return services.database.write(change)
 
 
 @router.delete("/users/{user_id}", status_code=204)
-def delete_user(user_id: str, who: Admin, database: DatabaseDep) -> None:
+def delete_user(
+    act: Annotated[ActRecord, audited("user-deleted", Role.ADMIN)],
+    user_id: str,
+    database: DatabaseDep,
+) -> None:
     """Delete an account with its sessions, tokens and settings; the audit log keeps its name."""
-    if user_id == who.user_id:
+    if user_id == act.who.user_id:
         raise Problem(
             409, "own-account", "Nobody deletes the account they are using; another administrator can."
         )
-
-    def delete(db: Connection) -> None:
-        account = accounts.by_id(db, user_id)
-        accounts.remove(db, account)
-        audit.record(db, who, Act("user-deleted", account.username, old_value=account.role.value))
-
-    database.write(delete)
+    account = database.read(lambda db: accounts.by_id(db, user_id))
+    act.begin(Act("user-deleted", account.username, old_value=account.role.value))
+    database.write(lambda db: accounts.remove(db, accounts.by_id(db, user_id)))
 
 
 @router.get("/audit")

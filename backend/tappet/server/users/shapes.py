@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from datetime import datetime
 
+from pydantic import Field
+
+from tappet.server.audit import Result
 from tappet.server.auth.roles import Role
 from tappet.server.auth.shapes import Password, Username
 from tappet.server.shapes import Reply, Request
@@ -50,3 +53,7 @@ class AuditEntry(Reply):
     runtime_id: str | None
     old_value: str | None
     new_value: str | None
+    result: Result = Field(description="`begun`: the server ended before the result was known.")
+    reason: str | None = Field(description="Why it was refused or has failed.")
+    count: int = Field(description="How often the same was refused, until `last_at`.")
+    last_at: datetime | None

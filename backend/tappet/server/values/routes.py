@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from fastapi import APIRouter
 
-from tappet.server import audit
 from tappet.server.audit import Act
-from tappet.server.auth.identity import Identity
-from tappet.server.database import Database
-from tappet.server.dependencies import DatabaseDep, LinkDep, Operator, Viewer
+from tappet.server.audited import ActRecord, audited
+from tappet.server.auth.roles import Role
+from tappet.server.dependencies import LinkDep, Viewer
+from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.values import service as values
 from tappet.server.values.service import Written
 from tappet.server.values.shapes import Forces, ReadOrder, UnforceOrder, Values, WriteOrder
@@ -16,11 +18,14 @@ from tappet.server.values.shapes import Forces, ReadOrder, UnforceOrder, Values,
 router = APIRouter(prefix="/runtimes/{runtime_id}", tags=["values"])
 
 
-async def _log(
-    database: Database, who: Identity, action: str, runtime_id: str, written: list[Written]
-) -> None:
-    acts = [Act(action, w.path, w.old_literal, w.new_literal or None, runtime_id=runtime_id) for w in written]
-    await database.write_async(lambda db: audit.record(db, who, *acts))
+def _recording(act: ActRecord, action: str, link: RuntimeLink) -> values.Begin:
+    """Records each value as an act of its own, before the values are sent."""
+
+    async def begin(written: list[Written]) -> None:
+        rows = [Act(action, w.path, w.old_literal, w.new_literal or None, None, link.id) for w in written]
+        await act.begin_async(*rows or [Act(action, "nothing", runtime_id=link.id)])
+
+    return begin
 
 
 @router.post("/values/read")
@@ -30,26 +35,36 @@ async def read_values(body: ReadOrder, who: Viewer, link: LinkDep) -> Values:
 
 
 @router.post("/values/write")
-async def write_values(body: WriteOrder, who: Operator, link: LinkDep, database: DatabaseDep) -> Values:
+async def write_values(
+    act: Annotated[ActRecord, audited("write", Role.OPERATOR, quoted=True)],
+    body: WriteOrder,
+    link: LinkDep,
+) -> Values:
     """Write values together at the beginning of a cycle, all or none; answers with what is there then."""
-    written = await values.write(link, body.values)
-    await _log(database, who, "write", link.id, written)
+    await values.write(link, body.values, _recording(act, "write", link))
     return Values(values=await values.read(link, [v.expression for v in body.values]))
 
 
 @router.post("/values/force")
-async def force_values(body: WriteOrder, who: Operator, link: LinkDep, database: DatabaseDep) -> Forces:
+async def force_values(
+    act: Annotated[ActRecord, audited("force", Role.OPERATOR, quoted=True)],
+    body: WriteOrder,
+    link: LinkDep,
+) -> Forces:
     """Hold variables at values until they are released; answers with all forces."""
-    written = await values.force(link, body.values)
-    await _log(database, who, "force", link.id, written)
+    await values.force(link, body.values, _recording(act, "force", link))
     return Forces(values=await values.forces(link))
 
 
 @router.post("/values/unforce")
-async def unforce_values(body: UnforceOrder, who: Operator, link: LinkDep, database: DatabaseDep) -> Forces:
+async def unforce_values(
+    act: Annotated[ActRecord, audited("unforce", Role.OPERATOR, quoted=True)],
+    body: UnforceOrder,
+    link: LinkDep,
+) -> Forces:
     """Release forced variables, or all of them; answers with the forces that remain."""
-    released = await values.unforce(link, body.expressions, restore=body.restore)
-    await _log(database, who, "unforce", link.id, released)
+    begin = _recording(act, "unforce", link)
+    await values.unforce(link, body.expressions, begin, restore=body.restore)
     return Forces(values=await values.forces(link))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -27,7 +27,7 @@ MOST_EXPLAINED = 20
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A value that was written or forced, for the audit log."""
+    """A value that is written, forced or released, for the audit log."""
 
     path: str
     old_literal: str
@@ -51,19 +51,23 @@ async def read(link: RuntimeLink, expressions: Sequence[str], *, cycle: int | No
     return result
 
 
-async def write(link: RuntimeLink, values: Sequence[NewValue]) -> list[Written]:
+Begin = Callable[[list[Written]], Awaitable[None]]
+"""Called with what is to be written, right before it is; when it raises, nothing is."""
+
+
+async def write(link: RuntimeLink, values: Sequence[NewValue], begin: Begin) -> None:
     """Writes all values at the beginning of one cycle, or none: raises a 422 problem if one is wrong."""
-    return await _set(link, values, force=False)
+    await _set(link, values, begin, force=False)
 
 
-async def force(link: RuntimeLink, values: Sequence[NewValue]) -> list[Written]:
+async def force(link: RuntimeLink, values: Sequence[NewValue], begin: Begin) -> None:
     """Forces all values; raises a 422 problem and forces none if one is wrong."""
-    return await _set(link, values, force=True)
+    await _set(link, values, begin, force=True)
 
 
 async def unforce(
-    link: RuntimeLink, expressions: Sequence[str] | None, *, restore: bool = False
-) -> list[Written]:
+    link: RuntimeLink, expressions: Sequence[str] | None, begin: Begin, *, restore: bool = False
+) -> None:
     """Releases forced variables, all with None; with `restore` they get back what they held before."""
     symbols = link.loaded_symbols()
     if expressions is None:
@@ -74,10 +78,10 @@ async def unforce(
         places = [(ref.offset, ref.bit) for ref in refs]
         released = {place: link.forced[place] for place in places if place in link.forced}
     before = {v.expression: v.literal or "" for v in await forces(link)}
+    await begin([Written(path, before.get(path, ""), "") for path in released.values()])
     async with link.client() as client:
         await client.call(Unforce(places, restore))
     await link.refresh()
-    return [Written(path, before.get(path, ""), "") for path in released.values()]
 
 
 async def forces(link: RuntimeLink) -> list[Value]:
@@ -162,7 +166,7 @@ def json_value(value: Any) -> Any:
 # -- details ------------------------------------------------------------------------------------------
 
 
-async def _set(link: RuntimeLink, values: Sequence[NewValue], *, force: bool) -> list[Written]:
+async def _set(link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, force: bool) -> None:
     symbols = link.loaded_symbols()
     orders: list[tuple[VarRef, bytes]] = []
     errors: list[dict[str, str]] = []
@@ -181,14 +185,16 @@ async def _set(link: RuntimeLink, values: Sequence[NewValue], *, force: bool) ->
         raise _refusal(errors)
     old = await _read_refs(link, [ref for ref, _ in orders])
     batch = [(ref.offset, data, ref.bit) for ref, data in orders]
+    await begin(
+        [
+            Written(ref.path, _literal(symbols, ref, before), _literal(symbols, ref, _in_place(ref, data)))
+            for (ref, data), before in zip(orders, old, strict=True)
+        ]
+    )
     async with link.client() as client:
         await (client.call(Force(batch)) if force else client.call(Write(batch)))
     if force:
         await link.refresh()
-    return [
-        Written(ref.path, _literal(symbols, ref, before), _literal(symbols, ref, _in_place(ref, data)))
-        for (ref, data), before in zip(orders, old, strict=True)
-    ]
 
 
 def _check_writable(ref: VarRef) -> None:

@@ -1,0 +1,115 @@
+"""The disk of the server fills up: nothing is done that is not recorded, and the machine runs on."""
+
+from __future__ import annotations
+
+import errno
+import io
+import subprocess
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from live_server import RUNTIME, Script, Station, station
+
+MOUNT = ["unshare", "-rm", "sh", "-c", 'mount -t tmpfs -o size=32m tmpfs "$0" && exec "$@"']
+"""Runs a command with a small file system of its own."""
+
+
+@pytest.fixture(scope="module")
+def plant(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
+    """A running application on a data folder of 32 MiB."""
+    folder = tmp_path_factory.mktemp("full")
+    (folder / "data").mkdir()
+    wrapped = [*MOUNT, str(folder / "data")]
+    try:
+        subprocess.run([*wrapped, "true"], check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("no file systems of one's own here")
+    with station(folder, wrapped=wrapped) as plant:
+        boss = plant.admin
+        boss.create_project("Team")
+        text = "PROGRAM PLC_PRG\nVAR\n    n : DINT;\n    k : INT;\nEND_VAR"
+        boss.save("PLC_PRG", declaration=text, implementation="n := n + 1;")
+        boss.download()
+        boss.wait_for_state("run")
+        yield plant
+
+
+def fill(folder: Path) -> Path:
+    """Takes all room there is."""
+    filler = folder / "filler"
+    with filler.open("wb", buffering=0) as file:
+        for size in (1 << 16, 1):
+            try:
+                while True:
+                    file.write(bytes(size))
+            except OSError as error:
+                if error.errno != errno.ENOSPC:
+                    raise
+    return filler
+
+
+def until_full(boss: Script) -> None:
+    """Uses up what the database has left within its own file."""
+    for number in range(2000):
+        answer = boss.http.put(f"/me/settings/filler.{number}", json="x" * 3000)
+        if answer.status_code != 200:
+            assert answer.status_code == 507, answer.text
+            return
+    raise AssertionError("never full")
+
+
+def archive() -> bytes:
+    """A project of many objects."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as packed:
+        for number in range(200):
+            packed.writestr(f"F{number}.st", f"FUNCTION F{number} : INT\nEND_FUNCTION\n" + "// x\n" * 2000)
+    return out.getvalue()
+
+
+def test_without_room_everything_is_refused_and_the_machine_runs(plant: Station) -> None:
+    boss = plant.admin
+    data = Path(f"/proc/{plant.process.pid}/root{plant.log.parent}/data")
+    before = boss.read_object("PLC_PRG")
+    filler = fill(data)
+    until_full(boss)
+    value = {"values": [{"expression": "PLC_PRG.k", "value": 7}]}
+    refused = [
+        boss.post(f"{RUNTIME}/stop", None, 507),
+        boss.post(f"{RUNTIME}/values/write", value, 507),
+        boss.post(f"{RUNTIME}/values/force", value, 507),
+        boss.post(
+            f"{boss.application}/download", {"runtime_id": "local", "mode": "download", "start": True}, 507
+        ),
+        boss.post("/users", {"username": "late", "password": "correct horse battery", "role": "viewer"}, 507),
+        boss.call(
+            "PUT",
+            f"{boss.project}/objects/{boss.ids['PLC_PRG']}",
+            {
+                "base_revision": before["revision"],
+                "data": {**before["data"], "implementation": "n := 0;" * 999},
+            },
+            507,
+        ),
+    ]
+    assert {problem["type"] for problem in refused} == {"urn:tappet:problem:disk-full"}
+    files = {"files": ("many.zip", archive(), "application/zip")}
+    assert boss.http.post("/projects/import-files", files=files).status_code == 507
+
+    state = boss.state()
+    assert (state["connected"], state["state"], state["exception"]) == (True, "run", None)
+    assert boss.value("PLC_PRG.k") == 0
+    first = boss.value("PLC_PRG.n")
+    assert boss.value("PLC_PRG.n") >= first
+    assert boss.get(f"{RUNTIME}/forces")["values"] == []
+    assert boss.read_object("PLC_PRG")["revision"] == before["revision"]
+    assert boss.http.get(f"{boss.project}/export").status_code == 200
+    assert [p["name"] for p in boss.get("/projects")] == ["Team"]
+
+    filler.unlink()
+    assert boss.post(f"{RUNTIME}/stop")["state"] == "stop"
+    (entry, *_) = boss.get("/audit?action=stop")
+    assert (entry["result"], entry["subject"]) == ("ok", state["name"])
+    assert [path.name for path in data.rglob("*.part")] == []
