@@ -176,7 +176,8 @@ def test_repeated_wrong_passwords_lock_the_account_out(team: Team) -> None:
     until(lambda: guesser.http.post("/auth/login", json=right).status_code == 200, "the pause ends")
     entries = boss.get("/audit?limit=200")
     failed = [e for e in entries if e["action"] == "login-failed" and e["subject"] == "victim"]
-    assert len(failed) >= 4
+    assert [e["result"] for e in failed] == ["refused"]
+    assert failed[0]["count"] >= 4
     assert any(e["action"] == "login-locked-out" for e in entries)
     assert not any(PASSWORD in str(e) or "guess number" in str(e) for e in entries)
     assert team.people["viewer"].get("/auth/me")["username"] == "the.viewer", "others are not locked out"
