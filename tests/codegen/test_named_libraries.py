@@ -14,8 +14,10 @@ from tests.spec.language_cases import load_cases, sources_of
 from tappet.bench.large_library import install
 from tappet.codegen import compile_pool
 from tappet.codegen.build import BuildOptions, BuildResult, build_application
+from tappet.lang.analysis import AnalysisOptions, analyse
+from tappet.lang.analysis.libraries import read_program
 from tappet.lang.source import Scope, Source
-from tappet.libraries import named, repository, resolve
+from tappet.libraries import named, names, repository, resolve
 from tappet.libraries.named import index_of, named_texts
 from tappet.project.library_reference import LibraryReference
 
@@ -204,3 +206,15 @@ def test_processes_that_write_at_once_leave_one_sound_index(own_cache: Path) -> 
     (file,) = stored(own_cache)
     assert named.Index.from_bytes(file.read_bytes(), len(library_texts(REFERENCES))) is not None
     assert os.stat(file).st_mode & 0o077 == 0
+
+
+def test_no_library_of_the_product_has_messages_that_keep_all_of_it() -> None:
+    found, problems = resolve([LibraryReference(name) for name in names()])
+    assert not problems
+    sources = [source for library in found for source in library.sources]
+    results, shared = read_program(sources, AnalysisOptions())
+    assert shared is not None
+    messages = [d for result in results for d in result.diagnostics]
+    messages += analyse([], libraries=shared).diagnostics
+    assert [str(message) for message in messages] == []
+    assert not index_of(sources).everything
