@@ -9,7 +9,7 @@ import zipfile
 from fastapi.testclient import TestClient
 from tests.project.archives import archive
 
-from tappet.project.exchange import ARCHIVES, importable
+from tappet.project.exchange.importing import ARCHIVES, importable
 
 API = "/api/v1"
 SOURCE = b"FUNCTION_BLOCK FB_Pump\nVAR_INPUT\n  bOn : BOOL;\nEND_VAR\nEND_FUNCTION_BLOCK\n"

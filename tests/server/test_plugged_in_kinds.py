@@ -19,7 +19,7 @@ from tests.plugins.installing import PLUGINS, installed
 from tappet.project import edit, kind_registry
 from tappet.project.data import UnknownData
 from tappet.project.errors import InvalidDataError
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder import decode, encode, load, save, write_zip
 from tappet.project.folder.archive import read_zip

@@ -12,8 +12,9 @@ from tappet.cli.output import show_json
 from tappet.libraries.missing import report_missing
 from tappet.project import folder
 from tappet.project.errors import ProjectError
-from tappet.project.exchange import ARCHIVES, ImportReport, import_files, importable, is_importable
+from tappet.project.exchange.importing import ARCHIVES, import_files, importable, is_importable
 from tappet.project.exchange.plcopen_write import write_plcopen
+from tappet.project.exchange.report import ImportReport
 from tappet.project.folder.archive import unpack
 from tappet.project.model import Project
 from tappet.project.project_file import is_project

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tappet.libraries import repository
-from tappet.project.exchange import ImportReport
+from tappet.project.exchange.report import ImportReport
 from tappet.project.model import Project
 from tappet.project.sources import references_of
 

@@ -7,8 +7,10 @@ from twincat_project import FILES
 
 from tappet.project import edit
 from tappet.project.errors import UnknownObjectError
-from tappet.project.exchange import ImportNode, Place, import_files
+from tappet.project.exchange.choosing import ImportNode
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.parts import part_of, st_files
+from tappet.project.exchange.placing import Place
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.codec import encode
 from tappet.project.model import Project

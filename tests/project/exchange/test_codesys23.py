@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tappet.project.exchange import Imported, import_files
+from tappet.project.exchange.importing import Imported, import_files
 
 APPLICATION = "Tappet Soft PLC/PLC Logic/Application"
 

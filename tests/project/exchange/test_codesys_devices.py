@@ -8,7 +8,7 @@ import pytest
 
 from tappet.lang.analysis import AnalysisOptions, analyse
 from tappet.lang.parser import parse
-from tappet.project.exchange import Imported, import_files
+from tappet.project.exchange.importing import Imported, import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.model import Project
 from tappet.project.sources import application_sources

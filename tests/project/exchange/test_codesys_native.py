@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from native_export import Item, native, single
 
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.report import ExchangeError
 from tappet.project.model import Project
 

@@ -7,7 +7,7 @@ import re
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 
 _PLAIN = re.compile(

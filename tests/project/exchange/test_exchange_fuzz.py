@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tappet.project.exchange import ExchangeError, import_files
+from tappet.project.exchange.importing import import_files
+from tappet.project.exchange.report import ExchangeError
 from tappet.project.exchange.xml_tree import Element, read_xml, xml_text
 from tappet.project.placement import check_project
 

@@ -4,7 +4,7 @@ from hypothesis import HealthCheck, given, settings
 from project_strategies import projects
 
 from tappet.project import edit
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder import encode
 from tappet.project.model import Project

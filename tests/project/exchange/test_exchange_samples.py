@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 from twincat_project import tcpou
 
-from tappet.project.exchange import ImportReport, Place, import_files
+from tappet.project.exchange.importing import import_files
+from tappet.project.exchange.placing import Place
 from tappet.project.exchange.plcopen_write import write_plcopen
+from tappet.project.exchange.report import ImportReport
 from tappet.project.model import Project, ProjectObject
 from tappet.project.sources import application_sources, libraries
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.project.exchange import Imported, import_files
+from tappet.project.exchange.importing import Imported, import_files
 from tappet.project.exchange.plcopen_matiec import rewritten
 
 SECONDS = "count seconds there and milliseconds here; they were rewritten"

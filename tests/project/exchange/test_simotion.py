@@ -2,7 +2,7 @@
 
 import pytest
 
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.report import ExchangeError
 
 UNIT = b"""UNIT Press;

@@ -5,7 +5,7 @@ import string
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.parts import st_files
 from tappet.project.exchange.text_tree import folders_of, owner_paths, unmarked
 from tappet.project.model import Project, ProjectObject

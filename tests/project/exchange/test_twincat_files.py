@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 
 ENUM = b"""<?xml version="1.0" encoding="utf-8"?>
 <TcPlcObject Version="1.1.0.1">

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from twincat_project import tcpou
 
-from tappet.project.exchange import import_files
+from tappet.project.exchange.importing import import_files
 from tappet.project.exchange.report import ExchangeError
 from tappet.project.kinds.task import TaskData
 

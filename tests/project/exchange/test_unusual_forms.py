@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tappet.iec.tokens import code_of
-from tappet.project.exchange import Imported, import_files
 from tappet.project.exchange.declaration_sections import read_head, read_sections
+from tappet.project.exchange.importing import Imported, import_files
 from tappet.project.exchange.plcopen_matiec import rewritten
 
 NOTES = [

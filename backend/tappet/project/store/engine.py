@@ -16,6 +16,7 @@ from sqlalchemy.exc import ArgumentError, OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
 from tappet.project.errors import ProjectError
+from tappet.project.store.tables import complete_for
 
 if TYPE_CHECKING:
     from alembic.config import Config
@@ -57,6 +58,7 @@ def open_engine(url: str) -> Engine:
     name = address.get_backend_name()
     if name not in ("sqlite", "postgresql"):
         raise StoreError(f"'{name}' is no database of the store; use sqlite:///file or postgresql://...")
+    complete_for(name)
     engine = create_engine(address, json_serializer=_json, pool_pre_ping=name == "postgresql")
     if name == "sqlite":
         event.listen(engine, "connect", _prepare_sqlite)

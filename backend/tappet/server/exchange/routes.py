@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Form, Query, UploadFile
 from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
-from tappet.libraries.missing import report_missing
-from tappet.project.errors import FolderFormatError
-from tappet.project.exchange import ARCHIVES, TAKEN, ImportReport, Place, import_files, importable
 from tappet.project.exchange.parts import part_of, st_files
-from tappet.project.exchange.plcopen_write import write_plcopen
-from tappet.project.folder.archive import DEFAULT_LIMITS, unpack, zip_files
+from tappet.project.exchange.report import ImportReport
+from tappet.project.folder.archive import zip_files
 from tappet.project.model import Project
 from tappet.project.project_file import PROJECT_FILE
 from tappet.project.store import Store
@@ -25,6 +22,9 @@ from tappet.server.exchange.shapes import ImportFormats, ImportPreview, ImportRe
 from tappet.server.problems import Problem
 from tappet.server.projects.replies import project_summary
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
+
+if TYPE_CHECKING:
+    from tappet.server.exchange.uploads import Upload
 
 router = APIRouter(tags=["projects"])
 _KEYS = TypeAdapter(list[str])
@@ -42,7 +42,9 @@ PlaceId = Annotated[
 @router.get("/import-formats")
 def read_import_formats(who: Viewer) -> ImportFormats:
     """Which files of a folder are worth sending."""
-    return ImportFormats(endings=[*TAKEN, *ARCHIVES], project_file=PROJECT_FILE)
+    from tappet.server.exchange.uploads import ENDINGS  # as `_upload`
+
+    return ImportFormats(endings=list(ENDINGS), project_file=PROJECT_FILE)
 
 
 @router.post("/projects/preview-files", max_body_size=MAX_ARCHIVE_BYTES)
@@ -57,8 +59,7 @@ def preview_files(
 ) -> ImportPreview:
     """What an import of these files would bring, and what it would say; nothing is changed."""
     project = store.load(project_id) if project_id is not None else None
-    imported = import_files(_uploaded(files), project, where=_place(place))
-    report_missing(imported.project, imported.report)
+    imported = _upload(files).imported(project, place=place)
     return ImportPreview(name=imported.project.name, nodes=imported.nodes, report=imported.report)
 
 
@@ -71,9 +72,8 @@ def import_files_as_project(
     chosen: Chosen = None,
 ) -> ImportResult:
     """Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, archives of them, or our own one."""
-    imported = import_files(_uploaded(files), name=name or "", chosen=_keys(chosen))
+    imported = _upload(files).imported(name=name or "", chosen=_keys(chosen))
     content = imported.project
-    report_missing(content, imported.report)
     act.begin(Act("project-imported", name or content.name, new_value=_named(files)))
     info = store.create_project(
         name or content.name,
@@ -100,11 +100,10 @@ def import_files_into_project(
 
     Without a place, the first application takes the objects.
     """
-    content, where, keys = _uploaded(files), _place(place), _keys(chosen)
+    upload, keys = _upload(files), _keys(chosen)
 
     def grown(project: Project) -> tuple[Project, ImportReport]:
-        imported = import_files(content, project, where=where, chosen=keys)
-        report_missing(imported.project, imported.report)
+        imported = upload.imported(project, place=place, chosen=keys)
         return imported.project, imported.report
 
     info = store.project(project_id)
@@ -114,10 +113,10 @@ def import_files_into_project(
     return ImportResult(project=project_summary(info), report=report)
 
 
-def _place(text: str | None) -> Place | None:
-    if text is None:
-        return None
-    return Place(None if text == "pous" else text)
+def _upload(files: list[UploadFile]) -> Upload:
+    from tappet.server.exchange.uploads import Upload  # all formats: only for who imports and exports
+
+    return Upload(files)
 
 
 def _keys(text: str | None) -> list[str] | None:
@@ -139,6 +138,8 @@ Objects = Annotated[
 )
 def export_plcopen(project_id: str, who: Viewer, store: StoreDep, objects: Objects = []) -> Response:  # noqa: B006
     """A project as PLCopen XML (TC6 0201); the same content always gives the same bytes."""
+    from tappet.project.exchange.plcopen_write import write_plcopen  # as `_upload`
+
     project = _chosen(store, project_id, objects)
     return download(write_plcopen(project), f"{project.name}.xml", "application/xml")
 
@@ -162,23 +163,6 @@ def export_st(project_id: str, who: Viewer, store: StoreDep, objects: Objects = 
 def _chosen(store: Store, project_id: str, objects: list[str]) -> Project:
     project = store.load(project_id)
     return part_of(project, objects) if objects else project
-
-
-def _uploaded(files: list[UploadFile]) -> dict[str, bytes]:
-    """The uploaded files by path, archives unpacked; paths stay below a folder of their own."""
-    found: dict[str, bytes] = {}
-    for file in files:
-        parts = (file.filename or "file").replace("\\", "/").split("/")
-        path = "/".join(part for part in parts if part not in ("", ".", "..") and ":" not in part) or "file"
-        if path.lower().endswith(ARCHIVES):
-            found |= importable(unpack(file.file))
-        else:
-            found[path] = file.file.read()
-    if not found:
-        raise FolderFormatError("archive", "holds no file that can be imported")
-    if len(found) > DEFAULT_LIMITS.files or sum(map(len, found.values())) > DEFAULT_LIMITS.total_bytes:
-        raise FolderFormatError("files", "are too many or too large for one import")
-    return found
 
 
 def _named(files: list[UploadFile]) -> str:

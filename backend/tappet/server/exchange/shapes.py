@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from tappet.project.exchange import ImportNode, ImportReport
+from tappet.project.exchange.choosing import ImportNode
+from tappet.project.exchange.report import ImportReport
 from tappet.server.projects.shapes import ProjectSummary
 from tappet.server.shapes import Reply
 

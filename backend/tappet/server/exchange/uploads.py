@@ -1,0 +1,58 @@
+"""Uploaded files read as projects: all formats with their tables, loaded with the first import."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from fastapi import UploadFile
+
+from tappet.libraries.missing import report_missing
+from tappet.project.errors import FolderFormatError
+from tappet.project.exchange.importing import ARCHIVES, TAKEN, Imported, import_files, importable
+from tappet.project.exchange.placing import Place
+from tappet.project.folder.archive import DEFAULT_LIMITS, unpack
+from tappet.project.model import Project
+
+ENDINGS = (*TAKEN, *ARCHIVES)
+"""Of the names of files and archives that an import takes, in lower case."""
+
+
+class Upload:
+    """Files of one request. Raises FolderFormatError for none that can be read, or too much."""
+
+    def __init__(self, files: list[UploadFile]) -> None:
+        self._files = _files_of(files)
+
+    def imported(
+        self,
+        project: Project | None = None,
+        *,
+        place: str | None = None,
+        name: str = "",
+        chosen: Collection[str] | None = None,
+    ) -> Imported:
+        """The project with the files in it, without one a new project of this name.
+
+        `place` is the id of an application or folder, or `pous`. The report names libraries that are missing.
+        """
+        where = None if place is None else Place(None if place == "pous" else place)
+        imported = import_files(self._files, project, where=where, name=name, chosen=chosen)
+        report_missing(imported.project, imported.report)
+        return imported
+
+
+def _files_of(files: list[UploadFile]) -> dict[str, bytes]:
+    """Uploaded files by path, archives unpacked; paths stay below a folder of their own."""
+    found: dict[str, bytes] = {}
+    for file in files:
+        parts = (file.filename or "file").replace("\\", "/").split("/")
+        path = "/".join(part for part in parts if part not in ("", ".", "..") and ":" not in part) or "file"
+        if path.lower().endswith(ARCHIVES):
+            found |= importable(unpack(file.file))
+        else:
+            found[path] = file.file.read()
+    if not found:
+        raise FolderFormatError("archive", "holds no file that can be imported")
+    if len(found) > DEFAULT_LIMITS.files or sum(map(len, found.values())) > DEFAULT_LIMITS.total_bytes:
+        raise FolderFormatError("files", "are too many or too large for one import")
+    return found
