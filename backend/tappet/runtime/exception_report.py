@@ -39,3 +39,10 @@ class ExceptionReport:
     """
     place: Place | None = None
     """What an editor shows for the line; None for library texts and texts that are documents of their own."""
+
+
+def summary(report: ExceptionReport) -> str:
+    """One line for the log, with the line as the editor counts it where that is known."""
+    place = f" in {report.pou}" if report.pou else ""
+    line = report.place.span.line + 1 if report.place is not None else report.line
+    return f"task {report.task}: {report.message}{place}{f', line {line}' if line else ''}"

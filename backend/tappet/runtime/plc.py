@@ -21,7 +21,7 @@ from tappet.runtime.application import LoadedApplication
 from tappet.runtime.boot import BootError, load_boot, remove_boot, storing_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
 from tappet.runtime.errors import DiskFullError, PlcError
-from tappet.runtime.exception_report import ExceptionReport
+from tappet.runtime.exception_report import ExceptionReport, summary
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.faults import RawFault, describe
 from tappet.runtime.flight import FlightSettings
@@ -30,7 +30,7 @@ from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
 from tappet.runtime.places import Place, path_at
-from tappet.runtime.reports import build_report, summary
+from tappet.runtime.reports import build_report
 from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
 from tappet.runtime.retain_groups import check_room
 from tappet.runtime.state import ResetKind, RuntimeInfo, State

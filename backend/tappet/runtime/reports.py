@@ -86,10 +86,3 @@ def _values_of(application: LoadedApplication, pous: Iterable[str]) -> dict[str,
             except (SymbolError, ValueError):
                 continue
     return values
-
-
-def summary(report: ExceptionReport) -> str:
-    """One line for the log, with the line as the editor counts it where that is known."""
-    place = f" in {report.pou}" if report.pou else ""
-    line = report.place.span.line + 1 if report.place is not None else report.line
-    return f"task {report.task}: {report.message}{place}{f', line {line}' if line else ''}"

@@ -11,8 +11,8 @@ from starlette.concurrency import run_in_threadpool
 from tappet.project.kinds.application import ApplicationData
 from tappet.project.store import Store
 from tappet.runtime.client import RuntimeRefused
+from tappet.runtime.exception_report import summary
 from tappet.runtime.operations.life_cycle import Start
-from tappet.runtime.reports import summary
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
 from tappet.server.builds.shapes import BuildReport, LoginReport, Relation
