@@ -54,7 +54,8 @@ HEADS = [
     "{attribute 'x'}\n(* PROGRAM *) program p // VAR",
     "FUNCTION_BLOCK G\nVAR_GENERIC CONSTANT\n  n : INT;\nEND_VAR\nEXTENDS B",
     "", "(* VAR *)", "PROGRAM", "PROGRAM 1", "TRANSITION t", "x := 1;", ";", "END_VAR", "TYPE T :",
-    "FUNCTION F : ARRAY[0..3] OF\nINT",
+    "FUNCTION F : ARRAY[0..3] OF\nINT", "PROGRAM\nP", "METHOD PRIVATE\n\n m : BOOL",
+    "FUNCTION_BLOCK // below\nFINAL FB\nEXTENDS B", "METHOD PRIVATE",
 ]  # fmt: skip
 BLOCKS = [
     "VAR\nEND_VAR", "VAR x : INT; END_VAR",

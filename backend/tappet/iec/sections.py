@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from tappet.iec.tokens import NAME, NOT_CODE, TRIVIA, Kind, Word, extent, pieces, words
-from tappet.iec.words import ACCESSORS, GENERIC_SECTION, MODIFIERS, OBJECT_ENDS, SECTIONS
+from tappet.iec.words import ACCESSORS, ENDS, GENERIC_SECTION, MODIFIERS, OBJECT_ENDS, SECTIONS
 
 BEGINNINGS = {
     **{word: end for word, end in OBJECT_ENDS.items() if word != "TRANSITION"},
@@ -20,9 +20,11 @@ BEGINNINGS = {
 }
 """Keywords that begin the text of an object, and what closes it; a transition is a part of its chart."""
 _CLOSING = frozenset(BEGINNINGS.values())
+_NO_NAMES = SECTIONS | frozenset(ENDS.values()) | {"END_VAR"}
 _END_VAR = re.compile(rf"{NOT_CODE}|(?P<end_var>(?<![\w%#])(?i:END_VAR)(?![\w#]))")
 _HEADER_CONTINUES_WITH = frozenset(["EXTENDS", "IMPLEMENTS", ":", ","])
-_HEADER_CONTINUES_AFTER = _HEADER_CONTINUES_WITH | MODIFIERS | frozenset(["OF", "TO"])
+_STATEMENT_SECOND = frozenset([":=", "(", "[", ".", "^", ";"])
+_HEADER_CONTINUES_AFTER = _HEADER_CONTINUES_WITH | frozenset(["OF", "TO"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +50,18 @@ def read_header(text: str) -> Header | None:
     for word in scan:
         if word.text in MODIFIERS:
             continue
-        if NAME.fullmatch(word.text) and word.text not in SECTIONS | _CLOSING:
+        if NAME.fullmatch(word.text) and word.text not in _NO_NAMES:
+            if "\n" in text[first.end : word.start] and _goes_on_as_statement(scan):
+                break
             return Header(first.text, text[word.start : word.end], word.start)
         break
     return Header(first.text, None, first.end)
+
+
+def _goes_on_as_statement(scan: Iterator[Word]) -> bool:
+    """Whether the word before is no name in a later line of the header, but begins the body."""
+    word = next(scan, None)
+    return word is not None and word.text in _STATEMENT_SECOND
 
 
 def rename_header(text: str, name: str) -> str:
@@ -117,9 +127,12 @@ def declaration_end(text: str) -> int:
     """Offset where the declaration part of a whole text ends and the line break before its body stands.
 
     The declaration part is the header and the variable sections that follow it; a comment on the last line
-    belongs to it. A header without sections ends with its line.
+    belongs to it. A header without sections ends with the line of its name or the last one that continues it.
     """
     header = read_header(text)
+    if header is None:
+        return 0
+    named = -1 if header.name is None else header.name_start
     end = 0
     last = ""
     sections_begun = False
@@ -132,7 +145,7 @@ def declaration_end(text: str) -> int:
             sections_begun, end = word.text != GENERIC_SECTION, section_end
             last = ""
             scan = words(text, end)
-        elif sections_begun or header is None or not _continues_header(text, end, last, word):
+        elif sections_begun or (word.start > named and not _continues_header(text, end, last, word)):
             break
         else:
             end, last = word.end, word.text
