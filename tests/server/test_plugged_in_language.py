@@ -20,7 +20,7 @@ from tests.plugins.installing import installed
 from tappet.codegen.build import build_application
 from tappet.codegen.package import CodePackage
 from tappet.iec.languages import file_ending, languages
-from tappet.lang.services import cross_references, monitoring, rename
+from tappet.lang.services import cross_references, rename
 from tappet.lang.services.results import ServiceError
 from tappet.lang.services.workspace import Workspace
 from tappet.project import edit
@@ -212,18 +212,6 @@ def test_cross_references_list_elements(chain: list[str]) -> None:
     }
     texts = [item.place for item in cross_references.cross_references_of(snapshot, "PLC_PRG.a")]
     assert [place.element for place in texts] == [None, "n1", "n3", "n4", "n4"]
-
-
-def test_live_values_are_asked_for_by_element(chain: list[str]) -> None:
-    space, document = workspace(drawn())
-    (snapshot,) = space.snapshots()
-    found = monitoring.variables_of(snapshot, document)
-    assert found == {
-        "n1": ["PLC_PRG.a", "PLC_PRG.b", "PLC_PRG.sum"],
-        "n2": ["PLC_PRG.sum", "PLC_PRG.divisor", "PLC_PRG.quotient"],
-        "n3": ["PLC_PRG.quotient", "PLC_PRG.a", "PLC_PRG.b", "PLC_PRG.isMore"],
-        "n4": ["PLC_PRG.isMore", "PLC_PRG.a"],
-    }
 
 
 def test_renaming_what_a_drawing_uses_is_refused_with_the_element(chain: list[str]) -> None:

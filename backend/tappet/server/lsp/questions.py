@@ -10,7 +10,6 @@ from tappet.lang.services import (
     code_actions,
     cross_references,
     folding,
-    monitoring,
     navigation,
     operands,
     outline,
@@ -74,12 +73,6 @@ def operand_facts(session: Client, params: product.OperandFactsParams) -> list[o
     uri = session.canonical(params.text_document.uri)
     view = session.snapshot(uri).view(uri, docs.Position(0, 0))
     return list(operands.facts(view, params.operands))
-
-
-def element_variables(session: Client, params: TextDocumentParams) -> dict[str, list[str]]:
-    """The expressions to monitor at the elements of a drawn body, by id."""
-    uri = session.canonical(params.text_document.uri)
-    return monitoring.variables_of(session.snapshot(uri), uri)
 
 
 def hover(session: Client, params: TextDocumentPositionParams) -> lsp.Hover | None:
@@ -296,6 +289,5 @@ QUESTIONS: Final[Methods] = {
     "tappet/completionIn": (product.CompletionInParams, completion_in),
     "tappet/crossReferences": (product.CrossReferencesParams, cross_reference_list),
     "tappet/operandFacts": (product.OperandFactsParams, operand_facts),
-    "tappet/elementVariables": (TextDocumentParams, element_variables),
 }
 """What editors ask, and the requests of our own front end (`tappet/...`)."""
