@@ -153,6 +153,14 @@ TYPE_SYNONYMS: Final = {
 """Other names of elementary types; those with underscores have the size of a pointer."""
 STRING_TYPES: Final = ("STRING", "WSTRING")
 
+TYPE_PREFIXES: Final = {
+    "x": "BOOL", "b": "BOOL", "by": "BYTE", "w": "WORD", "dw": "DWORD", "lw": "LWORD", "si": "SINT",
+    "usi": "USINT", "i": "INT", "n": "INT", "ui": "UINT", "di": "DINT", "udi": "UDINT", "li": "LINT",
+    "uli": "ULINT", "r": "REAL", "lr": "LREAL", "s": "STRING", "ws": "WSTRING", "tim": "TIME", "t": "TIME",
+    "ltim": "LTIME", "tod": "TOD", "dt": "DT", "date": "DATE",
+}  # fmt: skip
+"""Prefixes of names to the types that they recommend (LDEC-130), as `x` in "xStart"."""
+
 
 def elementary_type(name: str) -> ElementaryType | None:
     """The elementary type of an upper-case name."""

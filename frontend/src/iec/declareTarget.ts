@@ -1,19 +1,12 @@
 /** What the auto declare dialog proposes for a name. Pure. */
 import { parseDeclaration } from './declaration/parse';
+import { TYPE_PREFIXES } from './grammar';
 import { findVariables } from './variables';
-
-/** Prefixes of the naming recommendations (LDEC section 10), longest first. */
-const PREFIXES: readonly [string, string][] = [
-  ['usi', 'USINT'], ['udi', 'UDINT'], ['uli', 'ULINT'], ['tim', 'TIME'], ['tod', 'TIME_OF_DAY'], ['date', 'DATE'],
-  ['by', 'BYTE'], ['dw', 'DWORD'], ['lw', 'LWORD'], ['si', 'SINT'], ['ui', 'UINT'], ['di', 'DINT'], ['li', 'LINT'],
-  ['lr', 'LREAL'], ['dt', 'DATE_AND_TIME'], ['fb', 'TON'], ['x', 'BOOL'], ['b', 'BOOL'], ['w', 'WORD'], ['i', 'INT'],
-  ['n', 'INT'], ['r', 'REAL'], ['s', 'STRING'],
-]; // prettier-ignore
 
 /** The type that a Hungarian prefix stands for (`xStart` is BOOL), else `otherwise`. */
 export function typeByName(name: string, otherwise: string): string {
   const prefix = /^(?:g_|c_|gc_)?([a-z]+)(?=[A-Z_])/.exec(name)?.[1] ?? '';
-  return PREFIXES.find(([own]) => own === prefix)?.[1] ?? otherwise;
+  return TYPE_PREFIXES[prefix] ?? otherwise;
 }
 
 export interface LineName {

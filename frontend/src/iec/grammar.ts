@@ -398,6 +398,35 @@ export const OPERATOR_FUNCTIONS = [
   'TRUNC_INT',
 ] as const;
 
+/** Prefixes of names to the types that they recommend. */
+export const TYPE_PREFIXES: Readonly<Record<string, string>> = {
+  x: 'BOOL',
+  b: 'BOOL',
+  by: 'BYTE',
+  w: 'WORD',
+  dw: 'DWORD',
+  lw: 'LWORD',
+  si: 'SINT',
+  usi: 'USINT',
+  i: 'INT',
+  n: 'INT',
+  ui: 'UINT',
+  di: 'DINT',
+  udi: 'UDINT',
+  li: 'LINT',
+  uli: 'ULINT',
+  r: 'REAL',
+  lr: 'LREAL',
+  s: 'STRING',
+  ws: 'WSTRING',
+  tim: 'TIME',
+  t: 'TIME',
+  ltim: 'LTIME',
+  tod: 'TOD',
+  dt: 'DT',
+  date: 'DATE',
+};
+
 /** Signs. */
 export const OPERATORS = [
   ';',

@@ -14,31 +14,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from tappet.iec import words
+from tappet.lang.languages.il.operators import INSTRUCTIONS
+
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
 CODES = ("W1206",)
 _IL_OPERATORS = frozenset(
-    [
-        "CAL",
-        "CALC",
-        "CALCN",
-        "JMPC",
-        "JMPCN",
-        "LD",
-        "LDN",
-        "RET",
-        "RETC",
-        "RETCN",
-        "S",
-        "ST",
-        "STN",
-        "R",
-        "ANDN",
-        "ORN",
-        "XORN",
-    ]
+    name
+    for name in INSTRUCTIONS
+    if name.isalpha() and name not in (*words.KEYWORDS, *words.OPERATOR_FUNCTIONS)
 )
+"""Those that ST has no meaning for, so that they may be names in it."""
 
 
 def check_pou(b: Body) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from tappet.iec.words import TYPE_PREFIXES
 from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.scope import QualifiedSymbol
@@ -13,13 +14,6 @@ from tappet.lang.services.resolution import callable_pou, resolve
 from tappet.lang.symbols import PouSymbol
 
 _PREFIX = re.compile(r"(?:g_|c_|gc_)?([a-z]+)(?=[A-Z_])")
-_TYPES = {
-    "x": "BOOL", "b": "BOOL", "by": "BYTE", "w": "WORD", "dw": "DWORD", "lw": "LWORD", "si": "SINT",
-    "usi": "USINT", "i": "INT", "n": "INT", "ui": "UINT", "di": "DINT", "udi": "UDINT", "li": "LINT",
-    "uli": "ULINT", "r": "REAL", "lr": "LREAL", "s": "STRING", "ws": "WSTRING", "tim": "TIME", "t": "TIME",
-    "ltim": "LTIME", "tod": "TOD", "dt": "DT", "date": "DATE",
-}  # fmt: skip
-"""Prefixes of the naming recommendations (LDEC section 10)."""
 _DEFAULT = "BOOL"
 _COUNTING = "INT"
 
@@ -34,7 +28,7 @@ def type_for(site: Site, name: str) -> str:
     if isinstance(parent, ast.Call) and parent.callee is site.path[-1]:
         return ""
     prefix = _PREFIX.match(name)
-    return _TYPES.get(prefix[1], _DEFAULT) if prefix else _DEFAULT
+    return TYPE_PREFIXES.get(prefix[1], _DEFAULT) if prefix else _DEFAULT
 
 
 def written_type(type_: t.Type | None, constant: ast.Constant = None, untyped: bool = False) -> str:

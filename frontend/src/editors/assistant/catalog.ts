@@ -2,7 +2,7 @@
  * Everything that can be inserted in a text, by category: variables, types, POUs, keywords and operators.
  * Gathered from the project's declarations and the libraries its library manager names. Pure functions.
  */
-import { kindOf, valuesOf } from '@/project/kinds';
+import { kindOf, kindOfSubkind, valuesOf } from '@/project/kinds';
 import type { Library, LibraryReference, ObjectSummary } from '@/api/types';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { joinComments } from '@/iec/declaration/comments';
@@ -31,8 +31,6 @@ export interface Entry {
   readonly category: Category;
 }
 
-const TYPE_KINDS = new Set(['function_block', 'struct', 'union', 'enum', 'alias', 'interface', 'type']);
-
 /** The variables of one declaration; `prefix` goes in front of the name (a list's name, or nothing for locals). */
 export function variableEntries(declaration: string, group: string, prefix: string): Entry[] {
   const model = parseDeclaration(declaration);
@@ -53,14 +51,11 @@ export function isQualifiedOnly(declaration: string): boolean {
   return /\{\s*attribute\s+'qualified_only'/i.test(declaration);
 }
 
-/** Kinds as the tree abbreviates them. */
-const KIND_NAMES: Readonly<Record<string, string>> = {
-  program: 'PRG',
-  function_block: 'FB',
-  function: 'FUN',
-  interface: 'ITF',
-};
-const kindName = (kind: string) => KIND_NAMES[kind] ?? kind.toUpperCase();
+/** A kind as the tree abbreviates it. */
+function kindName(named: string): string {
+  const { kind, subkind } = kindOfSubkind(named);
+  return (subkind !== null && kindOf(kind)?.subkinds?.[subkind]?.short) || named.toUpperCase();
+}
 
 /** Types and POUs of the project. A function block is both: it is called, and it is the type of instances. */
 export function objectEntries(objects: readonly ObjectSummary[], group: string): Entry[] {
@@ -99,7 +94,9 @@ export function libraryEntries(library: Library): Entry[] {
       group: library.name,
       category,
     });
-    if (item.kind === 'parameter_list')
+    const { kind, subkind } = kindOfSubkind(item.kind);
+    const values = valuesOf({ kind, subkind });
+    if (values === 'global')
       return item.members.map((pin) => ({
         ...entry('variables'),
         name: pin.name,
@@ -107,8 +104,9 @@ export function libraryEntries(library: Library): Entry[] {
         detail: pin.type,
         comment: pin.comment,
       }));
-    if (item.kind === 'function_block') return [entry('pous'), entry('types')];
-    return [entry(TYPE_KINDS.has(item.kind) ? 'types' : 'pous')];
+    const category = kindOf(kind)?.catalog;
+    if (category === undefined) return [];
+    return values === 'instance' ? [entry(category), entry('types')] : [entry(category)];
   });
 }
 
