@@ -78,6 +78,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.iec.typescript
 	$(BIN)/python -m tappet.lang.languages.il.typescript
 	$(BIN)/python tests/iec/iec_texts.py
+	$(BIN)/python tests/lang/il_texts.py
 	$(BIN)/python tests/project/placement_answers.py
 
 $(VENV)/.ready: requirements.lock pyproject.toml

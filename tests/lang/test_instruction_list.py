@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.lang.il_texts import CORPUS, corpus
 from tests.lang.resolved import codes
 
 from tappet.lang import ast
@@ -26,6 +27,10 @@ _HEAD = _DECLARATION.count("\n")
 
 def test_the_operators_of_the_table_are_up_to_date() -> None:
     assert (Path(__file__).parents[2] / FILE).read_text(encoding="utf-8") == module(), "run 'make generate'"
+
+
+def test_the_texts_of_the_table_are_up_to_date() -> None:
+    assert CORPUS.read_text(encoding="utf-8") == corpus(), "run 'make generate'"
 
 
 def in_language(name: str | None) -> tuple[BodyText, ...]:

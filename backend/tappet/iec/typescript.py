@@ -108,6 +108,11 @@ def module() -> str:
             ),
             strings("OPERATOR_KEYWORDS", "Operators that are words.", words.WORD_OPERATORS),
             strings("CONSTANT_KEYWORDS", "Values that are words.", [*words.CONSTANTS, words.NULL]),
+            strings(
+                "KEYWORDS", "Words with a fixed meaning in texts.", sorted(words.KEYWORDS),
+                SECTIONS=block_keywords, SECTION_FLAGS=words.SECTION_FLAGS,
+                OPERATOR_KEYWORDS=words.WORD_OPERATORS,
+            ),
             strings("RESERVED", "Words that cannot name an object.", sorted(words.RESERVED)),
             strings("NUMERIC_TYPES", "Types whose literals are numbers, or TRUE and FALSE.", numeric),
             strings(

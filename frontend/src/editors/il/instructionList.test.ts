@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { codeTokens } from '@/iec/lexer';
 import { findVariables } from '@/iec/variables';
 import { isInstructionList, operandTokens } from './instructionList';
+import texts from './texts.json';
 
 const IL = `(* rows *)
 start: LD   iCount   // load
@@ -34,17 +35,7 @@ describe('rows of IL', () => {
     );
   });
 
-  it.each(['LD a\nST b', 'l: LDN x\nST y', 'CAL t1(IN := x)', 'TIME\nST t', 'RET', 'LD -3\nST a'])(
-    'knows %j',
-    (text) => {
-      expect(isRows(text)).toBe(true);
-    },
-  );
-
-  it.each(['', 'a := 1;', 'LD := 3;', 'R REF= a;', 'S S= x;', 'JMP l;\nl: a := 1;', 'a\n:= 3;', 'ST(3);'])(
-    'takes %j for ST',
-    (text) => {
-      expect(isRows(text)).toBe(false);
-    },
-  );
+  it.each(texts as [string, boolean][])('are what the compiler takes for rows: %j, %j', (text, rows) => {
+    expect(isRows(text)).toBe(rows);
+  });
 });

@@ -1,9 +1,16 @@
 /** Rows of IL, by their tokens: which words are operators, labels or functions and so name no value (IL-01, IL-13). */
 import { textOf, type Token } from '@/iec/lexer';
-import { BEGINNINGS, OPERATORS } from './operators';
+import { CONSTANT_KEYWORDS, KEYWORDS } from '@/iec/grammar';
+import { ALONE, CALLS, JUMPS, LOADS, OPERATORS } from './operators';
 
 const INSTRUCTIONS: ReadonlySet<string> = new Set(OPERATORS);
-const FIRST: ReadonlySet<string> = new Set(BEGINNINGS);
+const LOAD: ReadonlySet<string> = new Set(LOADS);
+const CALL: ReadonlySet<string> = new Set(CALLS);
+const JUMP: ReadonlySet<string> = new Set(JUMPS);
+const STANDALONE: ReadonlySet<string> = new Set(ALONE);
+const KEYWORD_SET: ReadonlySet<string> = new Set(KEYWORDS);
+/** Keywords that are operands. */
+const VALUES: ReadonlySet<string> = new Set([...CONSTANT_KEYWORDS, 'THIS', 'SUPER']);
 
 /** Whether a word is an operator where one may stand. */
 export function isOperator(word: string): boolean {
@@ -33,18 +40,39 @@ function withoutLabel(text: string, row: readonly Token[]): readonly Token[] {
 
 /** Whether a body is IL: by the standard the first instruction decides. `tokens` are those without comments. */
 export function isInstructionList(text: string, tokens: readonly Token[]): boolean {
-  const rows = rowsOf(text, tokens)
-    .map((row) => withoutLabel(text, row))
-    .filter((row) => row.length > 0);
-  const begins = (row: readonly Token[] | undefined, words: ReadonlySet<string>) => {
-    const [first, second, third] = row ?? [];
-    if (first === undefined || !words.has(textOf(text, first).toUpperCase())) return false;
-    if (second === undefined) return textOf(text, first).toUpperCase().startsWith('RET');
-    const behind = third === undefined ? '' : textOf(text, third);
-    return behind !== '=' && behind !== ';' && (OPERANDS.has(second.kind) || textOf(text, second) === '-');
+  const word = (at: number) => {
+    const token = tokens[at];
+    return token === undefined ? '' : textOf(text, token).toUpperCase();
   };
-  const alone = rows[0]?.length === 1 && rows[0][0]?.kind === 'word';
-  return begins(rows[0], FIRST) || (alone && begins(rows[1], INSTRUCTIONS));
+  const isName = (at: number) => tokens[at]?.kind === 'word' && !KEYWORD_SET.has(word(at));
+  const isOperand = (at: number) => {
+    const kind = tokens[at]?.kind;
+    return kind === 'word' ? isName(at) || VALUES.has(word(at)) : kind !== undefined && OPERANDS.has(kind);
+  };
+  const endsRow = (at: number) => {
+    const [token, next] = [tokens[at], tokens[at + 1]];
+    return token === undefined || next === undefined || /[\r\n]/.test(text.slice(token.start, next.start));
+  };
+  const isRow = (at: number, hasValue: boolean) => {
+    const operator = word(at);
+    if (!INSTRUCTIONS.has(operator)) return false;
+    if (endsRow(at)) return STANDALONE.has(operator);
+    const behind = word(at + 2);
+    if (behind === '=') return false;
+    if (CALL.has(operator)) return isOperand(at + 1);
+    if (JUMP.has(operator)) return isName(at + 1) && behind !== ';';
+    if (LOAD.has(operator)) return isOperand(at + 1) || ['-', '+'].includes(word(at + 1));
+    return hasValue && isOperand(at + 1) && behind !== ';';
+  };
+  let at = 0;
+  // The first row may be the name of a function alone, such as TIME; then there is a value to go on with.
+  for (const hasValue of [false, true]) {
+    while (isName(at) && word(at + 1) === ':') at += 2;
+    if (isRow(at, hasValue)) return true;
+    if (!isName(at) || !endsRow(at)) return false;
+    at += 1;
+  }
+  return false;
 }
 
 /** The tokens that may stand for values: without labels, operators, names of functions and targets of jumps. */

@@ -72,6 +72,9 @@ def _instructions() -> dict[str, Instruction]:
 INSTRUCTIONS: Final = _instructions()
 """Every instruction by its name in upper case."""
 
+ALONE: Final = frozenset(name for name, item in INSTRUCTIONS.items() if item.action in ("return", "not"))
+"""Instructions that stand without an operand."""
+
 FRESH: Final = frozenset({"LD", "LDN", "JMP", "RET"})
 """Instructions behind which the accumulator of before is not needed any more."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tappet.lang.languages.il.operators import INSTRUCTIONS
+from tappet.lang.languages.il.operators import ALONE, INSTRUCTIONS
 from tappet.lang.lexer import ADDRESS, END, ID, INT, NUMBER, STRING
 from tappet.lang.parser_core import BODY_END
 
@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from tappet.lang.parser_core import Core
 
 _OPERANDS = frozenset([ID, INT, NUMBER, STRING, ADDRESS, "TRUE", "FALSE", "THIS", "SUPER"])
-_ALONE = frozenset({"RET", "RETC", "RETCN", "NOT"})
 
 
 def is_instruction_list(core: Core) -> bool:
@@ -45,12 +44,14 @@ def _is_row(core: Core, i: int, has_value: bool) -> bool:
     if instruction is None:
         return False
     if _line_ends(core, i):
-        return word in _ALONE
+        return word in ALONE
     following = core.kinds[i + 1]
+    if core.kinds[i + 2] == "=":  # a variable may have the name of an operator: CAL REF= a;
+        return False
     if instruction.action == "call":
         return following in _OPERANDS
     if instruction.action == "jump":
         return following is ID and core.kinds[i + 2] != ";"
     if instruction.action == "load":
-        return core.kinds[i + 2] != "=" and (following in _OPERANDS or following in ("-", "+"))
-    return has_value and following in _OPERANDS and core.kinds[i + 2] not in (";", "=")
+        return following in _OPERANDS or following in ("-", "+")
+    return has_value and following in _OPERANDS and core.kinds[i + 2] != ";"
