@@ -5,10 +5,10 @@ from __future__ import annotations
 from random import Random
 
 import chart_tree
-import pytest
 from chart_reference import Run
 from charts import ChartMaker
 from linked_application import LoadedApplication
+from seeds import seeds
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.lang.source import Source
@@ -60,13 +60,7 @@ def check(seed: int, level: int, count: int = COUNT) -> None:
         application.close()
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_charts(seed: int) -> None:
+@seeds(3, range(1000, 1100))
+def test_charts(seed: int, level: int) -> None:
     """LSFC-01..LSFC-24, LSFC-30..LSFC-42, LSFC-50..LSFC-56, LSFC-60..LSFC-69."""
-    check(seed, 2 * (seed % 2))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1000, 1100))
-def test_many_charts(seed: int) -> None:
-    check(seed, 2 * (seed % 2))
+    check(seed, level)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from random import Random
 
 import il_programs
-import pytest
 from arithmetic import same
 from il_rows import COMMON, Counter, Machine
 from linked_application import LoadedApplication
+from seeds import seeds
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.lang.source import Source
@@ -54,13 +54,7 @@ def check(seed: int, level: int, count: int = COUNT) -> None:
         application.close()
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_bodies(seed: int) -> None:
+@seeds(4, range(1000, 1200))
+def test_bodies(seed: int, level: int) -> None:
     """IL-10..IL-17, IL-20..IL-52."""
-    check(seed, 2 * (seed % 2))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1000, 1200))
-def test_many_bodies(seed: int) -> None:
-    check(seed, 2 * (seed % 2))
+    check(seed, level)

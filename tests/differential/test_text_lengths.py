@@ -9,6 +9,7 @@ from random import Random
 
 import pytest
 from linked_application import LoadedApplication
+from seeds import seeds
 from text_lengths import GUARD, LENGTHS, Texts, content, program, quoted, word
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
@@ -67,15 +68,9 @@ def check(seed: int, level: int, count: int = 40) -> None:
     assert not wrong, "\n".join([f"seed {seed}", *used, *wrong])
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_texts_at_their_bounds(seed: int) -> None:
-    check(seed, 2 * (seed % 2))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(100, 300))
-def test_many_texts_at_their_bounds(seed: int) -> None:
-    check(seed, 2 * (seed % 2))
+@seeds(4, range(100, 300))
+def test_texts_at_their_bounds(seed: int, level: int) -> None:
+    check(seed, level)
 
 
 def test_numbers_and_times_as_short_texts() -> None:

@@ -10,10 +10,10 @@ import re
 from random import Random
 from typing import Any
 
-import pytest
 import typed_tree as tree
 from arithmetic import convert, same, wrap
 from linked_application import LoadedApplication
+from seeds import seeds
 from typed_tree import BOOL, INTEGERS, LREAL, REAL, Scalar
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
@@ -196,13 +196,7 @@ def check(seed: int, level: int, count: int = 60) -> None:
     assert not wrong, "\n".join([f"seed {seed}", *wrong])
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_texts(seed: int) -> None:
+@seeds(3, range(1000, 1200))
+def test_texts(seed: int, level: int) -> None:
     """LOPR-76."""
-    check(seed, 2 * (seed % 2))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1000, 1200))
-def test_many_texts(seed: int) -> None:
-    check(seed, 2 * (seed % 2))
+    check(seed, level)

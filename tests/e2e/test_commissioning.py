@@ -20,6 +20,7 @@ from .workbench import (
     open_object,
     open_panel,
     open_project,
+    plc_prg,
     prepare,
     status_bar,
     watch,
@@ -118,10 +119,7 @@ def test_logging_out_leaves_the_machine_running(page: Page) -> None:
 
 
 def test_an_exception_names_its_place_and_a_reset_ends_it(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
+    editor = plc_prg(page)
     add_line(page, editor, "iLoaded := 7 / LEN('');")
     log_in(page, expected="exception")
     report = open_panel(page, "Call Stack")

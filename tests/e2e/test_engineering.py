@@ -18,6 +18,7 @@ from .workbench import (
     message_rows,
     open_object,
     open_project,
+    plc_prg,
     status_bar,
     text_of,
 )
@@ -26,10 +27,7 @@ pytestmark = pytest.mark.e2e
 
 
 def test_a_build_error_is_listed_leads_to_its_place_and_is_mended(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
+    editor = plc_prg(page)
     add_line(page, editor, "GVL_Line.iRecipe := 'three';")
     page.keyboard.press("F11")
     row = message_rows(page).filter(has_text="STRING")
@@ -45,10 +43,7 @@ def test_a_build_error_is_listed_leads_to_its_place_and_is_mended(page: Page) ->
 
 
 def test_an_edit_of_one_line_runs_after_an_online_change(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
+    editor = plc_prg(page)
     add_line(page, editor, "GVL_Line.stRecipe.lrBelt := 123.0;")
     log_in(page)
     expect(editor).to_contain_text("123")

@@ -16,19 +16,12 @@ from .workbench import (
     open_object,
     open_panel,
     open_project,
+    plc_prg,
     text_of,
     tree_item,
 )
 
 pytestmark = pytest.mark.e2e
-
-
-def plc_prg(page: Page) -> Locator:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
-    return editor
 
 
 def declaration(page: Page) -> Locator:

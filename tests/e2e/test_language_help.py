@@ -11,20 +11,15 @@ from playwright.sync_api import Locator, Page, expect
 from .workbench import (
     add_line,
     delete_line,
-    implementation,
     log_in,
-    open_object,
-    open_project,
+    plc_prg,
 )
 
 pytestmark = pytest.mark.e2e
 
 
 def test_completion_offers_the_members_of_an_instance(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
+    editor = plc_prg(page)
     add_line(page, editor, "xRun := fbFiller")
     page.keyboard.press("Control+Home")
     page.keyboard.press("ArrowDown")
@@ -34,17 +29,6 @@ def test_completion_offers_the_members_of_an_instance(page: Page) -> None:
     expect(offered.filter(has_text="xDone")).to_be_visible()
     page.keyboard.press("Enter")
     expect(editor).to_contain_text("fbFiller.xDone")
-
-
-def plc_prg(page: Page) -> Locator:
-    """The implementation of PLC_PRG, ready to be typed into."""
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
-    editor.locator(".view-line").first.click()
-    page.keyboard.press("Control+Home")
-    return editor
 
 
 def new_line(page: Page, text: str) -> None:
@@ -185,10 +169,7 @@ def test_values_stand_in_the_lines_while_online_and_a_fault_marks_its_line(page:
 
 
 def test_an_error_is_marked_while_typing_and_goes_when_it_is_mended(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
+    editor = plc_prg(page)
     expect(editor.locator(".squiggly-error")).to_have_count(0)
     add_line(page, editor, "xRunn := TRUE;")
     expect(editor.locator(".squiggly-error").first).to_be_visible()
@@ -197,10 +178,7 @@ def test_an_error_is_marked_while_typing_and_goes_when_it_is_mended(page: Page) 
 
 
 def test_f12_leads_to_the_declaration_and_hover_tells_type_and_comment(page: Page) -> None:
-    open_project(page)
-    open_object(page, "PLC_PRG")
-    editor = implementation(page)
-    expect(editor).to_contain_text("xSafe")
+    editor = plc_prg(page)
     editor.locator(".view-line").first.click()
     page.keyboard.press("Control+Home")
     page.keyboard.press("ArrowDown")

@@ -30,6 +30,15 @@ def implementation(page: Page) -> Locator:
     return page.locator(".monaco-editor:visible").last
 
 
+def plc_prg(page: Page) -> Locator:
+    """The implementation of PLC_PRG, ready to be typed into."""
+    open_project(page)
+    open_object(page, "PLC_PRG")
+    editor = implementation(page)
+    expect(editor).to_contain_text("xSafe")
+    return editor
+
+
 def text_of(editor: Locator) -> str:
     return (editor.locator(".view-lines").inner_text()).replace("\xa0", " ")
 
