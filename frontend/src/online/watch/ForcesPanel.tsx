@@ -1,7 +1,6 @@
 import { LockKeyhole } from 'lucide-react';
 import { useMemo, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
-import type { GridColumn } from '@/ui/grid/Grid';
 import { guard } from '@/ui/notices';
 import { useOnline } from '@/workbench/onlineSession';
 import { useActiveSession } from '@/workbench/online/session';
@@ -11,6 +10,7 @@ import { Empty } from '@/ui/Empty';
 import type { MenuEntry } from '@/ui/Menu';
 import { releaseForces } from '../acts';
 import { LostBar } from '../LostBar';
+import { onlineColumns } from '../columns';
 import { OnlineTable } from '../OnlineTable';
 import styles from '../OnlineTable.module.css';
 import { commonEntries } from '../rowMenu';
@@ -30,13 +30,6 @@ export default function ForcesPanel() {
     () => paths.map((path) => ({ key: path, label: path, expression: path, comment: comments(path) })),
     [paths, comments],
   );
-  const columns: readonly GridColumn[] = [
-    { id: 'expression', title: t('online.column.expression'), width: 260, grow: true },
-    { id: 'type', title: t('online.column.type'), width: 120 },
-    { id: 'value', title: t('online.column.value'), width: 150, grow: true },
-    { id: 'prepared', title: t('online.column.prepared'), width: 130 },
-    { id: 'comment', title: t('online.column.comment'), width: 180, grow: true },
-  ];
   const release = (rows: readonly OnlineRow[], restore: boolean) => {
     if (session === null || rows.length === 0) return;
     const expressions = rows.map((row) => row.expression);
@@ -89,7 +82,7 @@ export default function ForcesPanel() {
           label={t('forces.title')}
           session={session}
           roots={roots}
-          columns={columns}
+          columns={onlineColumns(t)}
           onKey={onKey}
           menu={menu}
         />

@@ -3,13 +3,13 @@ import { useMemo, useState, type DragEvent, type KeyboardEvent } from 'react';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
-import type { GridColumn } from '@/ui/grid/Grid';
 import type { PanelProps } from '@/workbench/panels';
 import { useActiveSession } from '@/workbench/online/session';
 import { useProject } from '@/project/openProject';
 import { Empty } from '@/ui/Empty';
 import type { MenuEntry } from '@/ui/Menu';
 import { LostBar } from '../LostBar';
+import { onlineColumns } from '../columns';
 import { EXPRESSION_MIME, OnlineTable } from '../OnlineTable';
 import styles from '../OnlineTable.module.css';
 import type { OnlineRoot, OnlineRow } from '../treeRows';
@@ -50,13 +50,6 @@ export default function WatchPanel({ options }: PanelProps) {
     return [...filled, { key: NEW, label: '', expression: '', leaf: true, valueless: true }];
   }, [entries, objects, comments]);
 
-  const columns: readonly GridColumn[] = [
-    { id: 'expression', title: t('online.column.expression'), width: 260, grow: true },
-    { id: 'type', title: t('online.column.type'), width: 120 },
-    { id: 'value', title: t('online.column.value'), width: 150, grow: true },
-    { id: 'prepared', title: t('online.column.prepared'), width: 130 },
-    { id: 'comment', title: t('online.column.comment'), width: 180, grow: true },
-  ];
   const remove = (rows: readonly OnlineRow[]) =>
     removeFromList(
       list,
@@ -122,7 +115,7 @@ export default function WatchPanel({ options }: PanelProps) {
           label={t('watch.title', { number: list })}
           session={session}
           roots={roots}
-          columns={columns}
+          columns={onlineColumns(t)}
           expressionEditor={editor}
           onKey={onKey}
           menu={menu}
