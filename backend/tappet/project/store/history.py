@@ -7,14 +7,13 @@ from collections import defaultdict
 from sqlalchemy import Connection, and_, func, select
 
 from tappet.project.model import Project, ProjectObject
-from tappet.project.objects import stored_object
 from tappet.project.store.records import (
     ObjectRevision,
     ProjectInfo,
     ProjectRevision,
     UnknownRevisionError,
 )
-from tappet.project.store.rows import ranks_of, stored_project
+from tappet.project.store.rows import object_of, ranks_of, stored_project
 from tappet.project.store.tables import changes, revisions
 
 
@@ -62,15 +61,7 @@ def object_at(
     ).one_or_none()
     if row is None:
         raise UnknownRevisionError(f"The object {object_id} has no revision {revision}")
-    item = stored_object(
-        id=object_id,
-        parent_id=row.parent_id,
-        kind=row.kind,
-        name=row.name,
-        revision=revision,
-        data=row.data,
-    )
-    return item, row.position
+    return object_of(row, object_id), row.position
 
 
 def deleted_with(connection: Connection, project_id: str, change: int) -> list[ProjectObject]:
@@ -83,18 +74,7 @@ def deleted_with(connection: Connection, project_id: str, change: int) -> list[P
         )
     ).all()
     ranks = ranks_of((row.object_id, row.parent_id, row.kind, row.position, row.name) for row in rows)
-    return [
-        stored_object(
-            id=row.object_id,
-            parent_id=row.parent_id,
-            kind=row.kind,
-            name=row.name,
-            index=ranks[row.object_id],
-            revision=row.revision,
-            data=row.data,
-        )
-        for row in rows
-    ]
+    return [object_of(row, row.object_id, ranks[row.object_id]) for row in rows]
 
 
 def project_revisions(

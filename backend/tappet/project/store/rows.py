@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, Row, select
 
 from tappet.project.model import DEVICE, Project, ProjectObject, is_pous_root
 from tappet.project.naming import name_key
@@ -69,6 +69,19 @@ def read_files(connection: Connection, project_id: str) -> dict[str, bytes]:
     """The further files of a project by path."""
     rows = connection.execute(select(files.c.path, files.c.content).where(files.c.project_id == project_id))
     return {row.path: row.content for row in rows}
+
+
+def object_of(row: Row[Any], object_id: str, index: int = 0) -> ProjectObject:
+    """The object in a row of the objects or of their revisions."""
+    return stored_object(
+        id=object_id,
+        parent_id=row.parent_id,
+        kind=row.kind,
+        name=row.name,
+        index=index,
+        revision=row.revision,
+        data=row.data,
+    )
 
 
 def stored_project(

@@ -12,7 +12,7 @@ from sqlalchemy import Connection, and_, delete, func, insert, select, update
 from tappet.project.data import CodeData
 from tappet.project.errors import InvalidDataError, UnknownObjectError
 from tappet.project.model import DEVICE, Project, ProjectObject
-from tappet.project.objects import changed_object, stored_object
+from tappet.project.objects import changed_object
 from tappet.project.store.changes import revision_row, write_change
 from tappet.project.store.history import object_revisions
 from tappet.project.store.records import (
@@ -23,7 +23,7 @@ from tappet.project.store.records import (
     StaleRevision,
     UnknownRevisionError,
 )
-from tappet.project.store.rows import data_of, summary_of
+from tappet.project.store.rows import data_of, object_of, summary_of
 from tappet.project.store.tables import changes, objects, revisions
 
 AUTOSAVE_WINDOW = timedelta(seconds=60)
@@ -45,15 +45,7 @@ def read_object(connection: Connection, project_id: str, object_id: str) -> Stor
     ).one_or_none()
     if row is None:
         raise UnknownObjectError(f"The project has no object with the id {object_id}")
-    item = stored_object(
-        id=row.id,
-        parent_id=row.parent_id,
-        kind=row.kind,
-        name=row.name,
-        revision=row.revision,
-        data=row.data,
-    )
-    return StoredObject(item, row.position)
+    return StoredObject(object_of(row, row.id), row.position)
 
 
 def with_index(connection: Connection, project_id: str, stored: StoredObject) -> ProjectObject:

@@ -15,6 +15,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from typing import Any
 
+from msgspec.structs import asdict
+
 from tappet.project.model import Project, ProjectObject
 from tappet.project.objects import make_object
 from tappet.server.analysis import messages
@@ -93,7 +95,7 @@ class Worker:
         )
 
     def _store(self, stored: StoredTexts) -> None:
-        changed = {item.id: _made(item) for item in stored.objects}
+        changed = {item.id: make_object(**asdict(item)) for item in stored.objects}
         kept = {id: item for id, item in self._objects.items() if id not in stored.gone}
         self._name, self._objects = stored.name, kept | changed
         self._changed()
@@ -129,18 +131,6 @@ class Worker:
         task = asyncio.ensure_future(work)
         self._leaving.add(task)
         task.add_done_callback(self._leaving.discard)
-
-
-def _made(item: messages.StoredObject) -> ProjectObject:
-    return make_object(
-        id=item.id,
-        parent_id=item.parent_id,
-        kind=item.kind,
-        name=item.name,
-        index=item.index,
-        revision=item.revision,
-        data=item.data,
-    )
 
 
 def _limit_memory(mib: int) -> None:
