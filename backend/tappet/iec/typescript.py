@@ -81,6 +81,7 @@ def module() -> str:
     ]
     spoken = [word for word in spoken if not word.startswith("__")]
     block_keywords = sorted(words.SECTIONS)
+    ends = [*words.ENDS.values(), "END_VAR"]
     modifiers = [*words.ACCESS_SPECIFIERS, *words.INHERITANCE_MODIFIERS]
     numeric = [name for name, row in words.ELEMENTARY_TYPES.items() if row.family not in ("time", "date")]
     types = [*words.ELEMENTARY_TYPES, *words.TYPE_SYNONYMS, *words.STRING_TYPES]
@@ -97,7 +98,7 @@ def module() -> str:
             ),
             strings("BEGINNINGS", "Keywords that begin the text of an object.", sections.BEGINNINGS),
             strings("ACCESSORS", "Those of them that have no name.", words.ACCESSORS),
-            strings("END_KEYWORDS", "Keywords that close something.", [*words.ENDS.values(), "END_VAR"]),
+            strings("END_KEYWORDS", "Keywords that close something.", ends),
             strings(
                 "DECLARATION_KEYWORDS", "Keywords of declarations.", spoken,
                 SECTIONS=block_keywords, SECTION_FLAGS=words.SECTION_FLAGS, MODIFIERS=modifiers,
@@ -111,7 +112,7 @@ def module() -> str:
             strings(
                 "KEYWORDS", "Words with a fixed meaning in texts.", sorted(words.KEYWORDS),
                 SECTIONS=block_keywords, SECTION_FLAGS=words.SECTION_FLAGS,
-                OPERATOR_KEYWORDS=words.WORD_OPERATORS,
+                END_KEYWORDS=ends, OPERATOR_KEYWORDS=words.WORD_OPERATORS,
             ),
             strings("RESERVED", "Words that cannot name an object.", sorted(words.RESERVED)),
             strings("NUMERIC_TYPES", "Types whose literals are numbers, or TRUE and FALSE.", numeric),
