@@ -1,19 +1,24 @@
 """What the compiler gets of a project (seams 1 and 5; POU-07, CON-06..CON-09, TASK-12..TASK-20)."""
 
 from dataclasses import asdict
+from random import Random
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.project.project_paths import APP, at
 
 from tappet.iec.places import BodyText, Place, Span
 from tappet.iec.source import Source
 from tappet.iec.task import Watchdog
 from tappet.project import edit
-from tappet.project.errors import InvalidDataError, UnknownObjectError
+from tappet.project.data import CodeData
+from tappet.project.errors import InvalidDataError, ProjectError, UnknownObjectError
 from tappet.project.library_reference import LibraryReference, ParameterValue
 from tappet.project.model import Project
 from tappet.project.new_project import new_project
 from tappet.project.sources import (
+    WrittenSources,
     application_sources,
     libraries,
     objects_with_libraries,
@@ -220,3 +225,58 @@ def test_chart_as_text_is_compiled() -> None:
     project, _ = edit.add_object(project, application.id, "pou", "Chart", data=data)
     found = {text.uri: text.text for text in application_sources(project, application.id)}
     assert chart in found["Chart"]
+
+
+CHANGES = ("text", "name", "exclude", "delete", "copy", "move")
+
+
+@given(random=st.randoms(use_true_random=False))
+def test_texts_written_again_after_edits_are_those_of_the_project(random: Random) -> None:
+    project, written = machine(), WrittenSources()
+    for _ in range(8):
+        project = _changed(project, random)
+        application = at(project, APP).id
+        whole = application_sources(project, application)
+        again = application_sources(project, application, written)
+        assert [asdict(source) for source in again] == [asdict(source) for source in whole]
+
+
+def _changed(project: Project, random: Random) -> Project:
+    """A project after one edit of an object that has a text, or of none where the edit is not possible."""
+    items = [item for item in project.walk() if isinstance(item.data, CodeData)]
+    if not items:
+        return project
+    item = random.choice(items)
+    change = random.choice(CHANGES)
+    try:
+        if change == "text":
+            fields = [name for name in ("declaration", "implementation") if hasattr(item.data, name)]
+            name = random.choice(fields)
+            return edit.change_data(project, item.id, {name: getattr(item.data, name) + "\n// edited"})
+        if change == "name":
+            return edit.rename_object(project, item.id, f"{item.name}{random.randrange(10)}")
+        if change == "exclude":
+            return edit.exclude_object(project, item.id, not item.excluded)
+        if change == "delete":
+            return edit.delete_object(project, item.id)
+        target = random.choice([*project.walk()]).id
+        act = edit.copy_object if change == "copy" else edit.move_object
+        changed = act(project, item.id, target)
+        return changed[0] if isinstance(changed, tuple) else changed
+    except ProjectError:
+        return project
+
+
+def test_an_object_that_stays_the_same_keeps_its_text() -> None:
+    project, written = machine(), WrittenSources()
+    application = at(project, APP).id
+    before = {text.uri: text for text in application_sources(project, application, written)}
+    motor = at(project, f"{APP}/Drives/FB_Motor")
+    edited = edit.change_data(project, motor.id, {"implementation": "rSpeed := 2.0;"})
+    after = {text.uri: text for text in application_sources(edited, application, written)}
+    assert {uri for uri, text in after.items() if text is not before[uri]} == {"FB_Motor"}
+    getter = at(project, f"{APP}/Drives/FB_Motor/Speed/Get")
+    edited = edit.change_data(edited, getter.id, {"implementation": "Speed := 3.0;"})
+    last = {text.uri: text for text in application_sources(edited, application, written)}
+    # a block is written again with what is below it, its accessors among that
+    assert {uri for uri, text in last.items() if text is not after[uri]} == {"FB_Motor", "FB_Motor.Speed"}

@@ -112,7 +112,8 @@ class Compiled(Generic[D]):
     """What objects of a kind give the compiler; nothing by default."""
 
     source: Callable[[Project, ProjectObject, SourceWriter], None] | None = None
-    """Writes the text of an object; only for kinds whose data are `CodeData`."""
+    """Writes the text of an object, of nothing but the object and what is below it; only for kinds whose data
+    are `CodeData`."""
     members: Literal["none", "beside", "inside"] = "none"
     """Whether what is below an object are its members, and where they stand in a text of the whole object."""
     in_parent: bool = False

@@ -6,6 +6,7 @@ What an object gives, its kind says (`object_kind.Compiled`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from operator import is_
 from typing import Any
 
 from tappet.iec.source import Scope, Source
@@ -26,25 +27,62 @@ from tappet.project.placement import in_scope_of, owner_of
 from tappet.project.source_text import SourceWriter
 
 _NOTHING: Compiled[Any] = Compiled()
+_Place = tuple[str, Scope, str | None]
+"""Id of an object, its scope, and the object that it is a member of."""
+_Written = tuple[ProjectObject, list[ProjectObject], Source | None]
+"""An object, all objects below it, and its text."""
 
 
-def application_sources(project: Project, application_id: str) -> list[Source]:
+class WrittenSources:
+    """The texts of objects as they were written last: an object that is the same with all below it keeps its
+    text, so that an edit of one writes one."""
+
+    def __init__(self) -> None:
+        self._last: dict[_Place, _Written] = {}
+        self._now: dict[_Place, _Written] = {}
+
+    def begin(self) -> None:
+        """Forget what was not asked for since the last time."""
+        self._last, self._now = self._now, {}
+
+    def source(self, project: Project, item: ProjectObject, scope: Scope, owner: str | None) -> Source | None:
+        """The text of an object; None for one without."""
+        place = item.id, scope, owner
+        known = self._last.get(place)
+        below = list(project.walk(item.id))
+        if known is not None and known[0] is item and _are_same(known[1], below):
+            text = known[2]
+        else:
+            text = _text(project, item, scope, owner)
+        self._now[place] = item, below, text
+        return text
+
+
+def _are_same(before: list[ProjectObject], now: list[ProjectObject]) -> bool:
+    return len(before) == len(now) and all(map(is_, before, now))
+
+
+def application_sources(
+    project: Project, application_id: str, written: WrittenSources | None = None
+) -> list[Source]:
     """The texts of an application: its own, those of the applications above it, and those of the POUs view.
     What is excluded from the build is not among them.
 
     An object of the application hides an equally named one of an application above (CON-09); what it hides in
-    the POUs view is left to the compiler, which warns.
+    the POUs view is left to the compiler, which warns. `written`: of the same application before.
     Raises UnknownObjectError when the id is no application.
     """
+    written = written or WrittenSources()
+    written.begin()
     texts: list[Source] = []
     hidden: set[str] = set()
     for application in _with_parents(project, application_id):
         own = [item for item in in_scope_of(project, application) if not item.excluded]
         visible = [item for item in own if name_key(item.name) not in hidden]
-        texts += _texts(project, visible, Scope.APPLICATION)
+        texts += _texts(project, visible, Scope.APPLICATION, written)
         hidden.update(name_key(item.name) for item in own if item.kind != FOLDER)
     shared = (item for item in in_scope_of(project, None) if not item.excluded)
-    texts += _texts(project, shared, Scope.POUS)
+    texts += _texts(project, shared, Scope.POUS, written)
     return texts
 
 
@@ -159,15 +197,17 @@ def _own(project: Project, application: ProjectObject) -> Iterator[ProjectObject
             waiting += reversed(project.children(item.id))
 
 
-def _texts(project: Project, items: Iterable[ProjectObject], scope: Scope) -> Iterator[Source]:
+def _texts(
+    project: Project, items: Iterable[ProjectObject], scope: Scope, written: WrittenSources
+) -> Iterator[Source]:
     for item in items:
-        text = _text(project, item, scope, None)
+        text = written.source(project, item, scope, None)
         if text is None:
             continue
         yield text
         if compiled(item).members != "none":
             for child in in_scope_of(project, item):
-                child_text = None if child.excluded else _text(project, child, scope, item.name)
+                child_text = None if child.excluded else written.source(project, child, scope, item.name)
                 if child_text is not None:
                     yield child_text
 

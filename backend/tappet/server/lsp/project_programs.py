@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from msgspec import structs
@@ -13,6 +13,7 @@ from tappet.lang.coding_settings import static_analysis
 from tappet.lang.services.documents import Program, SourceMap, Text, library_text
 from tappet.project import sources as project_sources
 from tappet.project.model import Project, ProjectObject
+from tappet.project.sources import WrittenSources
 
 PARTS = ("declaration", "implementation")
 
@@ -46,6 +47,8 @@ class ProjectPrograms:
         self._changes = 0
         self._loaded = 0
         """Changes that the project read last holds for certain."""
+        self._composed: dict[str, _Composed] = {}
+        """By id of the application; of '' where there is none."""
 
     def changed(self) -> None:
         """The stored project is another one now. Any thread may say so, also while the project is read."""
@@ -54,7 +57,11 @@ class ProjectPrograms:
     def __call__(self, unsaved: Mapping[str, str]) -> list[Program]:
         """All applications with the libraries they use."""
         project = self._with_unsaved(self._stored(), unsaved)
-        programs = [self._application(project, application) for application in project.applications()]
+        applications = project.applications()
+        before, self._composed = self._composed, {}
+        for application_id in [application.id for application in applications] or [""]:
+            self._composed[application_id] = before.get(application_id) or _Composed(self.project_id)
+        programs = [self._application(project, application) for application in applications]
         return programs or [self._without_application(project)]
 
     def stored(self, document: str) -> str | None:
@@ -85,10 +92,12 @@ class ProjectPrograms:
         return replace(project, objects=objects)
 
     def _application(self, project: Project, application: ProjectObject) -> Program:
-        texts = self._texts(project, project_sources.application_sources(project, application.id))
+        composed = self._composed[application.id]
+        sources = project_sources.application_sources(project, application.id, composed.written)
         found, _ = libraries.resolve(
             project_sources.libraries(project, application.id)
         )  # what is missing, the build and the library manager say
+        texts = composed.texts(sources)
         texts += [library_text(source) for library in found for source in library.sources]
         tasks = [task.name for task in project_sources.tasks(project, application.id)]
         chosen = project_sources.static_analysis(project, application.id)
@@ -96,23 +105,39 @@ class ProjectPrograms:
         return Program(f"{application.name} {application.id}", texts, tasks, static=static)
 
     def _without_application(self, project: Project) -> Program:
-        return Program(project.name, self._texts(project, _objects_with_text(project)))
+        return Program(project.name, self._composed[""].texts(_objects_with_text(project)))
 
-    def _texts(self, project: Project, found: Iterator[Source] | list[Source]) -> list[Text]:
+
+class _Composed:
+    """The texts of one program as they were composed last: what has not changed stays the same object, which
+    nobody has to compare then."""
+
+    def __init__(self, project_id: str) -> None:
+        self.written = WrittenSources()
+        self._project_id = project_id
+        self._texts: dict[str, tuple[Source, Text]] = {}
+        """With what they are made of, by uri."""
+
+    def texts(self, own: Iterable[Source]) -> list[Text]:
+        """The texts of these sources."""
+        before, self._texts = self._texts, {}
         texts: list[Text] = []
         seen: set[str] = set()
-        for text in found:
-            uri = text.uri
+        for source in own:
+            uri = source.uri
             while uri.upper() in seen:  # hidden by one of the application: diagnostics need a name of its own
                 uri += " (POUs)"
             seen.add(uri.upper())
-            texts.append(self._text(project, text, uri))
+            known = before.get(uri)
+            text = known[1] if known is not None and known[0] is source else self._text(source, uri)
+            self._texts[uri] = source, text
+            texts.append(text)
         return texts
 
-    def _text(self, project: Project, text: Source, uri: str) -> Text:
+    def _text(self, text: Source, uri: str) -> Text:
         source = replace(text, uri=uri, map=None)
         segments = (
-            structs.replace(segment, object_id=object_uri(self.project_id, segment.object_id))
+            structs.replace(segment, object_id=object_uri(self._project_id, segment.object_id))
             for segment in text.segments
         )
         return Text(source, SourceMap(tuple(segments)))
