@@ -16,10 +16,14 @@ def nearest(name: str, known: Iterable[str], count: int = 1) -> list[str]:
     """Up to `count` of the known names that are near, the nearest first, else in the order they have."""
     wanted = name.upper()
     limit = max(1, len(wanted) // _LETTERS_PER_SLIP)
+    letters = frozenset(wanted)
     found = []
     for place, other in enumerate(known):
         if abs(len(other) - len(wanted)) <= limit:
-            slips = distance(wanted, other.upper(), limit)
+            key = other.upper()
+            if len(letters.difference(key)) > limit:  # one slip leaves at most one letter out
+                continue
+            slips = distance(wanted, key, limit)
             if slips <= limit and slips < len(wanted):
                 found.append((slips, place, other))
     found.sort()

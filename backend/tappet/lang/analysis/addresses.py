@@ -114,13 +114,19 @@ def operand(b: Body, e: ast.Name) -> VarSymbol | None:
     )
 
 
+def leave_incomplete(b: Body, symbol: VarSymbol, place: IncompleteAddress) -> None:
+    """Leaves each instance of a variable to VAR_CONFIG, see `configured`."""
+    symbol.area = place.area
+    b.session.record_of(b.uri).incomplete = True
+
+
 def place_variable(b: Body, symbol: VarSymbol, address: str, span: Span, type_: Type) -> None:
     """Puts a variable declared AT an address there; an incomplete one keeps its storage (see VAR_CONFIG)."""
     place = locate(b, address, span)
     if place is None:
         return
     if isinstance(place, IncompleteAddress):
-        symbol.area = place.area
+        leave_incomplete(b, symbol, place)
         return
     bit = place.bit
     if bit is not None and t.value_type(type_) is not t.BOOL:

@@ -216,8 +216,10 @@ def _fixed_ends(session: Session, found: Collected) -> dict[str, int]:
 
 def _instances(session: Session, found: Collected) -> dict[str, _Incomplete]:
     """Every instance of a variable with an incomplete address, by upper-case path."""
-    holding = types_holding(lambda type_: any(_incomplete(m.decl) is not None for m in stored(type_)))
     paths: dict[str, _Incomplete] = {}
+    if not any(record.incomplete for record in session.declared.values()):
+        return paths
+    holding = types_holding(lambda type_: any(_incomplete(m.decl) is not None for m in stored(type_)))
 
     def collect(owner: PouSymbol | GvlSymbol, name: str) -> None:
         def visit(part: Part) -> bool:

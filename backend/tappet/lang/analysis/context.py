@@ -46,6 +46,8 @@ class Record:
     outputs: set[DirectWrite] = field(default_factory=set)
     aggregates: bool = False
     """Whether statements hold `(a := 1)`: it names members without a variable they are in."""
+    incomplete: bool = False
+    """Whether a variable is declared at an incomplete address `%I*`."""
 
 
 Key = tuple[type, str, str]
@@ -120,16 +122,20 @@ class Session:
         known.setdefault(key, made)
         return made
 
+    def record_of(self, uri: str) -> Record:
+        """What the declarations of a text have named and reported."""
+        record = self.declared.get(uri)
+        if record is None:
+            record = self.declared[uri] = Record()
+        return record
+
     def account(self, uri: str) -> tuple[Any, ...] | None:
         """What is named from now on is named by the declarations of a text; give the result to `resume`."""
         if uri == self.accounted:
             return None
         before = (self.accounted, self.used, self.written, self.called, self.operands, self.outputs)
-        record = self.declared.get(uri)
-        if record is None:
-            record = self.declared[uri] = Record()
         self.accounted = uri
-        self.count_in(record)
+        self.count_in(self.record_of(uri))
         return before
 
     def resume(self, before: tuple[Any, ...] | None) -> None:

@@ -270,7 +270,7 @@ class Declarations(TypeReferences):
         if decl.address is not None:
             place = addresses.locate(body, decl.address, decl.span)
             if isinstance(place, addresses.IncompleteAddress):
-                symbol.area = place.area
+                addresses.leave_incomplete(body, symbol, place)
             elif place is not None:
                 body.report("E0403", decl.span)
         symbol.type = self.type_of(body, decl.type_ref, f"{struct.name}_{decl.name}")
