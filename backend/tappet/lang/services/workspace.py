@@ -174,6 +174,8 @@ class Workspace:
         self._snapshots: dict[str, Snapshot] = {}
         self._seconds: dict[str, float] = {}
         self._composed: list[Program] | None = None
+        self._showing: dict[str, list[tuple[Program, Text]]] | None = None
+        """Texts of the composed programs by the documents that they show."""
         self.generation = 0
         """Grows with every change."""
         self.whole_analyses = 0
@@ -200,7 +202,7 @@ class Workspace:
     def refresh(self) -> None:
         """Something has changed: compose the programs again at the next request."""
         self.generation += 1
-        self._composed = None
+        self._composed = self._showing = None
 
     # -- programs
 
@@ -212,14 +214,26 @@ class Workspace:
 
     def program_of(self, document: str) -> Program:
         """The first program that shows a document. Raises ServiceError when none does."""
-        for program in self.programs():
-            if any(segment.document == document for text in program.texts for segment in text.segments):
-                return program
+        for program, _ in self._texts_showing(document):
+            return program
         raise ServiceError(f"'{document}' belongs to no application; it is not compiled")
+
+    def texts_showing(self, document: str) -> list[Text]:
+        """The texts that show a document, those of the first program first."""
+        return [text for _, text in self._texts_showing(document)]
+
+    def _texts_showing(self, document: str) -> list[tuple[Program, Text]]:
+        if self._showing is None:
+            self._showing = {}
+            for program in self.programs():
+                for text in program.texts:
+                    for shown in dict.fromkeys(segment.document for segment in text.segments):
+                        self._showing.setdefault(shown, []).append((program, text))
+        return self._showing.get(document, [])
 
     def is_drawn(self, document: str) -> bool:
         """Whether a document is drawn: its lines are those of its listing, not those of what is stored."""
-        return any(text.map.is_drawn(document) for program in self.programs() for text in program.texts)
+        return any(text.map.is_drawn(document) for text in self.texts_showing(document))
 
     def snapshot(self, document: str) -> Snapshot:
         """The analysis of the program that shows a document, of the texts as they are now."""
@@ -236,13 +250,8 @@ class Workspace:
 
     def in_texts_of(self, documents: Collection[str]) -> set[str]:
         """Documents and those that are parts of the same texts, as declaration and implementation are."""
-        found = set(documents)
-        for program in self.programs():
-            for text in program.texts:
-                shown = {segment.document for segment in text.segments}
-                if not shown.isdisjoint(documents):
-                    found |= shown
-        return found
+        texts = [text for document in documents for text in self.texts_showing(document)]
+        return {*documents, *(segment.document for text in texts for segment in text.segments)}
 
     def resume(self, seconds: float) -> bool:
         """Work on what `first_snapshots` has left, for so long; whether nothing is left. Libraries that were

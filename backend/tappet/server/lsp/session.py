@@ -268,12 +268,11 @@ class LanguageSession:
 
     def _composed_text(self, document: str) -> str | None:
         """The text of a document that is part of some program, such as one of a library."""
-        for program in self.workspace.programs():
-            for text in program.texts:
-                shown = text.lines_of(document)
-                if shown is not None:
-                    lines = split_lines(text.source.text)
-                    return "\n".join(lines[shown[0] : shown[1]])
+        for text in self.workspace.texts_showing(document):
+            shown = text.lines_of(document)
+            if shown is not None:
+                lines = split_lines(text.source.text)
+                return "\n".join(lines[shown[0] : shown[1]])
         return None
 
     def text(self, document: str) -> str | None:
