@@ -92,7 +92,7 @@ VAR_STAT
     made : {alias};
 END_VAR
 VAR
-    di AT %I* : INT;
+    di {at}: INT;
 {derived}END_VAR
 {derived_body}
 METHOD Rush : INT
@@ -196,7 +196,14 @@ CHOICES: dict[str, list[str]] = {
         "    nRows : DINT := 2 * 4;\n",
         "    nRow : INT := 3;\n",
     ],
-    "shared": ["", "    count : INT;\n", "    idle : BOOL;\n", "    i : INT;\n", "    fresh : FB_Base;\n"],
+    "shared": [
+        "",
+        "    count : INT;\n",
+        "    idle : BOOL;\n",
+        "    i : INT;\n",
+        "    fresh : FB_Base;\n",
+        "    input AT %I* : INT;\n",
+    ],
     "enum_head": ["", "{attribute 'qualified_only'}\n", "{attribute 'strict'}\n"],
     "enum": [
         "    idle, run\n",
@@ -207,7 +214,14 @@ CHOICES: dict[str, list[str]] = {
     ],
     "enum_base": ["", "UINT", "INT := run"],
     "row_head": ["", "{attribute 'pack_mode' := '1'}\n"],
-    "row": ["", "    y : INT;\n", "    y : DINT; b : BOOL;\n", "    y : REAL;\n", "    y : E_Mode;\n"],
+    "row": [
+        "",
+        "    y : INT;\n",
+        "    y : DINT; b : BOOL;\n",
+        "    y : REAL;\n",
+        "    y : E_Mode;\n",
+        "    y AT %I* : INT;\n",
+    ],
     "wide": ["", "    z : ARRAY [0..nRows] OF INT;\n", "    y : BOOL;\n"],
     "alias": ["INT", "REAL", "ST_Row", "E_Mode", "INT (0..10)", "ARRAY [0..nRows] OF INT"],
     "lead": ["", "// moved\n\n"],
@@ -217,6 +231,7 @@ CHOICES: dict[str, list[str]] = {
     "ptr": ["ST_Row", "FB_Base", "INT"],
     "derived": ["", "    count : INT;\n", "    hidden2 : FB_Init1;\n", "    wrong : ;\n"],
     "derived_body": ["", "SUPER^(a := 2); hidden := 1; made := 1;", "THIS^.Go(); SUPER^.Go(1.0); i := di;"],
+    "at": ["AT %I* ", "", "AT %IW60 "],
     "nest": ["down", "first", "count"],
     "pool": ["", "    count : INT;\n", "    speed : BOOL;\n", "    E_Mode : INT;\n"],
     "config": ["3", "4"],
@@ -335,6 +350,9 @@ def knowledge(analysis: Analysis, units: Iterable[ast.Unit]) -> list[str]:
     for name, symbol in sorted(analysis.scope.items()):
         found.append(f"scope {name} {_symbol(symbol)}")
     found += [f"type {name} {_type(type_)} {_inside(type_)}" for name, type_ in analysis.types.items()]
+    for place in analysis.configured:
+        address = (place.area, place.address, place.bit, place.agreed)
+        found.append(f"configured {place.path} {place.owner} {place.offset} {_type(place.type)} {address}")
     return found
 
 

@@ -15,6 +15,7 @@ from tappet.lang.analysis.declarations import Declarations
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.analysis.statements import check_jumps, statements
 from tappet.lang.analysis.suppression import kept
+from tappet.lang.analysis.variable_checks import VariableChecks
 from tappet.lang.diagnostics import Diagnostic, with_severity
 from tappet.lang.rules import LIBRARY_POU_RULES, POU_RULES, coding_checks
 from tappet.lang.source import Scope
@@ -43,6 +44,7 @@ class State:
 
     outer: frozenset[int] = frozenset()
     """id() of the POUs of a library snapshot: what concerns them alone has been checked."""
+    variable_checks: VariableChecks = field(default_factory=VariableChecks)
     coding_waiting: dict[int, PouSymbol] = field(default_factory=dict)
     """Bodies that have to be looked at by the coding rules only."""
 
@@ -153,6 +155,7 @@ def finish(state: State) -> Analysis:
     session.operands = set().union(*(record.operands for record in records))
     session.diagnostics = []
     program.check(session, state.found, state.declarations, state.outer)
+    state.variable_checks.report(session)
     _coding_rules(state)
     found = session.diagnostics
     for record in records:

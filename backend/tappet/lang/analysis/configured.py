@@ -77,6 +77,7 @@ def _place_all(session: Session, found: Collected, declarations: Declarations) -
     seen: set[str] = set()
     for decl, source in found.configured:
         body = plain_body(session, source)
+        type_ = declarations.type_of(body, decl.type_ref, decl.name)
         key = _key_of(decl.name, incomplete, found)
         if key in seen:
             body.report("E0610", decl.span, path=decl.name)
@@ -86,7 +87,7 @@ def _place_all(session: Session, found: Collected, declarations: Declarations) -
         if entry is None:
             body.report("E0606", decl.name_span, path=decl.name, hint=_path_hint(key, incomplete))
             continue
-        _connect(session, body, decl, entry, declarations)
+        _connect(body, decl, entry, type_)
     left = [entry for key, entry in incomplete.items() if key not in seen]
     if left and session.options.free_addresses:
         _allocate(session, found, left)
@@ -112,9 +113,7 @@ def _path_hint(key: str, incomplete: dict[str, _Incomplete]) -> str:
     return f"Paths with an incomplete address are: {', '.join(known[:3])}." if known else ""
 
 
-def _connect(
-    session: Session, body: Body, decl: ast.VarDecl, entry: _Incomplete, declarations: Declarations
-) -> None:
+def _connect(body: Body, decl: ast.VarDecl, entry: _Incomplete, type_: t.Type | None) -> None:
     variable = entry.variable
     if decl.address is None:
         body.report("E0601", decl.span, address="")
@@ -123,7 +122,6 @@ def _connect(
     if isinstance(place, addresses.IncompleteAddress):
         body.report("E0608", decl.span)
         return
-    type_ = declarations.type_of(body, decl.type_ref, decl.name)
     if place is None or type_ is None or variable.type is None:
         return
     if place.area != variable.area or type_ != variable.type:
@@ -136,7 +134,7 @@ def _connect(
         )
         return
     owner = entry.owner.upper()
-    session.analysis.configured.append(
+    body.session.analysis.configured.append(
         ConfiguredAddress(entry.path, owner, entry.offset, type_, place.area, place.offset, place.bit)
     )
 

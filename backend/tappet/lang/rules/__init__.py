@@ -26,8 +26,9 @@ def _modules_of(package: ModuleType) -> tuple[ModuleType, ...]:
 RULES = _modules_of(import_module(__name__))
 """Every rule has CODES, and the function of its kind: `check_statement` with NODES (or VALUES: an assignment
 of these classes of values), `check_expression` with NODES (or OPERATORS: a Binary of these), `check_list`
-(statements that follow each other), `check_pou`, or `check_program`. A `check_pou` with OWN_CODE_ONLY leaves
-libraries out."""
+(statements that follow each other), `check_pou`, `check_program`, or `check_variables`: that looks at a POU
+with its methods, at the types of their variables and at whether any code names or writes these variables, at
+nothing else of the program. A `check_pou` with OWN_CODE_ONLY leaves libraries out."""
 
 
 @cache
@@ -81,6 +82,7 @@ LIBRARY_POU_RULES: tuple[Callable[[Any], None], ...] = tuple(
 PROGRAM_RULES: tuple[Callable[[Any], None], ...] = tuple(
     r.check_program for r in RULES if hasattr(r, "check_program")
 )
+VARIABLE_RULES: tuple[Check, ...] = tuple(r.check_variables for r in RULES if hasattr(r, "check_variables"))
 
 
 def coding_checks(name: str, chosen: frozenset[str]) -> tuple[Check, ...]:

@@ -46,18 +46,10 @@ def check_program(session: Session) -> None:
 
 
 def _direct_variables(session: Session) -> list[VarSymbol]:
-    found: dict[int, VarSymbol] = {}
-    for gvl in session.analysis.gvls:
-        for variable in gvl.members.values():
-            found[id(variable)] = variable
-    for pou in session.analysis.pous:
-        for variable in pou.locals.values():
-            found[id(variable)] = variable
-    return [
-        v
-        for v in found.values()
-        if v.home is Storage.DIRECT and v.source is not None and v.source.scope is not Scope.LIBRARY
-    ]
+    tables: list[dict[str, VarSymbol]] = [gvl.members for gvl in session.analysis.gvls]
+    tables += [pou.locals for pou in session.analysis.pous]
+    found = {id(v): v for table in tables for v in table.values() if v.home is Storage.DIRECT}
+    return [v for v in found.values() if v.source is not None and v.source.scope is not Scope.LIBRARY]
 
 
 def _report(session: Session, one: VarSymbol, other: VarSymbol, address: str) -> None:

@@ -33,7 +33,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tappet.lang.parts import innermost
-from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, VarSymbol
 from tappet.lang.types import FunctionBlock
 
@@ -43,23 +42,22 @@ if TYPE_CHECKING:
 CODES = ("W1121",)
 
 
-def check_program(session: Session) -> None:
+def check_variables(session: Session, pou: PouSymbol) -> None:
     """Reports instances of blocks with a body that nothing calls, passes on or takes the address of."""
-    written = session.written
-    for pou in session.analysis.pous:
-        source = pou.source
-        if source is None or source.scope is Scope.LIBRARY or pou.pou is None or not pou.pou.body:
+    assert pou.pou is not None
+    assert pou.source is not None
+    if not pou.pou.body:
+        return
+    for block in pou.pou.blocks:
+        if block.section != "VAR":
             continue
-        for block in pou.pou.blocks:
-            if block.section != "VAR":
+        for decl in block.variables:
+            variable = decl.symbol
+            if not isinstance(variable, VarSymbol) or id(variable) in session.written or decl.attributes:
                 continue
-            for decl in block.variables:
-                variable = decl.symbol
-                if not isinstance(variable, VarSymbol) or id(variable) in written or decl.attributes:
-                    continue
-                type_ = None if variable.type is None else innermost(variable.type)
-                if isinstance(type_, FunctionBlock) and _works_by_call(type_):
-                    session.report("W1121", source.uri, decl.name_span, name=decl.name, type=type_)
+            type_ = None if variable.type is None else innermost(variable.type)
+            if isinstance(type_, FunctionBlock) and _works_by_call(type_):
+                session.report("W1121", pou.source.uri, decl.name_span, name=decl.name, type=type_)
 
 
 def _works_by_call(type_: FunctionBlock | None) -> bool:

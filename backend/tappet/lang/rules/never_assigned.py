@@ -21,8 +21,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tappet.lang.source import Scope
-from tappet.lang.symbols import VarSymbol
+from tappet.lang.symbols import PouSymbol, VarSymbol
 from tappet.lang.types import Elementary
 
 if TYPE_CHECKING:
@@ -31,25 +30,25 @@ if TYPE_CHECKING:
 CODES = ("W1141",)
 
 
-def check_program(session: Session) -> None:
+def check_variables(session: Session, pou: PouSymbol) -> None:
     """Reports local variables of simple type without initial value that are read and never written."""
+    if pou.kind != "FUNCTION_BLOCK":
+        return
+    assert pou.pou is not None
+    assert pou.source is not None
     used, written = session.used, session.written
-    for pou in session.analysis.pous:
-        source = pou.source
-        if pou.kind != "FUNCTION_BLOCK" or source is None or source.scope is Scope.LIBRARY or pou.pou is None:
+    for block in pou.pou.blocks:
+        if block.section != "VAR" or block.flags or block.attributes:
             continue
-        for block in pou.pou.blocks:
-            if block.section != "VAR" or block.flags or block.attributes:
-                continue
-            for decl in block.variables:
-                symbol = decl.symbol
-                if (
-                    decl.init is None
-                    and decl.address is None
-                    and not decl.attributes
-                    and id(symbol) in used
-                    and id(symbol) not in written
-                    and isinstance(symbol, VarSymbol)
-                    and isinstance(symbol.type, Elementary)
-                ):
-                    session.report("W1141", source.uri, decl.name_span, name=decl.name, type=symbol.type)
+        for decl in block.variables:
+            symbol = decl.symbol
+            if (
+                decl.init is None
+                and decl.address is None
+                and not decl.attributes
+                and id(symbol) in used
+                and id(symbol) not in written
+                and isinstance(symbol, VarSymbol)
+                and isinstance(symbol.type, Elementary)
+            ):
+                session.report("W1141", pou.source.uri, decl.name_span, name=decl.name, type=symbol.type)

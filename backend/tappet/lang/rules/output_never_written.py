@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tappet.lang.source import Scope
+from tappet.lang.symbols import PouSymbol
 from tappet.lang.types import Elementary
 
 if TYPE_CHECKING:
@@ -30,20 +30,20 @@ if TYPE_CHECKING:
 CODES = ("W1116",)
 
 
-def check_program(session: Session) -> None:
+def check_variables(session: Session, pou: PouSymbol) -> None:
     """Reports outputs of simple type without initial value that no code writes."""
-    for pou in session.analysis.pous:
-        source = pou.source
-        if pou.pou is None or not pou.pou.body or source is None or source.scope is Scope.LIBRARY:
-            continue
-        for variable in pou.parameters:
-            if (
-                variable.section == "VAR_OUTPUT"
-                and variable.owner == pou.qualified_name
-                and isinstance(variable.type, Elementary)
-                and variable.decl is not None
-                and variable.decl.initial is None
-                and variable.span is not None
-                and id(variable) not in session.written
-            ):
-                session.report("W1116", source.uri, variable.span, name=variable.name)
+    assert pou.pou is not None
+    assert pou.source is not None
+    if not pou.pou.body:
+        return
+    for variable in pou.parameters:
+        if (
+            variable.section == "VAR_OUTPUT"
+            and variable.owner == pou.qualified_name
+            and isinstance(variable.type, Elementary)
+            and variable.decl is not None
+            and variable.decl.initial is None
+            and variable.span is not None
+            and id(variable) not in session.written
+        ):
+            session.report("W1116", pou.source.uri, variable.span, name=variable.name)

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol
 from tappet.lang.types import FunctionBlock
 
@@ -29,17 +28,11 @@ CODES = ("W1103",)
 _REMANENT = {"RETAIN", "PERSISTENT"}
 
 
-def check_program(session: Session) -> None:
-    """Reports VAR and VAR_TEMP variables that no code names."""
-    for pou in session.analysis.pous:
-        source = pou.source
-        if source is None or source.scope is Scope.LIBRARY or pou.pou is None:
-            continue
-        if pou.pou.body:
-            _check(session, pou)
-        for method in pou.methods.values():
-            if method.pou is not None and method.pou.body:
-                _check(session, method)
+def check_variables(session: Session, pou: PouSymbol) -> None:
+    """Reports VAR and VAR_TEMP variables that no code names, those of methods as well."""
+    for part in (pou, *pou.methods.values()):
+        if part.pou is not None and part.pou.body:
+            _check(session, part)
 
 
 def _check(session: Session, pou: PouSymbol) -> None:

@@ -53,6 +53,7 @@ def reanalyse(
     state.units = tuple(units)
     late = bool(state.waiting)
     state.waiting.update((id(symbol), symbol) for symbol in changed)
+    state.variable_checks.forget(changed)
     state.analyse_waiting(first=frozenset(edited) if first is not None else None)
     if late and state.session.suggestions >= SUGGESTION_LIMIT:
         return None

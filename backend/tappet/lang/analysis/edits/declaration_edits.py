@@ -30,8 +30,9 @@ from tappet.lang.languages.support import implicit_names, looks_names_up
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, Symbol
 
-AT_ONCE = 20
-"""So many bodies do not wait: to put all messages together twice takes longer."""
+AT_ONCE = 100_000
+"""Bodies in texts of so many characters together do not wait: to put all messages together twice takes
+longer."""
 _OF_CIRCLES = ("E0408", "E0107")
 
 
@@ -189,13 +190,14 @@ class _Redeclaration:
         looked_up = implicit_names(self.units)
         if looked_up and any(name.startswith(looked_up) for name in invalidation.all_names()):
             return None
+        texts = self.texts | self.layout.made.keys()
         for unit in self.units:
-            if unit.source.uri in self.texts or unit.source.uri in self.layout.made:
+            if unit.source.uri in texts:
                 state.texts.pop(id(unit), None)
+        state.variable_checks.forget(pou for pou in all_pous(state.found) if _uri(pou) in texts)
         state.units = tuple(self.units)
         state.identifiers = self.identifiers
         bodies = self._analyse_bodies(invalidation, first)
-        texts = self.texts | self.layout.made.keys()
         entities |= _ids(made) | _ids(self.layout.made)
         session.analysis.redeclared = Redeclared(frozenset(texts), frozenset(entities), bodies)
         return finish(state) if session.suggestions < SUGGESTION_LIMIT else None
@@ -220,7 +222,7 @@ class _Redeclaration:
             elif identifiers is not None and self._may_read_otherwise(record, identifiers, names):
                 state.coding_waiting[id(pou)] = pou
         found = list(state.waiting.values())
-        if first is None or len(state.waiting) + len(state.coding_waiting) <= AT_ONCE:
+        if first is None or _length_of_texts((*found, *state.coding_waiting.values())) <= AT_ONCE:
             state.analyse_waiting()
         else:
             state.analyse_waiting(first=first | self.edited.keys())
@@ -312,6 +314,12 @@ def _ids(made: Mapping[str, Mapping[Key, object]]) -> set[int]:
 
 def _pous(tables: Iterable[dict[Key, object]]) -> list[PouSymbol]:
     return [entity for table in tables for entity in table.values() if isinstance(entity, PouSymbol)]
+
+
+def _length_of_texts(pous: Iterable[PouSymbol]) -> int:
+    """Characters of the texts that some bodies are in."""
+    texts = {pou.source.uri: pou.source.text for pou in pous if pou.source is not None}
+    return sum(map(len, texts.values()))
 
 
 def _uri(symbol: Symbol) -> str:
