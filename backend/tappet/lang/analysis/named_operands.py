@@ -13,6 +13,7 @@ from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.conditions import condition
 from tappet.lang.analysis.context import Body
+from tappet.lang.analysis.expressions import value
 from tappet.lang.analysis.result import carried_type
 from tappet.lang.symbols import BuiltinSymbol, PouSymbol
 
@@ -88,9 +89,15 @@ def gate(b: Body, e: ast.Call) -> ast.Expr:
             given[key] = arg.value
     found = given.get("EN") or ast.Literal(span=e.span, text="TRUE", kind="bool", value=True)
     success = given.get("ENO")
-    if success is not None:
-        found = ast.AssignExpr(span=e.span, op=":=", target=success, value=found)
-    condition(b, found)
+    if success is None:
+        condition(b, found)
+        return found
+    found = ast.AssignExpr(span=e.span, op=":=", target=success, value=found)
+    before = len(b.session.diagnostics)
+    type_ = value(b, found)
+    reported = any(message.severity == "error" for message in b.session.diagnostics[before:])
+    if type_ is not None and t.value_type(type_) is not t.BOOL and not reported:
+        b.report("E0307", success.span, source=type_)
     return found
 
 
