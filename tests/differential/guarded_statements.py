@@ -17,6 +17,7 @@ from typed_tree import (
     Array,
     BitMember,
     Block,
+    Deref,
     Enum,
     Function,
     Name,
@@ -45,7 +46,9 @@ class GuardedStatements(Statements):
         choice = self.r.randrange(100)
         if choice < 8:
             return [self._try(b, depth)]
-        return [self._new(b, depth)] if choice < 11 else []
+        if choice < 11:
+            return [self._new(b, depth)]
+        return self._attempt(b, depth) if choice < 15 else []
 
     def _part(self, b: Body, depth: int) -> list[Any]:
         return self.statements(b, self.r.randint(1, 2), depth - 1)
@@ -98,6 +101,28 @@ class GuardedStatements(Statements):
             target.dynamic = True
         arguments = self.arguments(target) if isinstance(target, Block) else None
         return tree.New(Name(pointer.type, None, False, pointer.name), arguments or (), body)
+
+    def _attempt(self, b: Body, depth: int) -> list[Any]:
+        """An assignment attempt, to a block that the source may lead to; another one would be refused."""
+        # what is deleted later must not be led to
+        sources = [e for e in self._owners(b) if not (isinstance(e, Deref) and e.base.name in b.maker.heap)]
+        if not sources or not self.blocks:
+            return []
+        source = self.r.choice(sources)
+        known = source.type
+        wanted = [x for x in self.blocks if not isinstance(known, Block) or x.is_a(known) or known.is_a(x)]
+        if not wanted:
+            return []
+        if isinstance(source, Deref) and source.base.type.ref_to and self.chance(60):
+            source = source.base
+        pointer = Variable(self.fresh("maybe"), Pointer(self.r.choice(wanted), ref_to=True))
+        b.room.append(pointer)
+        if b.room is not b.maker.variables:
+            b.maker.variables.append(pointer)
+        body = self._part(b, depth)
+        b.maker.hidden.add(pointer.name)
+        name = Name(pointer.type, None, False, pointer.name)
+        return [tree.Attempt(name, source, body, self._part(b, depth) if self.chance(40) else [])]
 
     def arguments(self, block: Block) -> tuple[Any, ...] | None:
         """What FB_Init gets."""

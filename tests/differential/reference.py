@@ -271,11 +271,29 @@ class Machine:
         target = f.slot(s.target.name)
         target.holder[target.key] = Address(slot)
 
+    def _attempt(self, s: tree.Attempt, f: Frame) -> None:
+        assert isinstance(s.target.type, tree.Pointer)
+        wanted = s.target.type.target
+        assert isinstance(wanted, Block)
+        slot = self.place(s.source, f)
+        while isinstance(slot.holder[slot.key], Slot):
+            slot = slot.holder[slot.key]
+        address = Address(slot) if isinstance(s.source.type, Block) else slot.read()
+        fits = address is not None and address.slot.read()[BLOCK].is_a(wanted)
+        target = f.slot(s.target.name)
+        target.holder[target.key] = address if fits else None
+        self._run(s.body if fits else s.otherwise, f)
+
     def _callblock(self, s: tree.CallBlock, f: Frame) -> None:
         instance = self.place(s.instance, f).read()
         block = s.instance.type
         assert isinstance(block, Block)
         types = {v.name: v.type for v in block.all_inputs}
+        enabled = s.enable is None or self.value(s.enable, f)
+        if s.success is not None:
+            self.place(s.success, f).write(enabled, tree.BOOL)
+        if not enabled:
+            return
         for name, value in s.inputs:  # one by one: a fault leaves those before it
             Slot(instance, name).write(self.value(value, f), types[name])
         self._body(block.body, self._frame(instance, instance))

@@ -255,7 +255,13 @@ class Statements:
             inputs = [v for v in place.type.all_inputs if self.chance(80)]
             inputs = [v for v in inputs if self.can_give(m, v.type)]
             given = [(v.name, self.value(b, v.type, 2)) for v in inputs]
-            return tree.CallBlock(place, given, self._outputs(b, place.type.outputs))
+            called = tree.CallBlock(place, given, self._outputs(b, place.type.outputs))
+            if self.chance(15):
+                called.enable = m.moving(BOOL, 2)
+            answers = m.places(lambda t: t == BOOL, writable=True)
+            if answers and self.chance(15):
+                called.success = m.filled(self.r.choice(answers), 1)
+            return called
         return self._call_function(b, functions, place, via)
 
     def _property(self, b: Body) -> tree.Assign | None:

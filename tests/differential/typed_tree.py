@@ -262,6 +262,10 @@ class CallBlock:
     instance: Expr
     inputs: list[tuple[str, Expr]]
     outputs: list[tuple[str, Expr]] = field(default_factory=list)
+    enable: Expr | None = None
+    """EN: no call where it is FALSE."""
+    success: Expr | None = None
+    """Where ENO goes: the value of EN, also without a call."""
 
 
 @dataclass
@@ -277,6 +281,17 @@ class Bind:
 
     target: Name
     place: Expr
+
+
+@dataclass
+class Attempt:
+    """`target ?= source`, what is done where it succeeds, and where `target` is NULL."""
+
+    target: Name
+    source: Expr
+    """An instance, what a reference leads to, a REF_TO or an interface."""
+    body: list[Any]
+    otherwise: list[Any]
 
 
 @dataclass

@@ -172,8 +172,18 @@ def statements(body: list[Any], indent: str = "") -> list[str]:
             lines += _try(s, indent)
         elif isinstance(s, tree.New):
             lines += _new(s, indent)
+        elif isinstance(s, tree.Attempt):
+            lines += [
+                f"{indent}{s.target.name} ?= {expression(s.source)};",
+                f"{indent}IF {s.target.name} <> NULL THEN",
+                *statements(s.body, deeper),
+                *([f"{indent}ELSE", *statements(s.otherwise, deeper)] if s.otherwise else []),
+                f"{indent}END_IF",
+            ]
         else:
-            args = [f"{name} := {expression(e)}" for name, e in s.inputs]
+            args = [f"EN := {expression(s.enable)}"] if s.enable else []
+            args += [f"{name} := {expression(e)}" for name, e in s.inputs]
+            args += [f"ENO => {expression(s.success)}"] if s.success else []
             args += [f"{name} => {expression(e)}" for name, e in s.outputs]
             lines.append(f"{indent}{expression(s.instance)}({', '.join(args)});")
     return lines
