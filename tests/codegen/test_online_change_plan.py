@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import pytest
 from compiled_programs import build, change_over
+from hypothesis import given
+from hypothesis import strategies as st
 from linked_application import loaded
+
+from tappet.codegen.online_code import Fresh
+from tappet.codegen.package import OnlineChange
 
 BASE = """
 FUNCTION_BLOCK FB_Counter
@@ -193,3 +198,11 @@ END_PROGRAM
         values = [changed.read(f"bits.{name}") for name in ("before", "marked", "after")]
         assert values == [True, True, False]
         changed.close()
+
+
+@given(ranges=st.lists(st.tuples(st.integers(0, 40), st.integers(1, 20)), max_size=6))
+def test_a_byte_is_new_wherever_one_of_the_ranges_has_it(ranges: list[tuple[int, int]]) -> None:
+    """A changed constant of an instance that is new as a whole has a range of its own inside another one."""
+    fresh = Fresh(OnlineChange("", "", initialise=tuple(ranges)))
+    new = {byte for start, size in ranges for byte in range(start, start + size)}
+    assert [byte for byte in range(64) if fresh.covers(byte)] == sorted(new)

@@ -24,9 +24,14 @@ class Fresh:
     """Ranges of the new image that did not come from the running one."""
 
     def __init__(self, change: OnlineChange) -> None:
-        ordered = sorted(change.initialise)
-        self.starts = [start for start, _ in ordered]
-        self.ends = [start + size for start, size in ordered]
+        self.starts: list[int] = []
+        self.ends: list[int] = []
+        for start, size in sorted(change.initialise):  # some lie in others
+            if self.ends and start <= self.ends[-1]:
+                self.ends[-1] = max(self.ends[-1], start + size)
+            else:
+                self.starts.append(start)
+                self.ends.append(start + size)
         targets = sorted((target, target + size) for _, target, size in change.moves)
         self.move_starts = [start for start, _ in targets]
         self.move_ends = [end for _, end in targets]
