@@ -140,6 +140,53 @@ def test_an_endless_loop_without_watchdog_ends_too(plant: Station) -> None:
     assert script.post(f"{RUNTIME}/start")["state"] == "run"
 
 
+DESTROYING = """nCycles := nCycles + 1;
+IF xDestroy THEN
+    pContext := TaskHandle();
+    FOR i := 0 TO 5999 DO pContext[i] := 255; END_FOR
+    pContext := 0;
+    pContext^ := 1;
+END_IF"""
+
+
+def test_a_program_that_ends_the_process_is_not_started_again(plant: Station) -> None:
+    """It writes over what the runtime itself needs; whoever has seen the exception may start it anyway."""
+    script = plant.admin
+    script.add("pou", "TaskHandle", subkind="function")
+    handle = "{attribute 'tappet_external' := 'tappet_task_current'}\nFUNCTION TaskHandle : LWORD"
+    script.save("TaskHandle", declaration=handle, implementation="")
+    more = "VAR\n    xDestroy : BOOL;\n    pContext : POINTER TO BYTE;\n    i : DINT;\nEND_VAR"
+    good = script.read_object("PLC_PRG")["data"]["implementation"]
+    script.save("PLC_PRG", declaration=f"{PROGRAM}\n{more}", implementation=DESTROYING)
+    script.download()
+    script.wait_for_state("run")
+    script.write("PLC_PRG.nKept", 77)
+    cycles = script.value("PLC_PRG.nCycles")
+    until(lambda: script.value("PLC_PRG.nCycles") > cycles + 2, "cycles after the write")
+    for _ in range(2):
+        pid = plant.runtime_pid()
+        order = {"values": [{"expression": "PLC_PRG.xDestroy", "value": "TRUE"}]}
+        answer = script.http.post(f"{RUNTIME}/values/write", json=order)
+        assert answer.status_code in (200, 503), "the process may end before it answers"
+        lost = until(lambda: (s := script.state())["connected"] is False and s, "the server notices")
+        assert "SIGSEGV" in lost["problem"] or "lost" in lost["problem"]
+        waits = script.wait_for_state("exception", FIRST_START_S)
+        assert plant.runtime_pid() != pid
+        report = script.get(f"{RUNTIME}/exception")
+        assert waits["exception"] == report
+        assert (report["name"], report["task"]) == ("PROCESS_ENDED", "MainTask")
+        assert (report["object_id"], report["part"]) == (script.ids["PLC_PRG"], "implementation")
+        assert report["line"] in (4, 5, 6)
+        assert report["values"]["signal"] == "SIGSEGV"
+        assert "start this one anyway" in report["message"]
+        assert any("PLC_PRG" in line["message"] for line in script.get(f"{RUNTIME}/log"))
+        assert script.post(f"{RUNTIME}/start")["state"] == "run"
+        assert script.values("PLC_PRG.nKept", "PLC_PRG.xDestroy") == [77, False]
+    script.save("PLC_PRG", declaration=PROGRAM, implementation=good)
+    script.download()
+    script.wait_for_state("run")
+
+
 def test_a_server_that_starts_anew_finds_everything(folder: Path, plant: Station) -> None:
     """Last here: it stops the server of this module and starts another on its folder."""
     script = plant.admin

@@ -197,7 +197,7 @@ def test_no_init_survives_resets(plc: SoftPlc) -> None:
 def test_origin_removes_everything(plc: SoftPlc, tmp_path: Path) -> None:
     plc.download(package().to_bytes())
     put(plc)
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["boot.tappet", "retain.live"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["boot.tappet", "retain.live", "running"]
     plc.reset("origin")
     assert list(tmp_path.iterdir()) == []
     assert not plc.boot()

@@ -33,6 +33,8 @@ class Fault(IntEnum):
     """`__DELETE` of address b, where nothing of `__NEW` begins; a: RELEASE_ERROR of heap.st."""
     HEAP_DAMAGED = 11
     """Memory of `__NEW` at b, c bytes, was written before (a = 1) or behind its bounds (a = 2)."""
+    PROCESS_ENDED = 12
+    """The process of the runtime was ended while the application was loaded."""
 
 
 _MESSAGES: dict[int, str] = {
@@ -47,6 +49,8 @@ _MESSAGES: dict[int, str] = {
     Fault.USER: "exception {a} raised by the program",
     Fault.INVALID_RELEASE: "__DELETE of address 16#{b:X}, {reason}",
     Fault.HEAP_DAMAGED: "memory of __NEW at 16#{b:X}, {c} bytes, was written {reason}",
+    Fault.PROCESS_ENDED: "{reason} while this application ran, so it was not started again; download "
+    "a corrected application, or start this one anyway",
 }
 
 _REASONS: dict[tuple[int, int], str] = {
@@ -58,9 +62,9 @@ _REASONS: dict[tuple[int, int], str] = {
 }
 
 
-def fault_message(code: int, a: int = 0, b: int = 0, c: int = 0) -> str:
-    """English text of a fault, for example `array index 12 outside 0..9`."""
+def fault_message(code: int, a: int = 0, b: int = 0, c: int = 0, reason: str = "") -> str:
+    """English text of a fault, for example `array index 12 outside 0..9`; `reason` in its place."""
     template = _MESSAGES.get(code)
     if template is None:
         return f"fault {code} ({a}, {b}, {c})"
-    return template.format(a=a, b=b, c=c, reason=_REASONS.get((code, a), f"({a})"))
+    return template.format(a=a, b=b, c=c, reason=reason or _REASONS.get((code, a), f"({a})"))

@@ -217,6 +217,12 @@ class LoadedApplication:
             self.mark_faulted()
         return fault
 
+    def hold(self, kept: Kept) -> None:
+        """State FAULTED with initial and kept values, but no code was called; only while no task runs."""
+        self.image.write(0, self.package.initial_image)
+        self._restore(kept)
+        self.mark_faulted()
+
     def _restore(self, kept: Kept) -> None:
         """Kept values take their places; constants among them have the values that they are declared with."""
         remanent = self.remanent()

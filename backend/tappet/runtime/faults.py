@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tappet.codegen.emit_text import PREFIX
 from tappet.codegen.faults import Fault, fault_message
@@ -43,6 +43,10 @@ class RawFault:
             bool(record["pcIsReturn"]), record["stackTop"], record["cycle"],
             struct.unpack_from(f"<{count}Q", memory), record["origin"],
         )  # fmt: skip
+
+    def at(self, pc: int, stack_top: int, frames: tuple[int, ...]) -> RawFault:
+        """The same fault at other addresses."""
+        return replace(self, pc=pc, stack_top=stack_top, frames=frames)
 
 
 def fault_name(code: int) -> str:

@@ -20,6 +20,7 @@ from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.boot import BootError, load_boot, remove_boot, storing_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
+from tappet.runtime.crash import Crash, RunningMark
 from tappet.runtime.errors import DiskFullError, PlcError
 from tappet.runtime.exception_report import ExceptionReport, summary
 from tappet.runtime.executive.loader import Executive
@@ -75,6 +76,9 @@ class SoftPlc(ApplicationAccess):
         self.on_event: Callable[[Event], None] | None = None
         self._report: ExceptionReport | None = None
         self._seen_state: State = "empty"
+        self._mark = RunningMark(self.executive, folder, self.log)
+        self._crash: Crash | None = None
+        """Why the application waits to be started by somebody."""
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         for note in scheduling.notes:
@@ -126,6 +130,8 @@ class SoftPlc(ApplicationAccess):
                 self.application.log.collect(self.log)
                 self._log_failed(self.application)
             state = self.state
+            if state == "run":
+                self._mark.look()
             if state == "exception" and self._report is None:
                 report = self._report = build_report(self._need(), self.log)
                 self.log.add("exception", "application", summary(report))
@@ -148,9 +154,14 @@ class SoftPlc(ApplicationAccess):
             self.on_event(Event(kind, self.state))
 
     def start(self) -> None:
-        """Run the programs from the next cycle on. PlcError in the state exception: reset first."""
+        """Run the programs from the next cycle on. PlcError in the state exception: reset first.
+
+        What was not started because it had ended the process is started all the same.
+        """
         with self._lock:
             application = self._need()
+            if self._crash is not None:
+                self.reset("warm")
             if application.tasks.state == FAULTED:
                 raise PlcError(
                     "the application is in the state exception; reset it (warm or cold) before starting"
@@ -189,6 +200,7 @@ class SoftPlc(ApplicationAccess):
             was_running = application.tasks.state == RUNNING
             application.tasks.stop()
             self._save_retain()
+            self._mark.settle()
             if was_running:
                 self.log.add("info", "application", f"{application.package.application} stopped")
                 self._notify("state")
@@ -213,6 +225,8 @@ class SoftPlc(ApplicationAccess):
                 kept = application.kept_values(retain=kind == "warm")
                 application.tasks.set_state(STOPPED)
                 self._report = None
+                if self._crash is not None:
+                    self._begin(application)
                 fault = application.initialise(kept, keep_no_init=True)
             self._save_retain()
             self.log.add("info", "application", f"{application.package.application} reset {kind}")
@@ -220,6 +234,8 @@ class SoftPlc(ApplicationAccess):
 
     def _reset_origin(self, application: LoadedApplication) -> None:
         self._unload(application, leave=True)
+        self._crash = None
+        self._mark.end()
         if self.folder is not None:
             remove_boot(self.folder)
             remove_retain(self.folder)
@@ -258,9 +274,17 @@ class SoftPlc(ApplicationAccess):
             self._load(package, None)
             self._notify("application")
 
-    def _load(self, package: CodePackage, kept: Kept | None) -> None:
+    def _begin(self, application: LoadedApplication, starts: int = 0) -> None:
+        """From now on the next process hears of it when this one is ended."""
+        self._crash = None
+        self._mark.begin(application.package, starts)
+        self._mark.linked(application)
+
+    def _load(
+        self, package: CodePackage, kept: Kept | None, *, starts: int = 0, crash: Crash | None = None
+    ) -> None:
         """Replace the application. Values to keep come from the running one (persistent only) or from
-        `kept`.
+        `kept`. After a crash it is only loaded; `starts` counts starts from boot.
         """
         if len(package.tasks) > MOST_TASKS:
             raise PlcError(
@@ -292,7 +316,14 @@ class SoftPlc(ApplicationAccess):
             self._unload(old, leave=True)
         self.application = application
         self._report = None
-        fault = application.initialise(kept)
+        fault = None
+        if crash is None:
+            self._begin(application, starts)
+            fault = application.initialise(kept)
+        else:
+            application.hold(kept)
+            self._crash, self._report = crash, crash.report(application, self.log)
+            self.log.add("exception", "application", summary(self._report))
         lost = [path for path in matching(kept, application.remanent())[1] if kept[path].persistent]
         if lost:
             names = ", ".join(lost[:5]) + (" ..." if len(lost) > 5 else "")
@@ -359,6 +390,7 @@ class SoftPlc(ApplicationAccess):
             raise PlcError(f"online change refused: {error}") from error
         took = (time.monotonic() - begun) * 1000
         how = "tasks paused" if result.paused else "code exchanged while running"
+        self._mark.linked(application)
         self.log.add("info", "application", f"{package.application} changed online in {took:.0f} ms, {how}")
         if result.retain_problem:
             self.log.add("error", "retain", f"remanent variables are not kept: {result.retain_problem}")
@@ -375,7 +407,7 @@ class SoftPlc(ApplicationAccess):
 
     def boot(self) -> bool:
         """Load and start the boot application with its remanent values; False when there is none or it
-        fails.
+        fails. One that has ended the process before is loaded only, in the state exception.
         """
         if self.folder is None:
             return False
@@ -384,10 +416,17 @@ class SoftPlc(ApplicationAccess):
                 package = load_boot(self.folder)
                 if package is None:
                     return False
+                crash = self._mark.found()
+                if crash is not None and not crash.concerns(package, self.log):
+                    crash = None
                 kept, problems = load_retain(self.folder)
                 for problem in problems:
                     self.log.add("error", "retain", problem)
-                self._load(package, kept)
+                waits = crash if crash is not None and crash.waits else None
+                starts = 1 if crash is None else crash.kept.starts + 1
+                if waits is None:
+                    self._mark.begin(package, starts)
+                self._load(package, kept, starts=starts, crash=waits)
                 if self.state == "stop":
                     self.start()
             except (BootError, PlcError) as error:
@@ -433,3 +472,5 @@ class SoftPlc(ApplicationAccess):
             application.tasks.stop()
             self._save_retain()
             self._unload(application, leave=False)
+            if self._crash is None:
+                self._mark.end()

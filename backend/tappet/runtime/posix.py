@@ -27,6 +27,7 @@ SCHED_FIFO = 1
 WATCHDOG_SIGNAL = 42
 """A real-time signal that nobody else uses; it makes a task thread look at its watchdog."""
 FAULT_SIGNALS = (4, 7, 8, 11)  # SIGILL, SIGBUS, SIGFPE, SIGSEGV
+ABORT_SIGNAL = 6
 _SA_SIGINFO, _SA_ONSTACK, _SA_NODEFER = 0x4, 0x08000000, 0x40000000
 SIGACTION_SIZE = 152
 _PRIO_INHERIT = 1

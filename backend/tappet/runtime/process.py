@@ -111,16 +111,23 @@ class RuntimeProcess:
                 f"ws://127.0.0.1:{ready['port']}", ready["token"], ready["instance_id"], process.pid
             )
         except (ValueError, KeyError, TypeError):
-            with contextlib.suppress(ProcessLookupError):
-                process.kill()
-            await process.wait()
+            ended = await self._end_of(process)
             await asyncio.gather(self._reader, return_exceptions=True)
-            raise StartError(
-                "the runtime did not come up: " + (" / ".join(self.last_lines[-3:]) or "no output")
-            ) from None
+            said = " / ".join(self.last_lines[-3:]) or "no output"
+            raise StartError(f"the runtime did not come up: {ended}: {said}") from None
         self.port = int(ready["port"])  # a restarted runtime is found at the same place
         if self.on_ready is not None:
             self.on_ready(self.endpoint)
+
+    async def _end_of(self, process: asyncio.subprocess.Process) -> str:
+        """Why a process ended that has closed its pipe; killed if it has not."""
+        try:
+            async with asyncio.timeout(STOP_TIMEOUT_S):
+                return describe_exit(await process.wait())
+        except TimeoutError:
+            process.kill()
+            await process.wait()
+            return "it hung"
 
     async def _read_lines(self, process: asyncio.subprocess.Process) -> None:
         assert process.stderr is not None

@@ -25,12 +25,7 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
     name = application.package.tasks[number].name if is_task else "initialisation"  # type: ignore[index]
     raw = application.contexts.fault(task)
     message, values = describe(raw)
-    try:
-        maps = application.package.source_maps
-        stack = [_with_place(frame, maps) for frame in Locator(application.code).call_stack(raw)]
-    except Exception as error:  # whatever is wrong with the debug information, the exception is reported
-        log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
-        stack = []
+    stack = stack_of(application, raw, log)
     made = _maker(application, raw.origin)
     values |= _heap_values(application, raw, made)
     here = stack[0] if stack else made or CallFrame("", "", 0)
@@ -39,6 +34,16 @@ def build_report(application: LoadedApplication, log: Logbook) -> ExceptionRepor
         raw.code, fault_name(raw.code), message, name, here.pou, here.uri, here.line, raw.cycle,
         time.time_ns(), tuple(stack), values, here.place,
     )  # fmt: skip
+
+
+def stack_of(application: LoadedApplication, raw: RawFault, log: Logbook) -> list[CallFrame]:
+    """Call stack of a fault in the present code of the application; empty when it is not readable."""
+    try:
+        maps = application.package.source_maps
+        return [_with_place(frame, maps) for frame in Locator(application.code).call_stack(raw)]
+    except Exception as error:  # whatever is wrong with the debug information, the exception is reported
+        log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
+        return []
 
 
 def _with_place(frame: CallFrame, maps: Mapping[str, SourceMap]) -> CallFrame:

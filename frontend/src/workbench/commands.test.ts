@@ -1,4 +1,5 @@
 import { beforeAll, describe, expect, it } from 'vitest';
+import type { RuntimeException } from '@/api/types';
 import { someContext, someSession } from '../../tests/context';
 import {
   activeHandler,
@@ -94,6 +95,13 @@ describe('online commands', () => {
     const context = someContext({ online: someSession('exception') });
     expect(can('debug.start', context)).toBe('reason.exception');
     expect(can('online.reset.cold', context)).toBe(true);
+  });
+
+  it('start an application that was not started again after it had ended the process', () => {
+    const context = someContext({ online: someSession('exception') });
+    context.online!.runtime!.exception = { name: 'PROCESS_ENDED' } as RuntimeException;
+    expect(can('debug.start', context)).toBe(true);
+    expect(can('debug.singleCycle', context)).toBe('reason.exception');
   });
 
   it('rest while the connection is lost, but for logout', () => {

@@ -25,7 +25,7 @@ STRUCTURES = (
     "RECORDER_LIST", "FLIGHT_ENTRY", "FLIGHT_RECORDER", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD",
     "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT", "APPLICATION_CONTEXT", "THREAD_ENTRY",
     "EXECUTIVE_REGISTRY", "LOG_MESSAGE", "LOG_RING", "FILE_STORE", "DESCRIPTION",
-    "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT", "HEAP_ARENA", "HEAP_BLOCK",
+    "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT", "HEAP_ARENA", "HEAP_BLOCK", "CRASH_RECORD",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
 
@@ -166,7 +166,7 @@ class Executive:
         registry["offsetSp"] = places.stack
         registry["offsetAddress"] = posix.SIGNAL_ADDRESS_OFFSET
         mask = (1 << 64) - 1
-        for signal in (*posix.FAULT_SIGNALS, posix.WATCHDOG_SIGNAL):
+        for signal in (*posix.FAULT_SIGNALS, posix.ABORT_SIGNAL, posix.WATCHDOG_SIGNAL):
             mask &= ~(1 << signal - 1)
         blocked = mask.to_bytes(8, "little") + b"\xff" * 120
         posix.write_memory(registry.place("signalMask"), blocked)
@@ -176,7 +176,7 @@ class Executive:
     def _install_handlers(self) -> None:
         handler = self.entries["tappet_signal"]
         previous = self.registry.place("previous")
-        for signal in (*posix.FAULT_SIGNALS, posix.WATCHDOG_SIGNAL):
+        for signal in (*posix.FAULT_SIGNALS, posix.ABORT_SIGNAL, posix.WATCHDOG_SIGNAL):
             again = signal in posix.FAULT_SIGNALS  # these never come back to the place they interrupted
             posix.install_handler(signal, handler, previous + signal * 160, unmasked=again)
 

@@ -54,6 +54,9 @@ class LocalRuntime:
         self._link.move_to(endpoint.url, endpoint.token)
 
     def _on_exit(self, reason: str) -> None:
+        info = self._link.info
+        if info is not None and info.application is not None:
+            reason = f"{reason} while '{info.application}' was loaded (state {info.state})"
         log.warning("local runtime: %s", reason)
         self._link.note(reason)
 

@@ -7,6 +7,7 @@ import { confirm } from '@/ui/dialogs';
 import { stepMessage } from '../messages/jump';
 import { presentMessages, useMessages } from '../messages/store';
 import { build, download, login, logout, onlineChange, reset, runtimeAct } from '../online/acts';
+import { waitsForStart } from '../online/runtimeText';
 
 const hasMessages = (): Enablement => {
   const { build: last, live } = useMessages.getState();
@@ -18,6 +19,8 @@ const notRunning = (context: CommandContext): Enablement => {
   if (state(context) === 'run') return 'reason.running';
   return state(context) === 'exception' ? 'reason.exception' : true;
 };
+const startable = (context: CommandContext): Enablement =>
+  waitsForStart(context.online?.runtime?.exception) ? true : notRunning(context);
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
 const changed = (context: CommandContext): Enablement =>
   context.online?.relation === 'same' && context.dirtyPanels.length === 0 ? 'reason.nothingChanged' : true;
@@ -121,7 +124,7 @@ const commands: Command[] = [
       icon: Play,
       keys: ['F5'],
       toolbar: { group: '3_run', order: 1 },
-      enabled: when(online, connected, operator, notRunning),
+      enabled: when(online, connected, operator, startable),
       run: (context) => runtimeAct(context, 'start'),
     },
     {

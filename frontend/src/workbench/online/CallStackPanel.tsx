@@ -9,7 +9,8 @@ import { Panel } from '@/ui/Panel';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
 import styles from './CallStackPanel.module.css';
-import { exceptionPlace, exceptionTitle, framePath, jumpToFrame } from './exception';
+import { exceptionPlace, exceptionText, exceptionTitle, framePath, jumpToFrame } from './exception';
+import { waitsForStart } from './runtimeText';
 import { useActiveSession } from './session';
 
 /** Where the application stopped with an exception: what happened, who called whom, and the variables of the programs. */
@@ -98,20 +99,26 @@ function Report({ exception }: { exception: RuntimeException }) {
     ],
     [t],
   );
-  const title = exceptionTitle(exception);
+  const text = exceptionText(exception);
   return (
     <Panel>
       <div className={styles.head}>
         <OctagonAlert size={16} aria-hidden />
-        <strong>{title}</strong>
-        {exception.message.toLowerCase() !== title.toLowerCase() && <span>{exception.message}</span>}
+        <strong>{exceptionTitle(exception)}</strong>
+        {text && <span>{text}</span>}
         <span className={styles.place}>{exceptionPlace(exception)}</span>
         <Button variant="quiet" onClick={() => jumpToFrame(exception)}>
           {t('exception.goTo')}
         </Button>
-        <Button variant="quiet" onClick={() => void runCommand('online.reset.warm')}>
-          {t('command.reset.warm')}
-        </Button>
+        {waitsForStart(exception) ? (
+          <Button variant="quiet" onClick={() => void runCommand('debug.start')}>
+            {t('exception.start')}
+          </Button>
+        ) : (
+          <Button variant="quiet" onClick={() => void runCommand('online.reset.warm')}>
+            {t('command.reset.warm')}
+          </Button>
+        )}
       </div>
       <div className={styles.tables}>
         <Table

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { RuntimeException, RuntimeState } from '@/api/types';
 import type { OnlineSession } from '../onlineSession';
-import { exceptionPlace, exceptionTitle, newExceptions } from './exception';
+import { exceptionPlace, exceptionText, exceptionTitle, newExceptions } from './exception';
 
 const exception = (name: string, line: number | null = 2): RuntimeException => ({
   name,
@@ -35,6 +35,15 @@ describe('exceptions', () => {
   it('name the place as far as it is known', () => {
     expect(exceptionPlace(exception('DIV_ZERO'))).toBe('PLC_PRG, line 2, task MainTask');
     expect(exceptionPlace(exception('DIV_ZERO', null))).toBe('PLC_PRG, task MainTask');
+  });
+
+  it('say what to do when the application waits to be started', () => {
+    const ended = { ...exception('PROCESS_ENDED'), task: '', values: { signal: 'SIGSEGV' } };
+    expect(exceptionText(ended)).toContain('SIGSEGV');
+    expect(exceptionText(ended)).toContain('start it anyway');
+    expect(exceptionPlace(ended)).toBe('PLC_PRG, line 2');
+    expect(exceptionText(exception('DIV_ZERO'))).toBe('as the runtime says it');
+    expect(exceptionText({ ...exception('DIV_ZERO'), message: 'division by zero' })).toBe('');
   });
 
   it('are new once: not at the next state, again after a reset', () => {

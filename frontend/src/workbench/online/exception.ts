@@ -7,6 +7,7 @@ import { notify } from '@/ui/notices';
 import { useOnline, type OnlineSession } from '../onlineSession';
 import { useProject } from '@/project/openProject';
 import { objectPath } from '@/project/tree';
+import { waitsForStart } from './runtimeText';
 
 const KINDS: Readonly<Record<string, TextKey>> = {
   DIV_ZERO: 'exception.divisionByZero',
@@ -17,6 +18,9 @@ const KINDS: Readonly<Record<string, TextKey>> = {
   WATCHDOG: 'exception.watchdog',
   ASSERT: 'exception.assertion',
   ILLEGAL_CONVERSION: 'exception.conversion',
+  INVALID_RELEASE: 'exception.invalidRelease',
+  HEAP_DAMAGED: 'exception.heapDamaged',
+  PROCESS_ENDED: 'exception.processEnded',
 };
 
 /** What happened, in the user's language where the kind is known. */
@@ -25,9 +29,17 @@ export function exceptionTitle(exception: RuntimeException): string {
   return kind === undefined ? exception.message : t(kind);
 }
 
+/** More about it than the title says: what to do, or what the runtime found; nothing when that is the same. */
+export function exceptionText(exception: RuntimeException): string {
+  if (waitsForStart(exception)) return t('exception.startAnyway', { signal: exception.values.signal ?? '–' });
+  const same = exception.message.toLowerCase() === exceptionTitle(exception).toLowerCase();
+  return same ? '' : exception.message;
+}
+
 /** `PLC_PRG, line 2, task MainTask` */
 export function exceptionPlace(exception: RuntimeException): string {
-  return [placeText(exception), t('exception.inTask', { task: exception.task })].filter(Boolean).join(', ');
+  const task = exception.task && t('exception.inTask', { task: exception.task });
+  return [placeText(exception), task].filter(Boolean).join(', ');
 }
 
 function placeText({ pou, line }: Pick<CallFrame, 'pou' | 'line'>): string {

@@ -1,4 +1,4 @@
-import type { RuntimeState } from '@/api/types';
+import type { RuntimeException, RuntimeState } from '@/api/types';
 import type { t as text } from '@/i18n';
 import type { OnlineTone } from '../onlineSession';
 
@@ -20,3 +20,7 @@ export function toneOfRuntime(runtime: RuntimeState): OnlineTone {
 export function runtimeText(runtime: RuntimeState, t: typeof text): string {
   return t(runtime.connected ? `runtime.state.${runtime.state ?? 'empty'}` : 'runtime.state.notConnected');
 }
+
+/** The application has ended the process of the controller: it is loaded again, and waits to be started. */
+export const waitsForStart = (exception: RuntimeException | null | undefined): boolean =>
+  exception?.name === 'PROCESS_ENDED';
