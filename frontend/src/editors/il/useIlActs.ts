@@ -12,7 +12,7 @@ import type { CellInputHandle } from '@/ui/grid/CellInput';
 import type { GridEditing } from '@/ui/grid/Grid';
 import type { GridSelection } from '@/ui/grid/useGridSelection';
 import type { TextPlace } from '@/text/focus';
-import { unlockForEditing } from '../text/useEditingLock';
+import { askToEdit } from '../text/onlineEdit';
 import { editedColumn, type ColumnId } from './columns';
 import {
   copyRows,
@@ -65,7 +65,7 @@ export function useIlActs(input: ActsInput) {
     if (!input.locked) run();
     else if (!atLeast(useSession.getState().user?.role ?? null, 'engineer'))
       notify({ tone: 'info', title: t('st.lockedRole') });
-    else void unlockForEditing(input.object).then((yes) => yes && run());
+    else void askToEdit(input.object.id).then((yes) => yes && run());
   };
   const replace = (text: string) => document.replaceText('implementation', text);
   const select = (row: number, column: ColumnId, last = row) => {

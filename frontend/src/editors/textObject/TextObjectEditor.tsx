@@ -19,6 +19,7 @@ import { textHandlers } from './handlers';
 import { registerQuickFixCommand } from '../text/applyQuickFix';
 import { Splitter } from './Splitter';
 import styles from './TextObjectEditor.module.css';
+import { OnlineEditBar } from '../text/OnlineEditBar';
 import { useReveal } from '../text/useReveal';
 
 registerBodies();
@@ -61,6 +62,7 @@ function StPanes(props: EditorProps & OpenText & { object: ObjectSummary }) {
   return (
     <div className={styles.editor} aria-label={t('st.editorOf', { name: object.name })}>
       <DocumentBars monaco={monaco} document={document} />
+      <OnlineEditBar object={object} />
       <div className={styles.panes}>
         {declaration && implementation ? (
           <Splitter
