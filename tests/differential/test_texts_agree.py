@@ -150,13 +150,15 @@ def meaning(text: str, target: Scalar) -> Any:
 
 def settled(text: str, target: Scalar) -> bool:
     """Whether the rules say what a text means: `.5`, `5.` and `16#FF` as real number are left open, and
-    underscores in times elsewhere than between two parts."""
+    underscores in exponents, and in times elsewhere than between two parts."""
+    if target.kind == "real" and "_" in text.lower().partition("e")[2]:
+        return False
     if "." in text and target.kind == "real":
         before, _, after = text.strip(" ").lstrip("+-").partition(".")
         return before[:1].isdigit() and after[:1].isdigit()
     if target.kind == "time":
         return "_" not in re.sub(r"[a-zA-Z]_(?=\d)", "", text)
-    return "__" not in text and not (target.kind == "real" and "_" in text.lower().partition("e")[2])
+    return "__" not in text
 
 
 TARGETS = (BOOL, *INTEGERS, REAL, LREAL, *(t for pair in CLOCKS.values() for t in pair))

@@ -1,4 +1,4 @@
-"""Editing, preparing and loading while logged in: the strip, the context menu, fields of values, Login again."""
+"""Editing, preparing and loading while logged in: the strip, the context menu, fields, Login again."""
 
 from __future__ import annotations
 
@@ -91,7 +91,9 @@ def test_f7_takes_what_is_typed_into_the_open_field(page: Page) -> None:
     row.get_by_role("gridcell").nth(3).click()
     page.keyboard.type("many")
     page.keyboard.press("F7")
-    expect(page.get_by_role("alert").filter(has_text=re.compile("whole number", re.IGNORECASE))).to_be_visible()
+    expect(
+        page.get_by_role("alert").filter(has_text=re.compile("whole number", re.IGNORECASE))
+    ).to_be_visible()
     page.keyboard.press("Escape")
     page.keyboard.press("Alt+F7")
     expect(row.get_by_label("forced")).to_have_count(0)

@@ -89,6 +89,20 @@ export function OnlineTable(props: OnlineTableProps) {
     return false;
   };
   const close = () => setEditing(null);
+  const entries = (): readonly MenuEntry[] => {
+    const { cursor } = selection;
+    const row = rows[cursor?.row ?? -1];
+    const fixed = row === undefined || row.valueless === true || isExpandable(row);
+    const prepareEntry: MenuEntry = {
+      kind: 'item',
+      key: 'prepare',
+      text: t('online.prepareValue'),
+      shortcut: 'Enter',
+      disabledReason: runtimeId === null ? t('reason.notLoggedIn') : fixed ? t('online.nothingToPrepare') : null,
+      run: () => cursor && edit({ ...cursor, column: columns.findIndex((column) => column.id === 'prepared') }),
+    };
+    return props.menu === undefined ? [] : [prepareEntry, ...props.menu(chosen)];
+  };
   const lost = session !== null && session.lostSince !== null;
 
   const cell = (index: number, column: GridColumn): ReactNode => {
@@ -123,7 +137,7 @@ export function OnlineTable(props: OnlineTableProps) {
     return <PreparedEditor runtimeId={runtimeId ?? ''} row={row} initial={what.initial} onDone={close} />;
   };
   return (
-    <ContextMenu entries={() => props.menu?.(chosen) ?? []}>
+    <ContextMenu entries={entries}>
       <div
         className={styles.table}
         data-lost={lost || undefined}
@@ -144,6 +158,7 @@ export function OnlineTable(props: OnlineTableProps) {
           editing={editing}
           editor={editor}
           onEdit={edit}
+          opensOnClick={(column) => runtimeId !== null && (column.id === 'value' || column.id === 'prepared')}
           onKey={onKey}
           onRange={(first, last) =>
             setRange((before) => (before.first === first && before.last === last ? before : { first, last }))

@@ -5,6 +5,7 @@ import styles from './OnlineTable.module.css';
 import { prepare, preparedLiteral, usePreparedLiteral } from './prepared';
 import { isExpandable, type OnlineRow } from './treeRows';
 import { useLiveValue } from './useLive';
+import { useOpenField } from './useOpenField';
 
 /** The value that waits for Write or Force, in angle brackets. */
 export function PreparedCell({ runtimeId, row }: { runtimeId: string | null; row: OnlineRow }) {
@@ -27,6 +28,7 @@ interface PreparedEditorProps {
 export function PreparedEditor({ runtimeId, row, initial, onDone }: PreparedEditorProps) {
   const t = useText();
   const live = useLiveValue(runtimeId, row.expression);
+  const handle = useOpenField();
   const item = live?.item;
   const checked = (text: string) => (item === undefined ? null : checkLiteral(text, item));
   const names = Object.keys(item?.enum ?? {});
@@ -39,6 +41,7 @@ export function PreparedEditor({ runtimeId, row, initial, onDone }: PreparedEdit
   };
   return (
     <CellInput
+      handle={handle}
       label={t('online.column.prepared')}
       value={preparedLiteral(runtimeId, row.expression) ?? ''}
       initial={initial}

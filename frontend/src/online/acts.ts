@@ -2,7 +2,7 @@
 import { api } from '@/api/client';
 import { t } from '@/i18n';
 import { notify } from '@/ui/notices';
-import { clearPrepared, preparedValues, type PreparedValue } from './prepared';
+import { clearPrepared, preparedValues, takeOpenField, type PreparedValue } from './prepared';
 
 function order(runtimeId: string, values: readonly PreparedValue[]) {
   return {
@@ -11,9 +11,14 @@ function order(runtimeId: string, values: readonly PreparedValue[]) {
   };
 }
 
+/** What is prepared, with what is being typed just now; nothing while that is refused. */
+function takenValues(runtimeId: string): readonly PreparedValue[] {
+  return takeOpenField() ? preparedValues(runtimeId) : [];
+}
+
 /** Writes all prepared values together at the beginning of a cycle. */
 export async function writePrepared(runtimeId: string): Promise<void> {
-  const values = preparedValues(runtimeId);
+  const values = takenValues(runtimeId);
   if (values.length === 0) return;
   await api.post('/api/v1/runtimes/{runtime_id}/values/write', order(runtimeId, values));
   clearPrepared(runtimeId, values);
@@ -21,7 +26,7 @@ export async function writePrepared(runtimeId: string): Promise<void> {
 
 /** Forces all prepared values; they hold until they are released. */
 export async function forcePrepared(runtimeId: string): Promise<void> {
-  const values = preparedValues(runtimeId);
+  const values = takenValues(runtimeId);
   if (values.length === 0) return;
   await api.post('/api/v1/runtimes/{runtime_id}/values/force', order(runtimeId, values));
   clearPrepared(runtimeId, values);

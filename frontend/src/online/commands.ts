@@ -6,12 +6,14 @@ import { connected, online, operator, when } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { useOnline } from '@/workbench/onlineSession';
 import { forcePrepared, releaseForces, writePrepared } from './acts';
-import { clearPrepared, preparedValues, usePrepared } from './prepared';
+import { clearPrepared, hasOpenField, preparedValues, usePrepared } from './prepared';
 
 const mayOperate = when(online, operator, connected);
 
 const hasPrepared = (context: CommandContext): Enablement =>
-  context.online !== null && preparedValues(context.online.runtimeId).length > 0 ? true : 'reason.nothingPrepared';
+  context.online !== null && (hasOpenField() || preparedValues(context.online.runtimeId).length > 0)
+    ? true
+    : 'reason.nothingPrepared';
 
 const hasForces = (context: CommandContext): Enablement =>
   context.online !== null && (useOnline.getState().forces[context.online.runtimeId] ?? []).length > 0
@@ -26,6 +28,13 @@ const values: Command[] = [
   ...menuGroup(
     'online',
     '5_values',
+    {
+      id: 'online.prepareValue',
+      title: 'online.prepareValue',
+      keys: ['Ctrl+Shift+F7'],
+      delegated: true,
+      enabled: mayOperate,
+    },
     {
       id: 'online.writeValues',
       title: 'online.writeValues',

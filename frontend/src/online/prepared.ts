@@ -25,6 +25,24 @@ export function prepare(runtimeId: string, expression: string, literal: string |
   });
 }
 
+/** The open field in which a value to prepare is being typed. */
+let openField: (() => boolean) | null = null;
+
+/** A field for a value to prepare has opened; null when it closes. What is typed in it is taken before a write. */
+export function setOpenField(take: (() => boolean) | null): void {
+  openField = take;
+  usePrepared.setState(({ values }) => ({ values: { ...values } }));
+}
+
+export function hasOpenField(): boolean {
+  return openField !== null;
+}
+
+/** Takes what is typed into the open field, if there is one; false when it is refused: the field says why. */
+export function takeOpenField(): boolean {
+  return openField === null || openField();
+}
+
 export function preparedLiteral(runtimeId: string | null, expression: string): string | null {
   if (runtimeId === null) return null;
   return usePrepared.getState().values[runtimeId]?.[expressionKey(expression)]?.literal ?? null;

@@ -72,6 +72,8 @@ export const EDITOR_OPTIONS: editor.IStandaloneEditorConstructionOptions = {
   unicodeHighlight: { ambiguousCharacters: true, invisibleCharacters: true, nonBasicASCII: false },
   dropIntoEditor: { enabled: false },
   editContext: false,
+  // The workbench has a menu of its own.
+  contextmenu: false,
 };
 
 /** One Monaco editor on a model that others may show, too. */

@@ -21,12 +21,19 @@ interface PanelEditors {
   active: Part;
   table: PanelTable | null;
   chosen: (() => readonly string[]) | null;
+  prepare: (() => boolean) | null;
 }
 
 const panels = new Map<string, PanelEditors>();
 
 function panelOf(panelId: string): PanelEditors {
-  const known = panels.get(panelId) ?? { editors: {}, active: 'implementation' as const, table: null, chosen: null };
+  const known = panels.get(panelId) ?? {
+    editors: {},
+    active: 'implementation' as const,
+    table: null,
+    chosen: null,
+    prepare: null,
+  };
   panels.set(panelId, known);
   return known;
 }
@@ -99,4 +106,13 @@ export function setPanelChosen(panelId: string, chosen: (() => readonly string[]
 /** The expressions selected in the table that has the focus; null when none has. */
 export function panelChosen(panelId: string): readonly string[] | null {
   return panels.get(panelId)?.chosen?.() ?? null;
+}
+
+/** Opens the field for a value at the cursor of the panel; false where no variable with a value stands. */
+export function setPanelPrepare(panelId: string, prepare: (() => boolean) | null): void {
+  panelOf(panelId).prepare = prepare;
+}
+
+export function panelPrepare(panelId: string): boolean {
+  return panels.get(panelId)?.prepare?.() ?? false;
 }

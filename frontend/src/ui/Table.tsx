@@ -19,6 +19,8 @@ interface TableProps<Item> {
   onSelect: (item: Item | null) => void;
   /** Double click and Enter. */
   onOpen?: (item: Item) => void;
+  /** A single click opens as well: lists of places to go to. */
+  opensOnClick?: boolean;
   /** Keys the table itself does not know (Delete, Alt+Up ...). */
   onKey?: (event: KeyboardEvent, item: Item | undefined) => void;
   /** Context menu around the rows. */
@@ -112,6 +114,7 @@ export function Table<Item>(props: TableProps<Item>) {
                   className={styles.row}
                   style={{ transform: `translateY(${entry.start}px)` }}
                   onPointerDown={() => onSelect(item)}
+                  onClick={props.opensOnClick === true && onOpen ? (event) => event.detail <= 1 && onOpen(item) : undefined}
                   onDoubleClick={onOpen && (() => onOpen(item))}
                 >
                   {columns.map((column) => (

@@ -88,7 +88,15 @@ describe('online commands', () => {
     expect([can('debug.start', stopped), can('debug.stop', stopped)]).toEqual([true, 'reason.stopped']);
     expect([can('debug.start', running), can('debug.stop', running)]).toEqual(['reason.running', true]);
     expect([can('debug.singleCycle', stopped), can('debug.singleCycle', running)]).toEqual([true, 'reason.running']);
-    expect(can('online.login', running)).toBe('reason.loggedIn');
+  });
+
+  it('take a login while logged in as the wish to load what has changed', () => {
+    const online = (relation: 'same' | 'online_change' | 'download') =>
+      someContext({ online: someSession('run', { relation }) });
+    expect(can('online.login', online('same'))).toBe('reason.nothingChanged');
+    expect(can('online.login', online('online_change'))).toBe(true);
+    expect(can('online.login', online('download'))).toBe(true);
+    expect(can('online.login', { ...online('online_change'), role: 'operator' })).toBe('reason.engineer');
   });
 
   it('want a reset after an exception', () => {

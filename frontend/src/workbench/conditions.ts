@@ -29,7 +29,6 @@ export const editor: Condition = ({ activeEditor }) => (activeEditor ? true : 'r
 export const idle: Condition = ({ busy }) => (busy ? 'reason.busy' : true);
 
 export const online: Condition = (context) => (context.online ? true : 'reason.notLoggedIn');
-export const offline: Condition = (context) => (context.online ? 'reason.loggedIn' : true);
 /** The controller that one is logged in to answers. */
 export const connected: Condition = (context) =>
   context.online?.lostSince != null || context.online?.runtime?.connected === false ? 'reason.connectionLost' : true;

@@ -156,6 +156,7 @@ export default function CrossReferencePanel() {
           selected={selected}
           onSelect={(row) => setSelected(row?.key ?? null)}
           onOpen={jump}
+          opensOnClick
           empty={<Nothing asked={question !== null} busy={busy} filtered={rows.length > 0} name={name} />}
         />
       </PanelRest>

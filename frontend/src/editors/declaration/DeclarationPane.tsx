@@ -10,6 +10,7 @@ import { useFaultLine } from '../online/useFaultLine';
 import { setEditorSettings, useEditorSettings, type TextView } from '@/text/settings';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
 import { addPanelEditor, removePanelEditor } from '@/text/focus';
+import { followRightClick, TextMenu } from '../text/TextMenu';
 import { useEditingLock } from '../text/useEditingLock';
 import { ViewSwitch } from '@/text/ViewSwitch';
 import { DeclarationTable } from './DeclarationTable';
@@ -61,18 +62,21 @@ function DeclarationText({ panelId, projectId, object, monaco, document }: Decla
       else {
         addPanelEditor(panelId, 'declaration', made);
         languageClient(monaco, projectId);
+        followRightClick(made);
       }
       setEditor(made);
     },
     [panelId, monaco, projectId],
   );
   return (
-    <CodePane
-      monaco={monaco}
-      model={document.models.declaration}
-      label={t('st.declarationOf', { name: object.name })}
-      readOnly={readOnly}
-      onEditor={onEditor}
-    />
+    <TextMenu panelId={panelId}>
+      <CodePane
+        monaco={monaco}
+        model={document.models.declaration}
+        label={t('st.declarationOf', { name: object.name })}
+        readOnly={readOnly}
+        onEditor={onEditor}
+      />
+    </TextMenu>
   );
 }

@@ -2,6 +2,7 @@ import { ArrowDown, ArrowUp, ListPlus, TextInitial, Trash2 } from 'lucide-react'
 import { useCallback, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
+import { goToDefinition } from '@/lsp/definition';
 import type { Position } from '@/lsp/protocol';
 import type { EditorProps } from '@/project/editorProps';
 import { Button, IconButton } from '@/ui/Button';
@@ -15,7 +16,10 @@ import { Grid, type GridEditing, type GridHandle } from '@/ui/grid/Grid';
 import { useGridSelection } from '@/ui/grid/useGridSelection';
 import { setPanelTable } from '@/text/focus';
 import { quickFixEntries } from '../text/quickFixes';
+import { showCrossReferences } from '../text/acts';
+import { symbolEntries } from '../text/TextMenu';
 import { useEditingLock } from '../text/useEditingLock';
+import { useRowPlace } from './useRowPlace';
 import { CellEditor } from './CellEditor';
 import styles from './DeclarationTable.module.css';
 import { HeaderLine } from './HeaderLine';
@@ -34,7 +38,7 @@ type DeclarationTableProps = EditorProps & OpenText & { object: ObjectSummary; s
 
 /** The declaration as numbered rows; every edit changes the one text in place (DECL-20 .. DECL-36). */
 export function DeclarationTable(props: DeclarationTableProps) {
-  const { panelId, projectId, document, monaco, object, showText } = props;
+  const { panelId, projectId, document, monaco, object, instance, showText } = props;
   const t = useText();
   const text = useModelText(document.models.declaration);
   const model = useMemo(() => parseDeclaration(text), [text]);
@@ -60,6 +64,14 @@ export function DeclarationTable(props: DeclarationTableProps) {
     columns,
   });
 
+  const place = useRowPlace({
+    monaco,
+    document,
+    model,
+    row: shown[selection.cursor?.row ?? -1],
+    column: columns[selection.cursor?.column ?? -1]?.id,
+    grid,
+  });
   const onFocus = useCallback(() => {
     const history = document.models.declaration as unknown as { undo: () => void; redo: () => void };
     const showFixes = () => {
@@ -69,9 +81,14 @@ export function DeclarationTable(props: DeclarationTableProps) {
     setPanelTable(panelId, {
       undo: () => history.undo(),
       redo: () => history.redo(),
-      acts: { 'st.quickFix': showFixes },
+      place,
+      acts: {
+        'st.quickFix': showFixes,
+        'st.goToDefinition': () => goToDefinition(place),
+        'st.peekReferences': () => showCrossReferences({ monaco, document, projectId, object, instance }, place),
+      },
     });
-  }, [document, panelId]);
+  }, [document, panelId, place, monaco, projectId, object, instance]);
 
   const serious = model.problems.filter((problem) => problem.kind !== 'not-tabular');
   const problem = serious[0] ?? model.problems[0];
@@ -112,6 +129,7 @@ export function DeclarationTable(props: DeclarationTableProps) {
   };
   const entries = async (): Promise<MenuEntry[]> => [
     ...(await fixes()),
+    ...(selection.cursor === null ? [] : symbolEntries()),
     {
       kind: 'item',
       key: 'insert',

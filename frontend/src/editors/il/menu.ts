@@ -1,19 +1,8 @@
-import {
-  ClipboardPaste,
-  Copy,
-  ListPlus,
-  MessageSquareOff,
-  Scissors,
-  Search,
-  Tag,
-  Trash2,
-  WandSparkles,
-  Waypoints,
-} from 'lucide-react';
+import { ClipboardPaste, Copy, ListPlus, MessageSquareOff, Scissors, Tag, Trash2, WandSparkles } from 'lucide-react';
 import type { t as Text } from '@/i18n';
 import { guard } from '@/ui/notices';
-import { runCommand } from '@/workbench/run';
 import type { MenuEntry } from '@/ui/Menu';
+import { symbolEntries } from '../text/TextMenu';
 import type { useIlActs } from './useIlActs';
 
 type Acts = ReturnType<typeof useIlActs>;
@@ -30,6 +19,7 @@ export function ilMenu(t: typeof Text, acts: Acts, chosen: number): MenuEntry[] 
   const none = chosen === 0 ? t('decl.selectRows') : null;
   const clipboard = clipboardActs(acts);
   return [
+    ...(chosen === 0 ? [] : symbolEntries()),
     { kind: 'item', key: 'row', text: t('il.newRow'), icon: ListPlus, shortcut: 'Ctrl+Enter', run: acts.newRow },
     { kind: 'item', key: 'label', text: t('il.newLabel'), icon: Tag, disabledReason: none, run: acts.label },
     { kind: 'line', key: 'l1' },
@@ -89,32 +79,6 @@ export function ilMenu(t: typeof Text, acts: Acts, chosen: number): MenuEntry[] 
       shortcut: 'F2',
       disabledReason: none,
       run: () => void acts.assist(),
-    },
-    {
-      kind: 'item',
-      key: 'definition',
-      text: t('st.command.goToDefinition'),
-      icon: Search,
-      shortcut: 'F12',
-      disabledReason: none,
-      run: () => void guard(acts.definition),
-    },
-    {
-      kind: 'item',
-      key: 'references',
-      text: t('st.command.references'),
-      icon: Waypoints,
-      shortcut: 'Shift+F12',
-      disabledReason: none,
-      run: () => void runCommand('st.peekReferences'),
-    },
-    {
-      kind: 'item',
-      key: 'rename',
-      text: t('st.command.renameSymbol'),
-      shortcut: 'Ctrl+F2',
-      disabledReason: none,
-      run: () => void runCommand('st.renameSymbol'),
     },
   ];
 }

@@ -82,6 +82,14 @@ export class InlineMonitor {
     this.look();
   }
 
+  /** The variable of the line that stands at the cursor and has a value. */
+  atCursor(): PillTarget | null {
+    const position = this.target.getPosition();
+    const offset = position === null ? undefined : this.target.getModel()?.getOffsetAt(position);
+    if (offset === undefined) return null;
+    return this.shown.find(({ use }) => use.start <= offset && offset <= use.end) ?? null;
+  }
+
   dispose(): void {
     cancelAnimationFrame(this.frame);
     clearTimeout(this.fading);

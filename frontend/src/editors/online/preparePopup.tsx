@@ -1,4 +1,5 @@
 import type { editor } from 'monaco-editor/editor/editor.api';
+import type { ComponentProps } from 'react';
 import { flushSync } from 'react-dom';
 import { createRoot, type Root } from 'react-dom/client';
 import { CellInput } from '@/ui/grid/CellInput';
@@ -8,6 +9,7 @@ import { formatLiteral } from '@/online/format';
 import type { SubscribedItem } from '@/online/item';
 import { checkLiteral } from '@/online/literal';
 import { prepare, preparedLiteral } from '@/online/prepared';
+import { useOpenField } from '@/online/useOpenField';
 import { isWritable, togglePrepared } from '@/online/toggle';
 import { notify } from '@/ui/notices';
 import type { CodeEditor } from '@/text/CodePane';
@@ -17,16 +19,26 @@ import styles from './preparePopup.module.css';
 
 let open: (() => void) | null = null;
 
-/** A click on a value: BOOL goes to its next prepared value, others open a field; Enter takes it. */
-export function openPreparePopup(
+/** A click on a value prepares another one. */
+export function prepareClicked(
   monaco: Monaco,
   target: CodeEditor,
   runtimeId: string,
   event: editor.IEditorMouseEvent,
 ): void {
   const pill = pillUnder(monaco, event);
-  if (pill === null || !event.event.leftButton) return;
-  const { expression } = pill;
+  if (pill !== null && event.event.leftButton && event.target.position !== null)
+    prepareValue(monaco, target, runtimeId, pill.expression, event.target.position);
+}
+
+/** BOOL goes to its next prepared value, others open a field at the place; Enter takes it. */
+export function prepareValue(
+  monaco: Monaco,
+  target: CodeEditor,
+  runtimeId: string,
+  expression: string,
+  position: { lineNumber: number; column: number },
+): void {
   const live = channelOf(runtimeId)?.board.get(expression);
   if (live == null) return;
   if (!isWritable(live.item.flags)) {
@@ -34,11 +46,14 @@ export function openPreparePopup(
     return;
   }
   if (togglePrepared(runtimeId, expression)) return;
-  const position = event.target.position;
-  if (position === null) return;
   const value =
     preparedLiteral(runtimeId, expression) ?? (live.value === null ? '' : formatLiteral(live.value, live.item));
   showField(monaco, target, position, live.item, value, (literal) => prepare(runtimeId, expression, literal));
+}
+
+/** The field of the pop-up; Write and Force take what is typed in it. */
+function PopupField(props: Omit<ComponentProps<typeof CellInput>, 'label' | 'handle'>) {
+  return <CellInput {...props} label={t('online.column.prepared')} handle={useOpenField()} />;
 }
 
 function pillUnder(monaco: Monaco, event: editor.IEditorMouseEvent): PillTarget | null {
@@ -93,8 +108,7 @@ function showField(
         {item.expression} <i>{item.type}</i>
       </div>
       <div className={styles.field}>
-        <CellInput
-          label={t('online.column.prepared')}
+        <PopupField
           value={value}
           suggestions={item.enum ? Object.keys(item.enum) : undefined}
           check={refusal}

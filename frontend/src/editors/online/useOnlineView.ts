@@ -8,11 +8,12 @@ import { useObjectSession } from '@/online/useObjectSession';
 import type { EditorProps } from '@/project/editorProps';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import type { OpenText } from '@/text/useTextDocument';
+import { setPanelPrepare } from '@/text/focus';
 import { useEditorSettings } from '@/text/settings';
 import type { CodeEditor } from '@/text/CodePane';
 import { InlineMonitor, type MonitorSettings } from './inlineMonitor';
 import { monitorTarget } from './monitorScope';
-import { openPreparePopup } from './preparePopup';
+import { prepareClicked, prepareValue } from './preparePopup';
 import { noteRunningText, runningText } from './runningText';
 import { unchangedLines } from './staleLines';
 
@@ -75,7 +76,7 @@ type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; editor:
 
 /** Values behind the variables of an implementation while logged in; a click on one prepares a value. */
 export function useOnlineView(props: OnlineViewProps): void {
-  const { monaco, editor } = props;
+  const { monaco, editor, panelId } = props;
   const { runtimeId, settings, ready } = useMonitored(props);
   const monitor = useRef<InlineMonitor | null>(null);
 
@@ -83,14 +84,22 @@ export function useOnlineView(props: OnlineViewProps): void {
     const channel = channelOf(runtimeId);
     if (editor === null || channel === null || !ready) return;
     const made = new InlineMonitor(monaco, editor, channel);
-    const mouse = editor.onMouseUp((event) => openPreparePopup(monaco, editor, runtimeId ?? '', event));
+    const mouse = editor.onMouseUp((event) => prepareClicked(monaco, editor, runtimeId ?? '', event));
+    setPanelPrepare(panelId, () => {
+      const place = made.atCursor();
+      const position = editor.getPosition();
+      if (place === null || position === null) return false;
+      prepareValue(monaco, editor, runtimeId ?? '', place.expression, position);
+      return true;
+    });
     monitor.current = made;
     return () => {
       monitor.current = null;
+      setPanelPrepare(panelId, null);
       mouse.dispose();
       made.dispose();
     };
-  }, [editor, runtimeId, ready, monaco]);
+  }, [editor, runtimeId, ready, monaco, panelId]);
 
   // After the effect above: a monitor that has just been made gets its settings here.
   useEffect(() => {

@@ -8,6 +8,7 @@ import { useFaultLine } from '../online/useFaultLine';
 import { useOnlineView } from '../online/useOnlineView';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
 import { addPanelEditor, removePanelEditor } from '@/text/focus';
+import { followRightClick, TextMenu } from './TextMenu';
 import { useAutoDeclare } from './useAutoDeclare';
 import { useEditingLock } from './useEditingLock';
 
@@ -23,6 +24,7 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
       else {
         addPanelEditor(panelId, 'implementation', made);
         languageClient(monaco, projectId);
+        followRightClick(made);
       }
       setEditor(made);
     },
@@ -36,12 +38,14 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
   useOnlineView({ ...props, editor });
   useFaultLine(projectId, object, 'implementation', editor);
   return (
-    <CodePane
-      monaco={monaco}
-      model={document.models.implementation}
-      label={t('st.implementationOf', { name: object.name })}
-      readOnly={readOnly}
-      onEditor={onEditor}
-    />
+    <TextMenu panelId={panelId}>
+      <CodePane
+        monaco={monaco}
+        model={document.models.implementation}
+        label={t('st.implementationOf', { name: object.name })}
+        readOnly={readOnly}
+        onEditor={onEditor}
+      />
+    </TextMenu>
   );
 }

@@ -8,6 +8,14 @@ import { setEditorSettings, useEditorSettings } from '@/text/settings';
 /** The focused editor offers the act, and the keys act in editors alone. */
 const OF_EDITOR = { scope: 'editor', delegated: true } as const;
 
+/** Monaco finds these keys by their place on the keyboard, which differs between layouts. */
+const FOLDING = [
+  { id: 'fold', keys: ['Ctrl+Shift+['] },
+  { id: 'unfold', keys: ['Ctrl+Shift+]'] },
+  { id: 'foldAll', keys: undefined },
+  { id: 'unfoldAll', keys: undefined },
+] as const;
+
 const commands: Command[] = [
   ...menuGroup(
     'edit',
@@ -115,6 +123,13 @@ const commands: Command[] = [
       enabled: mayEdit,
     },
   ),
+  ...FOLDING.map(({ id, keys }, order): Command => ({
+    id: `st.${id}`,
+    title: `st.command.${id}`,
+    keys,
+    ...OF_EDITOR,
+    menu: { menu: 'edit', group: '7_folding', order, submenu: 'st.folding' },
+  })),
   {
     id: 'st.suggest',
     title: 'st.command.suggest',

@@ -1,5 +1,7 @@
 /** What the delegated commands do in a text editor. */
+import { t } from '@/i18n';
 import { partsOf } from '@/project/kinds';
+import { notify } from '@/ui/notices';
 import type { Handler, Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
 import {
@@ -15,7 +17,7 @@ import {
 import type { CodeEditor } from '@/text/CodePane';
 import { bodyOf } from '@/text/bodies';
 import { ACTIONS } from '../text/actions';
-import { panelChosen, panelEditor, panelPlace, panelTable, type TextPlace } from '@/text/focus';
+import { panelChosen, panelEditor, panelPlace, panelPrepare, panelTable, type TextPlace } from '@/text/focus';
 
 /** Acts of a panel with Monaco editors: they go to the one that had the focus last. */
 export function textHandlers(panelId: string, panel: TextPanel): Handlers {
@@ -61,6 +63,11 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
     'st.autoDeclare': onPlace((place) => autoDeclare(panel, place)),
     'st.renameSymbol': onPlace((place) => rename(panel, place)),
     'st.crossReferences': onPlace((place) => showCrossReferences(panel, place)),
+    'online.prepareValue': {
+      run: () => {
+        if (!panelPrepare(panelId)) notify({ tone: 'info', title: t('online.nothingToPrepare') });
+      },
+    },
     'watch.add': {
       run: () => {
         const chosen = panelChosen(panelId);

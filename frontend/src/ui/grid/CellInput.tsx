@@ -9,6 +9,8 @@ export interface CellInputHandle {
   suggest: () => void;
   /** What is typed so far. */
   text: () => string;
+  /** Takes what is typed as Enter does; false when it is refused, which the cell then shows. */
+  commit: () => boolean;
 }
 
 interface CellInputProps {
@@ -44,7 +46,6 @@ export function CellInput(props: CellInputProps) {
   const floating = useRef<HTMLDivElement>(null);
   const proposals = useProposals(props.propose);
   const caret = () => field.current?.selectionEnd ?? text.length;
-  useImperativeHandle(props.handle, () => ({ suggest: () => proposals.ask(text, caret(), true), text: () => text }));
 
   useEffect(() => {
     const input = field.current;
@@ -69,6 +70,14 @@ export function CellInput(props: CellInputProps) {
     done.current = true;
     onCommit(taken, key, backwards);
   };
+  useImperativeHandle(props.handle, () => ({
+    suggest: () => proposals.ask(text, caret(), true),
+    text: () => text,
+    commit: () => {
+      commit('Enter');
+      return done.current;
+    },
+  }));
   const change = (next: string) => {
     setText(next);
     setRefused(null);

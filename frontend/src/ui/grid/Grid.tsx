@@ -55,6 +55,8 @@ interface GridProps {
   /** A double click, F2, Enter, or typing on a cell; with `editOnClick` also a click on the cursor's cell. */
   onEdit?: (editing: GridEditing) => void;
   editOnClick?: boolean;
+  /** Columns whose cells a single click edits at once. */
+  opensOnClick?: (column: GridColumn) => boolean;
   /** First look at keys while no cell is edited; true when the key was used. */
   onKey?: (event: KeyboardEvent) => boolean;
   /** A click into the empty area behind the last row. */
@@ -239,8 +241,14 @@ export function Grid(props: GridProps) {
                     pending.current = false;
                     if (props.editOnClick === true && again.current && !edited) onEdit?.({ row, column: at });
                     again.current = false;
+                    const plain = !event.ctrlKey && !event.metaKey && !event.shiftKey;
+                    // The second click of a double click is meant for the field that the first one has opened.
+                    if (plain && event.detail <= 1 && !edited && props.opensOnClick?.(column) === true)
+                      onEdit?.({ row, column: at });
                   }}
-                  onDoubleClick={() => !edited && onEdit?.({ row, column: at })}
+                  onDoubleClick={() =>
+                    !edited && props.opensOnClick?.(column) !== true && onEdit?.({ row, column: at })
+                  }
                 >
                   {edited && editing ? props.editor?.(editing) : props.cell(row, column)}
                 </div>

@@ -2,7 +2,7 @@ import { CloudUpload, Hammer, LogIn, LogOut, Play, RotateCcw, Square, StepForwar
 import { t } from '@/i18n';
 import { menuGroup, registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
-import { application, connected, engineer, idle, offline, online, operator, when } from '../conditions';
+import { application, connected, engineer, idle, online, operator, when } from '../conditions';
 import { confirm } from '@/ui/dialogs';
 import { stepMessage } from '../messages/jump';
 import { presentMessages, useMessages } from '../messages/store';
@@ -24,6 +24,8 @@ const startable = (context: CommandContext): Enablement =>
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
 const changed = (context: CommandContext): Enablement =>
   context.online?.relation === 'same' && context.dirtyPanels.length === 0 ? 'reason.nothingChanged' : true;
+
+const changeable = when(online, connected, engineer, changed, idle);
 
 async function askedReset(context: CommandContext, kind: 'warm' | 'cold' | 'origin'): Promise<void> {
   const sure = await confirm({
@@ -75,8 +77,9 @@ const commands: Command[] = [
       icon: LogIn,
       keys: ['Alt+F8'],
       toolbar: { group: '2_online', order: 1 },
-      enabled: when(application, offline, idle),
-      run: login,
+      // Whoever presses Login again after a change wants to load it.
+      enabled: (context) => (context.online ? changeable(context) : when(application, idle)(context)),
+      run: (context) => (context.online ? onlineChange(context, true) : login(context)),
     },
     {
       id: 'online.logout',
@@ -103,8 +106,9 @@ const commands: Command[] = [
       id: 'online.onlineChange',
       title: 'command.onlineChange',
       icon: Zap,
-      enabled: when(online, connected, engineer, changed, idle),
-      run: onlineChange,
+      keys: ['Alt+Shift+F8'],
+      enabled: changeable,
+      run: (context) => onlineChange(context),
     },
   ),
   ...(['warm', 'cold', 'origin'] as const).map((kind, at): Command => ({

@@ -129,6 +129,7 @@ function Report({ exception }: { exception: RuntimeException }) {
           selected={selected}
           onSelect={(line) => setSelected(line?.key ?? null)}
           onOpen={({ frame }) => jumpToFrame(frame)}
+          opensOnClick
           empty={<Empty title={t('exception.noStack')} />}
         />
         <Table

@@ -187,16 +187,19 @@ export async function download(context: CommandContext): Promise<void> {
   if (choice) await load(context, session.runtimeId, 'download', choice.start);
 }
 
-/** Online change while logged in: the machine keeps running and its variables keep their values. */
-export async function onlineChange(context: CommandContext): Promise<void> {
+/**
+ * Online change while logged in: the machine keeps running and its variables keep their values. With `ask` the dialog
+ * of the login offers it together with what else is possible.
+ */
+export async function onlineChange(context: CommandContext, ask = false): Promise<void> {
   const report = await build(context);
   const session = context.online!;
   if (!report?.ok || session.runtime === null) return;
   const answer = await compare(context, session.runtimeId);
   if (answer.relation === 'same') notify({ tone: 'info', title: t('reason.nothingChanged') });
-  else if (answer.relation === 'online_change') await load(context, session.runtimeId, 'online_change', false);
+  else if (answer.relation === 'online_change' && !ask) await load(context, session.runtimeId, 'online_change', false);
   else {
-    // Only a download can load this change; the dialog says what stands in the way.
+    // Where only a download can load this change, the dialog says what stands in the way.
     const question = { answer, application: nameOf(context), runtime: session.runtime, mayLoad: true };
     const choice = await askLogin(question);
     if (choice && choice.how !== 'without') await load(context, session.runtimeId, choice.how, choice.start);
