@@ -414,8 +414,10 @@ def test_values_are_shown_and_prepared_online(page: Page, table: Locator) -> Non
     expect(value.get_by_label("Forced")).to_have_count(0)
     cell(table, 5, "Operand").click()
     page.keyboard.press("Space")
-    expect(page.get_by_role("dialog")).to_contain_text("IL_Fill")
+    strip = page.get_by_role("alert").filter(has_text="Edit IL_Fill while logged in?")
+    expect(strip).to_be_visible()
     page.keyboard.press("Escape")
+    expect(strip).to_have_count(0)
     page.keyboard.press("Control+F8")
 
 
