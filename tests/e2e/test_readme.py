@@ -44,7 +44,9 @@ def _prepare(page: Page, name: str, shown: str) -> None:
 def test_the_five_minutes_of_the_readme(page: Page) -> None:
     open_project(page)
     open_object(page, "Plant3D")
-    expect(page.frame_locator("[data-testid=scene-view]").locator("canvas").first).to_be_visible(timeout=60_000)
+    expect(page.frame_locator("[data-testid=scene-view]").locator("canvas").first).to_be_visible(
+        timeout=60_000
+    )
 
     open_object(page, "PLC_PRG")
     log_in(page)

@@ -98,6 +98,22 @@ def test_emergency_stop_stops_belt_and_valve_and_needs_reset_and_start(line: Loc
     assert line.read("GVL_IO.xBeltOn") is True
 
 
+def test_one_press_of_reset_acknowledges_the_alarm_and_leaves_the_abort(line: LocalRuntime) -> None:
+    line.force("GVL_IO.xEmergencyStop", True)
+    line.run(time_ns=SECOND)
+    # A reset button that is held does nothing while the cause is there, nor when it goes away.
+    line.force("GVL_IO.xResetButton", True)
+    line.run(time_ns=SECOND)
+    line.force("GVL_IO.xEmergencyStop", False)
+    line.run(time_ns=SECOND)
+    assert line.literal("GVL_Line.eMode") == "Aborted"
+    line.force("GVL_IO.xResetButton", False)
+    line.run(time_ns=SECOND)
+    line.force("GVL_IO.xResetButton", True)
+    line.run(time_ns=SECOND // 5)
+    assert line.literal("GVL_Line.eMode") == "Stopped"
+
+
 def test_a_jammed_belt_is_an_alarm_that_stops_the_line(line: LocalRuntime) -> None:
     line.write("GVL_Plant.xBeltJammed", True)
     line.run(time_ns=4 * SECOND)
