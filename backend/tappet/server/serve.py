@@ -11,7 +11,7 @@ import socket
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import timedelta
 from pathlib import Path
 
@@ -22,6 +22,8 @@ from tappet.project.errors import ProjectError
 from tappet.project.store import Store
 from tappet.server.app import create_app
 from tappet.server.auth.login import LOCAL_LINK
+from tappet.server.connection_limits import raise_descriptor_limit
+from tappet.server.connections import RateLimit, limited_protocol
 from tappet.server.example import find_example, load_example, run_example
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
@@ -52,6 +54,8 @@ class ServeOptions:
 def serve(options: ServeOptions) -> int:
     """Serves until SIGINT or SIGTERM; 0 after a proper end, 1 when the server could not start."""
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
+    for handler in logging.getLogger().handlers:
+        handler.addFilter(RateLimit())
     for noisy in ("httpx", "httpcore", "websockets", "alembic", "uvicorn"):
         logging.getLogger(noisy).setLevel(logging.WARNING)
     try:
@@ -89,9 +93,13 @@ class _Server(uvicorn.Server):
 async def _serve(options: ServeOptions, listener: socket.socket) -> int:
     settings = options.settings
     app = create_app(settings)
+    limits = settings.connections.within(raise_descriptor_limit())
+    if settings.https:  # all connections are those of the proxy
+        limits = replace(limits, of_address=limits.total)
     server = _Server(
         uvicorn.Config(
             app,
+            http=limited_protocol(limits),
             log_config=None,
             access_log=False,
             server_header=False,

@@ -8,6 +8,7 @@ from datetime import timedelta
 from pathlib import Path
 
 from tappet.server.auth.passwords import HashCost
+from tappet.server.connection_limits import ConnectionLimits
 
 LOCAL_RUNTIME = "local"
 """Id of the runtime that the server starts itself."""
@@ -35,6 +36,8 @@ class ServerSettings:
     """A session ends when nothing was asked for this long: a shift."""
     session_lifetime: timedelta = timedelta(days=7)
     """A session ends this long after login whatever happens."""
+    connections: ConnectionLimits = field(default_factory=ConnectionLimits)
+    """How many connections are taken, in all and from one address."""
     max_body_bytes: int = 8 * 1024 * 1024
     """Largest JSON request; imports state their own limit."""
     password_cost: HashCost = field(default_factory=HashCost)
