@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 import pytest
 import viser
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from server_clients import SOCKETS, bare
 from starlette.testclient import WebSocketDenialResponse
+from viser._messages import ShareUrlRequest
+from viser.infra import ClientId
 
 from tappet.server.problems import Problem
 from tappet.server.services import Services
+from tappet.server.views.private_viser import PrivateViser
 from tappet.server.views.service import MOST_VIEWS, ViewRegistry
 
 PROTOCOL = f"viser-v{viser.__version__}"
 
 
-def scene() -> viser.ViserServer:
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+def scene() -> PrivateViser:
+    server = PrivateViser()
     server.scene.add_box("/bottle", color=(1, 2, 3), dimensions=(1.0, 1.0, 1.0))
     return server
 
@@ -59,6 +65,38 @@ def test_strangers_and_foreign_pages_see_nothing(app: FastAPI, admin: TestClient
         assert refused.value.status_code == status
 
 
+def _listening() -> set[str]:
+    """TCP sockets on which this process takes connections."""
+    mine = {os.readlink(entry.path) for entry in os.scandir("/proc/self/fd") if Path(entry.path).is_symlink()}
+    found = set()
+    for table in ("tcp", "tcp6"):
+        for line in Path("/proc/self/net", table).read_text().splitlines()[1:]:
+            words = line.split()
+            if words[3] == "0A" and f"socket:[{words[9]}]" in mine:
+                found.add(words[1])
+    return found
+
+
+def test_no_port_is_open_beside_the_server(app: FastAPI, services: Services) -> None:
+    """A page of another site could read the scene from viser's own port, and so could other users."""
+    before = _listening()
+    server: PrivateViser = app.state.portal.call(services.views.start_view, "plant", scene)
+    assert _listening() == before
+    assert server.socket.is_socket()
+    assert server.socket.parent.stat().st_mode & 0o777 == 0o700
+    app.state.portal.call(services.views.stop_view, "plant")
+    assert not server.socket.parent.exists()
+
+
+def test_a_browser_cannot_make_the_scene_public(app: FastAPI, services: Services) -> None:
+    server: PrivateViser = app.state.portal.call(services.views.start_view, "plant", scene)
+    handlers = server._websock_server._incoming_handlers[ShareUrlRequest]
+    for handler in handlers:
+        handler(ClientId(0), ShareUrlRequest())
+    assert server.request_share_url() is None
+    assert server._share_tunnel is None
+
+
 def test_traversal_stays_inside(admin: TestClient, view: str) -> None:
     for path in ("..%2f..%2f..%2fetc%2fpasswd", "%2e%2e/%2e%2e/etc/passwd", "..%5c..%5csecret"):
         answer = admin.get(view + path)
@@ -70,8 +108,9 @@ class Dummy:
     def __init__(self) -> None:
         self.stopped = False
 
-    def get_port(self) -> int:
-        return 1
+    @property
+    def socket(self) -> Path:
+        return Path("/nowhere")
 
     def stop(self) -> None:
         self.stopped = True

@@ -43,7 +43,8 @@ class LimitedProtocol(H11Protocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Refuses what exceeds the limits, at once and without an answer."""
         address = (transport.get_extra_info("peername") or ("",))[0]
-        same = sum(1 for one in self.connections if one.client is not None and one.client[0] == address)
+        clients = [getattr(one, "client", None) for one in self.connections]
+        same = sum(client is not None and client[0] == address for client in clients)
         if len(self.connections) >= self.limits.total or same >= self.limits.of_address:
             log.warning(
                 "a connection from %s was refused: %d are open, %d of them from there",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import hashlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from tappet.project.scene import Scene
@@ -27,22 +28,24 @@ class SceneServer:
         *,
         dark: bool,
     ) -> None:
-        """Starts viser on a free loopback port and draws; blocks, so call it in a thread."""
-        import viser  # takes longer than the whole server: imported for who looks at a scene
+        """Starts viser and draws; blocks, so call it in a thread."""
+        # viser takes longer to import than the whole server: only for who looks at a scene
+        from tappet.server.views.private_viser import PrivateViser
 
         self._scene = scene
         self._link = link
         self._pool = pool
         self._loop = loop
         self._feed: SceneFeed | None = None
-        self._viser = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        self._viser = PrivateViser()
         self._view = SceneView(self._viser, scene, dark=dark)
         self._viser.on_client_connect(self._on_clients)
         self._viser.on_client_disconnect(self._on_clients)
 
-    def get_port(self) -> int:
-        """Port on 127.0.0.1."""
-        return self._viser.get_port()
+    @property
+    def socket(self) -> Path:
+        """Where viser listens."""
+        return self._viser.socket
 
     def stop(self) -> None:
         """Ends subscription and server."""

@@ -1,4 +1,4 @@
-"""3D views behind the server's own address and login: a reverse proxy to viser servers on loopback.
+"""3D views behind the server's own address and login: a reverse proxy to viser servers on UNIX sockets.
 
 viser's page opens its WebSocket at the page's own URL without the trailing slash, so that it works below
 `/views/<id>/` as it is.
@@ -10,6 +10,7 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 import websockets
@@ -21,7 +22,7 @@ from tappet.server.problems import Problem, not_found
 from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
 
 if TYPE_CHECKING:
-    from tappet.server.views.pages import File, Pages
+    from tappet.server.views.pages import File
 
 MOST_VIEWS = 16
 """Views that run at the same time; the oldest one that nobody looks at makes room."""
@@ -37,17 +38,18 @@ LARGEST_MESSAGE = 50 * 1024 * 1024
 
 
 class ViewServer(Protocol):
-    """A viser server on loopback; `viser.ViserServer` is one."""
+    """A viser server; `private_viser.PrivateViser` is one."""
 
-    def get_port(self) -> int:
-        """Port on 127.0.0.1."""
+    @property
+    def socket(self) -> Path:
+        """The UNIX socket it listens on."""
 
     def stop(self) -> None:
         """Ends it."""
 
 
 ViewFactory = Callable[[], ViewServer]
-"""Makes a view, such as `lambda: viser.ViserServer("127.0.0.1", 0, verbose=False)`; may block."""
+"""Makes a view; may block."""
 
 
 @dataclass(slots=True)
@@ -62,8 +64,6 @@ class ViewRegistry:
     def __init__(self) -> None:
         self._views: dict[str, _View] = {}
         self._starting = asyncio.Lock()
-        self._pages: Pages | None = None
-        """Of the views, once somebody has looked at one."""
 
     def ids(self) -> list[str]:
         """Ids of the running views, oldest first."""
@@ -96,19 +96,15 @@ class ViewRegistry:
         """Ends all views."""
         for view_id in self.ids():
             await self.stop_view(view_id)
-        if self._pages is not None:
-            await self._pages.close()
 
     async def fetch(self, view_id: str, path: str, accept_encoding: str) -> File:
         """A file of the view's page, still compressed. Cookies and tokens are not passed on."""
-        from tappet.server.views.pages import Pages, UnreachableError  # an HTTP client: only for 3D views
+        from tappet.server.views import pages  # an HTTP client: only for 3D views
 
         view = self._get(view_id)
-        if self._pages is None:
-            self._pages = Pages()
         try:
-            return await self._pages.fetch(view.server.get_port(), path, accept_encoding)
-        except UnreachableError as error:
+            return await pages.fetch(view.server.socket, path, accept_encoding)
+        except pages.UnreachableError as error:
             raise _unreachable(view_id, error) from error
 
     async def connect(self, view_id: str, socket: WebSocket, still_allowed: StillAllowed) -> None:
@@ -116,12 +112,11 @@ class ViewRegistry:
         view = self._get(view_id)
         offered = [websockets.Subprotocol(p) for p in socket.scope.get("subprotocols", [])]
         try:
-            upstream = await websockets.connect(
-                f"ws://127.0.0.1:{view.server.get_port()}/",
+            upstream = await websockets.unix_connect(
+                str(view.server.socket),
                 subprotocols=offered or None,
                 max_size=LARGEST_MESSAGE,
                 compression=None,
-                proxy=None,
             )
         except (OSError, websockets.WebSocketException) as error:
             raise _unreachable(view_id, error) from error
