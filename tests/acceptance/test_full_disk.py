@@ -36,6 +36,11 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
         yield plant
 
 
+def _data(plant: Station) -> Path:
+    """The data folder, as its process sees it."""
+    return Path(f"/proc/{plant.process.pid}/root{plant.log.parent}/data")
+
+
 def fill(folder: Path) -> Path:
     """Takes all room there is."""
     filler = folder / "filler"
@@ -69,9 +74,26 @@ def archive() -> bytes:
     return out.getvalue()
 
 
+def test_nobody_else_reads_what_the_server_keeps(plant: Station) -> None:
+    data = _data(plant)
+    names = {path.name: path for path in data.rglob("*") if path.is_file()}
+    secret = (
+        "tappet.sqlite",
+        "tappet.sqlite-wal",
+        "tappet.sqlite-shm",
+        "token",
+        "retain.live",
+        "boot.tappet",
+    )
+    kept = [names[name] for name in secret if name in names]
+    kept += list(data.rglob("*.package")) + [path for path in data.rglob("*") if path.is_dir()]
+    assert len(kept) > 8
+    assert [path for path in kept if path.stat().st_mode & 0o077] == []
+
+
 def test_without_room_everything_is_refused_and_the_machine_runs(plant: Station) -> None:
     boss = plant.admin
-    data = Path(f"/proc/{plant.process.pid}/root{plant.log.parent}/data")
+    data = _data(plant)
     before = boss.read_object("PLC_PRG")
     filler = fill(data)
     until_full(boss)

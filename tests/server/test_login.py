@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
+from itertools import count
 
 import pytest
 from fake_plc import FakePlc
@@ -124,33 +125,84 @@ def test_unknown_user_and_wrong_password_look_the_same(app: FastAPI, admin: Test
 
 def test_account_locks_with_growing_pause(app: FastAPI, admin: TestClient) -> None:
     client = browser(app)
-    for _ in range(lockout.ACCOUNT.free + 1):
+    for _ in range(lockout.PAIR.free + 1):
         assert _log_in(client, "wrong password").status_code == 401
     locked = _log_in(client)
     assert locked.status_code == 429, "even the right password waits"
     assert int(locked.headers["retry-after"]) >= 1
-    pauses = [lockout.ACCOUNT.pause(n).total_seconds() for n in range(1, 20)]
+    pauses = [lockout.PAIR.pause(n).total_seconds() for n in range(1, 20)]
     assert pauses[:7] == [0, 0, 0, 0, 1, 2, 4]
     assert max(pauses) == 300
 
 
-def test_address_locks_over_many_accounts(app: FastAPI, admin: TestClient) -> None:
+def test_a_guesser_locks_only_the_own_address_out(app: FastAPI, admin: TestClient) -> None:
+    guesser, owner = _from(app, "203.0.113.7"), _from(app, "203.0.113.8")
+    while _log_in(guesser, "wrong password").status_code == 401:
+        pass
+    assert _log_in(guesser).status_code == 429
+    assert _log_in(owner).status_code == 200
+
+
+def test_who_works_behind_the_same_address_is_not_locked_out(app: FastAPI, admin: TestClient) -> None:
+    """Of a plant with one public address; the administrator's session is from there."""
+    guesser = browser(app)
+    users = (f"user{n}" for n in count())
+    while _log_in(guesser, "x", next(users)).status_code == 401:
+        pass
+    assert _log_in(guesser, "x", "nobody").status_code == 429
+    assert _log_in(browser(app)).status_code == 200
+
+
+def test_guessing_from_many_addresses_is_slowed(app: FastAPI, admin: TestClient) -> None:
+    free = lockout.ACCOUNT.free
+    codes = [_log_in(_from(app, f"198.51.100.{n}"), "wrong password").status_code for n in range(1, free + 3)]
+    assert codes == [401] * (free + 1) + [429]
+    assert _log_in(browser(app)).status_code == 200, "where the owner works, nothing is slower"
+
+
+def test_a_network_of_ipv6_is_one_address() -> None:
+    assert lockout.network("2001:db8:1:2::1") == lockout.network("2001:db8:1:2:ffff::9")
+    assert lockout.network("2001:db8:1:3::1") != lockout.network("2001:db8:1:2::1")
+    assert lockout.network("::ffff:203.0.113.7") == lockout.network("203.0.113.7") == "203.0.113.7"
+    assert lockout.network("testclient") == "testclient"
+
+
+def test_the_console_gets_in_however_much_is_guessed(app: FastAPI, services: Services) -> None:
+    services.login.ensure_local_user()
+    token = services.one_time.issue(LOCAL_LINK, timedelta(minutes=10))
     client = browser(app)
+    link = "/api/v1/auth/link"
+    for n in range(60):
+        _log_in(client, "wrong password", f"user{n}")
+        assert client.get(link, params={"token": f"guess{n}"}).status_code == 403
+    assert _log_in(client, "wrong password").status_code == 429
+    assert client.get(link, params={"token": token}, follow_redirects=False).status_code == 303
+    refused = [e for e in client.get("/api/v1/audit").json() if e["action"] == "link-refused"]
+    assert [e["count"] for e in refused] == [60]
+
+
+def test_address_locks_over_many_accounts(app: FastAPI, admin: TestClient) -> None:
+    client = _from(app, "203.0.113.7")
     codes = [_log_in(client, "x", f"user{n}").status_code for n in range(lockout.ADDRESS.free + 2)]
     assert codes[-1] == 429
     assert codes[: lockout.ADDRESS.free] == [401] * lockout.ADDRESS.free
 
 
-def test_a_right_password_frees_the_account_only(app: FastAPI, admin: TestClient, services: Services) -> None:
-    client = browser(app)
+def _from(app: FastAPI, address: str) -> TestClient:
+    return bare(app, headers=PAGE, client=(address, 50000))
+
+
+def test_a_right_password_frees_the_pair_only(app: FastAPI, admin: TestClient, services: Services) -> None:
+    client = _from(app, "203.0.113.7")
     for _ in range(3):
         _log_in(client, "wrong password")
     assert _log_in(client).status_code == 200
     counts = services.database.write(
         lambda db: dict(db.execute(select(tables.login_failures.c.key, tables.login_failures.c.count)).all())
     )
-    assert lockout.account_key("admin") not in counts
-    assert counts[lockout.address_key("127.0.0.1")] == 3
+    pair, address, account = lockout.Attempt("admin", "203.0.113.7").keys()
+    assert pair not in counts
+    assert (counts[address], counts[account]) == (3, 3)
 
 
 def test_disabled_user_is_out_at_once(app: FastAPI, admin: TestClient) -> None:

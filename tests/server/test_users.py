@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import PASSWORD, browser, script
+from server_clients import PASSWORD, SOCKETS, browser, script
 from sqlalchemy import select
+from starlette.testclient import WebSocketTestSession
+from starlette.websockets import WebSocketDisconnect
 
 from tappet.server import tables
 from tappet.server.services import Services
+from tappet.server.sockets import SESSION_ENDED
 
 USERS = "/api/v1/users"
 
@@ -100,6 +104,106 @@ def test_token_never_exceeds_its_owner(app: FastAPI, admin: TestClient) -> None:
     assert program.get("/api/v1/auth/me").json()["role"] == "viewer"
     admin.patch(f"{USERS}/{bob['id']}", json={"disabled": True})
     assert program.get("/api/v1/auth/me").status_code == 401
+
+
+def test_tokens_end_with_the_password(app: FastAPI, admin: TestClient) -> None:
+    bob = _make(admin, "bob", "engineer")
+    client = browser(app)
+    client.post("/api/v1/auth/login", json={"username": "bob", "password": PASSWORD})
+    token = {"name": "t", "role": "viewer"}
+    first = script(app, client.post("/api/v1/auth/tokens", json=token).json()["secret"])
+    assert first.get("/api/v1/auth/me").status_code == 200
+    change = {"current": PASSWORD, "new": "quite another phrase"}
+    assert client.post("/api/v1/auth/password", json=change).status_code == 204
+    assert first.get("/api/v1/auth/me").status_code == 401
+    second = script(app, client.post("/api/v1/auth/tokens", json=token).json()["secret"])
+    admin.patch(f"{USERS}/{bob['id']}", json={"password": "a third good phrase"})
+    assert second.get("/api/v1/auth/me").status_code == 401
+
+
+def test_a_disabled_account_comes_back_without_its_tokens(app: FastAPI, admin: TestClient) -> None:
+    bob = _make(admin, "bob")
+    client = browser(app)
+    client.post("/api/v1/auth/login", json={"username": "bob", "password": PASSWORD})
+    secret = client.post("/api/v1/auth/tokens", json={"name": "t", "role": "viewer"}).json()["secret"]
+    for disabled in (True, False):
+        admin.patch(f"{USERS}/{bob['id']}", json={"disabled": disabled})
+    assert script(app, secret).get("/api/v1/auth/me").status_code == 401
+
+
+def test_an_administrator_signs_a_user_out(app: FastAPI, admin: TestClient) -> None:
+    bob = _make(admin, "bob")
+    client = browser(app)
+    client.post("/api/v1/auth/login", json={"username": "bob", "password": PASSWORD})
+    secret = client.post("/api/v1/auth/tokens", json={"name": "t", "role": "viewer"}).json()["secret"]
+    assert client.post(f"{USERS}/{bob['id']}/sign-out").status_code == 403
+    assert admin.post(f"{USERS}/{bob['id']}/sign-out").status_code == 204
+    for one in (client, script(app, secret)):
+        assert one.get("/api/v1/auth/me").status_code == 401
+    me = admin.get("/api/v1/auth/me").json()["id"]
+    assert admin.post(f"{USERS}/{me}/sign-out").status_code == 204
+    assert admin.get("/api/v1/auth/me").status_code == 200, "the session that asks for it stays"
+    assert admin.post(f"{USERS}/nobody/sign-out").status_code == 404
+    entry = admin.get("/api/v1/audit", params={"action": "user-signed-out"}).json()[-2]
+    assert (entry["subject"], entry["result"]) == ("bob", "ok")
+
+
+def _sign_out(admin: TestClient, client: TestClient, user_id: str) -> None:
+    admin.post(f"{USERS}/{user_id}/sign-out")
+
+
+def _log_out(admin: TestClient, client: TestClient, user_id: str) -> None:
+    client.post("/api/v1/auth/logout")
+
+
+def _reset_password(admin: TestClient, client: TestClient, user_id: str) -> None:
+    admin.patch(f"{USERS}/{user_id}", json={"password": "quite another phrase"})
+
+
+def _delete(admin: TestClient, client: TestClient, user_id: str) -> None:
+    admin.delete(f"{USERS}/{user_id}")
+
+
+def _end_of(socket: WebSocketTestSession) -> int:
+    """The code with which the server closes."""
+    try:
+        while True:
+            socket.receive_text()
+    except WebSocketDisconnect as closed:
+        return closed.code
+
+
+@pytest.mark.parametrize(
+    "path", ["online?runtime={runtime}", "events?project={project}", "lsp?project={project}"]
+)
+@pytest.mark.parametrize("end", [_sign_out, _log_out, _reset_password, _delete])
+def test_open_sockets_end_with_the_session(
+    app: FastAPI,
+    admin: TestClient,
+    runtime_id: str,
+    end: Callable[[TestClient, TestClient, str], None],
+    path: str,
+) -> None:
+    bob = _make(admin, "bob", "engineer")
+    client = browser(app)
+    client.post("/api/v1/auth/login", json={"username": "bob", "password": PASSWORD})
+    project = admin.post("/api/v1/projects", json={"name": "Press"}).json()["id"]
+    url = f"{SOCKETS}/api/v1/" + path.format(runtime=runtime_id, project=project)
+    online = f"{SOCKETS}/api/v1/online?runtime={runtime_id}"
+    with admin.websocket_connect(online) as other, client.websocket_connect(url) as socket:
+        end(admin, client, bob["id"])
+        assert _end_of(socket) == SESSION_ENDED
+        other.send_text("no order")
+        while other.receive_json()["op"] != "error":
+            pass
+
+
+def test_open_sockets_end_with_their_token(app: FastAPI, admin: TestClient, runtime_id: str) -> None:
+    made = admin.post("/api/v1/auth/tokens", json={"name": "ci", "role": "viewer"}).json()
+    url = f"{SOCKETS}/api/v1/online?runtime={runtime_id}"
+    with script(app, made["secret"]).websocket_connect(url) as socket:
+        admin.delete(f"/api/v1/auth/tokens/{made['id']}")
+        assert _end_of(socket) == SESSION_ENDED
 
 
 def test_revoked_token_is_nothing(app: FastAPI, admin: TestClient) -> None:

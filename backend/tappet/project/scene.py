@@ -46,8 +46,8 @@ class ColorChoice(Data):
 class Repetition(Data):
     """The element stands once for each index from `first` to `last`."""
 
-    first: int = Field(default=1, ge=-1000)
-    last: int = Field(le=1000)
+    first: int = Field(default=1, ge=-1000, le=1000)
+    last: int = Field(ge=-1000, le=1000)
 
     @model_validator(mode="after")
     def _upwards(self) -> Repetition:

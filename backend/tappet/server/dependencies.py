@@ -25,7 +25,7 @@ from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
-from tappet.server.sockets import StillAllowed
+from tappet.server.sockets import SessionWatch
 
 
 async def services_of(connection: HTTPConnection) -> Services:
@@ -56,8 +56,8 @@ async def optional_identity(connection: HTTPConnection) -> Identity | None:
     )
 
 
-async def session_check(connection: HTTPConnection) -> StillAllowed:
-    """For sockets, which outlive the check at their opening: whether the session or token still stands."""
+async def session_watch(connection: HTTPConnection) -> SessionWatch:
+    """For sockets, which outlive the check at their opening: when the session or token ends."""
     services: Services = connection.app.state.services
     credential = identities.credential_of(connection)
     address = identities.client_address(connection)
@@ -70,7 +70,7 @@ async def session_check(connection: HTTPConnection) -> StillAllowed:
         )
         return found is not None
 
-    return still_allowed
+    return SessionWatch(still_allowed, services.ended_sessions)
 
 
 async def identify(connection: HTTPConnection) -> Identity | None:
@@ -138,7 +138,7 @@ RuntimesDep = Annotated[RuntimeRegistry, Depends(runtimes_of)]
 CommissioningDep = Annotated[Commissioning, Depends(commissioning_of)]
 LinkDep = Annotated[RuntimeLink, Depends(link_of)]
 MaybeIdentity = Annotated[Identity | None, Depends(optional_identity)]
-SessionCheck = Annotated[StillAllowed, Depends(session_check)]
+SessionDep = Annotated[SessionWatch, Depends(session_watch)]
 Viewer = Annotated[Identity, Depends(require_viewer)]
 Operator = Annotated[Identity, Depends(require_operator)]
 Engineer = Annotated[Identity, Depends(require_engineer)]

@@ -26,6 +26,7 @@ from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.runtimes.local import LocalRuntime
 from tappet.server.runtimes.plc_client import Connect
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
+from tappet.server.sockets import EndedSessions
 from tappet.server.tables import runtimes as runtimes_table
 from tappet.server.unit_tests.service import TestRuns
 from tappet.server.views.service import ViewRegistry
@@ -47,6 +48,7 @@ class Services:
     runtimes: RuntimeRegistry
     commissioning: Commissioning
     views: ViewRegistry = field(default_factory=ViewRegistry)
+    ended_sessions: EndedSessions = field(default_factory=EndedSessions)
     test_runs: TestRuns = field(default_factory=TestRuns)
     metrics: Metrics = field(default_factory=Metrics)
     first_account_token: str | None = field(default=None, repr=False)
@@ -132,7 +134,7 @@ def _stored_runtimes(db: Connection) -> list[_StoredRuntime]:
 def open_services(settings: ServerSettings, connect: Connect) -> Services:
     """Opens the database, brings its schema up to date and puts the parts together. Blocks."""
     if settings.database_url is None:
-        settings.data_dir.mkdir(parents=True, exist_ok=True)
+        settings.data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
     store = Store(settings.url)
     database = Database(store.engine)
     passwords = Passwords(settings.password_cost)

@@ -13,6 +13,10 @@ Line = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f]*$")]
 """Text without control characters; NUL would not fit into every database."""
 
 
+Number = Annotated[int, Field(ge=0, le=(1 << 31) - 1)]
+"""A row, a revision or a place in a list: what every database takes as an integer."""
+
+
 class Request(BaseModel):
     """What a client sends."""
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import sqlite3
 import time
+from contextlib import suppress
 from pathlib import Path
 from threading import Lock
 from typing import TYPE_CHECKING, Any
@@ -59,11 +61,22 @@ def open_engine(url: str) -> Engine:
     if name not in ("sqlite", "postgresql"):
         raise StoreError(f"'{name}' is no database of the store; use sqlite:///file or postgresql://...")
     complete_for(name)
+    if name == "sqlite" and address.database not in (None, "", ":memory:"):
+        _keep_private(Path(address.database))
     engine = create_engine(address, json_serializer=_json, pool_pre_ping=name == "postgresql")
     if name == "sqlite":
         event.listen(engine, "connect", _prepare_sqlite)
         event.listen(engine, "begin", _begin_sqlite)
     return engine
+
+
+def _keep_private(file: Path) -> None:
+    """Lets nobody else read the database. SQLite gives its log files the mode that the database has."""
+    with suppress(OSError):  # what cannot be opened is reported by who opens it
+        os.close(os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600))
+        for one in (file, Path(f"{file}-wal"), Path(f"{file}-shm")):
+            if one.exists():
+                one.chmod(0o600)
 
 
 def reading(engine: Engine) -> Engine:

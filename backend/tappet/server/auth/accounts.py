@@ -117,13 +117,19 @@ def set_password(
     keep_session: str | None = None,
     end_sessions: bool = True,
 ) -> None:
-    """Stores a hash; other sessions of the user end."""
+    """Stores a hash; tokens and other sessions of the user end."""
     db.execute(update(users).where(users.c.id == user_id).values(password_hash=password_hash))
     if end_sessions:
-        others = sessions.c.user_id == user_id
-        if keep_session is not None:
-            others &= sessions.c.id != keep_session
-        db.execute(delete(sessions).where(others))
+        sign_out(db, user_id, keep_session=keep_session)
+
+
+def sign_out(db: Connection, user_id: str, *, keep_session: str | None = None) -> None:
+    """Ends the tokens and the sessions of a user, but for one session."""
+    others = sessions.c.user_id == user_id
+    if keep_session is not None:
+        others &= sessions.c.id != keep_session
+    db.execute(delete(sessions).where(others))
+    db.execute(delete(api_tokens).where(api_tokens.c.user_id == user_id))
 
 
 def change(db: Connection, account: Account, role: Role | None, disabled: bool | None) -> Account:
@@ -135,7 +141,9 @@ def change(db: Connection, account: Account, role: Role | None, disabled: bool |
     db.execute(
         update(users).where(users.c.id == account.id).values(role=new_role.value, disabled=new_disabled)
     )
-    if new_disabled or new_role is not account.role:
+    if new_disabled:
+        sign_out(db, account.id)
+    elif new_role is not account.role:
         db.execute(delete(sessions).where(sessions.c.user_id == account.id))
     return by_id(db, account.id)
 
@@ -143,8 +151,7 @@ def change(db: Connection, account: Account, role: Role | None, disabled: bool |
 def remove(db: Connection, account: Account) -> None:
     """Deletes the account with its sessions, tokens and settings."""
     _keep_an_admin(db, account)
-    db.execute(delete(sessions).where(sessions.c.user_id == account.id))
-    db.execute(delete(api_tokens).where(api_tokens.c.user_id == account.id))
+    sign_out(db, account.id)
     db.execute(delete(users).where(users.c.id == account.id))
 
 

@@ -1,14 +1,20 @@
-"""Slows password guessing: each failure after the first few doubles a pause, per account and per address."""
+"""Slows password guessing: each failure after the first few doubles a pause.
+
+Failures are counted for an account from one address, for an address, and, with more free ones, for an
+account. Secrets of 256 bits (login links, the token of the first account) are not guessed and not locked.
+"""
 
 from __future__ import annotations
 
 import hashlib
+import ipaddress
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
 from sqlalchemy import Connection, delete, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
+from tappet.server.auth.accounts import name_key
 from tappet.server.tables import login_failures
 
 FORGET_AFTER = timedelta(hours=24)
@@ -29,24 +35,51 @@ class Allowance:
         return min(timedelta(seconds=2 ** min(failures - self.free - 1, 20)), self.longest)
 
 
-ACCOUNT = Allowance(free=4, longest=timedelta(minutes=5))
-"""Short at most, because anybody can lock anybody's account."""
+PAIR = Allowance(free=4, longest=timedelta(minutes=5))
+"""Of an account from one address: others, and the owner from elsewhere, are not held up."""
 ADDRESS = Allowance(free=19, longest=timedelta(hours=1))
-"""More free ones, because a plant may sit behind one address."""
+"""Of all accounts from one address; more free ones, because a plant may sit behind it."""
+ACCOUNT = Allowance(free=99, longest=timedelta(minutes=1))
+"""Of an account from all addresses: holds up those who guess from many of them."""
+_ALLOWANCES = {"pair": PAIR, "address": ADDRESS, "account": ACCOUNT}
 
 
-def account_key(username: str) -> str:
-    """Key of an account, existing or not; hashed, so that typed passwords do not end in the table."""
-    return "account:" + hashlib.sha256(username.casefold().encode("utf-8", "replace")).hexdigest()
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """Somebody gives a password for an account, existing or not, from an address.
+
+    `known`: the account has a session from there. Only the failures of this pair count then, so that nobody
+    locks those out who work.
+    """
+
+    username: str
+    address: str
+    known: bool = False
+
+    def keys(self) -> list[str]:
+        """What counts; names are hashed, so that typed passwords do not end in the table."""
+        name, where = name_key(self.username), network(self.address)
+        pair = f"pair:{_hashed(f'{name} {where}')}"
+        return [pair] if self.known else [pair, f"address:{where}", f"account:{_hashed(name)}"]
 
 
-def address_key(address: str) -> str:
-    """Key of a client address."""
-    return "address:" + address[:64]
+def network(address: str) -> str:
+    """What one client can choose its addresses from: all of IPv4 but one, and 64 bits of IPv6."""
+    try:
+        found = ipaddress.ip_address(address)
+    except ValueError:
+        return address[:64]
+    if found.version == 4:
+        return str(found)
+    return str(found.ipv4_mapped or ipaddress.ip_network(f"{found}/64", strict=False))
+
+
+def _hashed(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()
 
 
 def _allowance(key: str) -> Allowance:
-    return ACCOUNT if key.startswith("account:") else ADDRESS
+    return _ALLOWANCES[key.partition(":")[0]]
 
 
 def wait(db: Connection, keys: list[str], now: datetime) -> timedelta:
@@ -76,11 +109,11 @@ def attempt(db: Connection, keys: list[str], now: datetime) -> timedelta:
 
 
 def succeeded(db: Connection, keys: list[str]) -> None:
-    """Takes the attempt back. The account starts again; the address keeps its earlier failures, or one known
-    account would free it."""
+    """Takes the attempt back. The pair starts again; address and account keep earlier failures, or one known
+    password would free them."""
     for key in keys:
         mine = login_failures.c.key == key
-        if _allowance(key) is ACCOUNT:
+        if _allowance(key) is PAIR:
             db.execute(delete(login_failures).where(mine))
         else:
             db.execute(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 
 from sqlalchemy import Connection
 
@@ -51,9 +51,7 @@ class Login:
 
     def by_password(self, username: str, password: str, client: Client) -> LoggedIn:
         """Blocks for one hash. Raises 401 and 429 problems; neither shows whether the account exists."""
-        keys = [lockout.account_key(username), lockout.address_key(client.address)]
-        self._attempt(keys, username, client)
-
+        keys = self._attempt(username, client)
         account = self._database.read(lambda db: accounts.by_name(db, username))
         matches = self._passwords.verify(account.password_hash if account else None, password)
         if account is None or account.disabled or not matches:
@@ -71,8 +69,6 @@ class Login:
 
     def create_first(self, token: str, username: str, password: str, client: Client) -> LoggedIn:
         """The first administrator. Raises 403 for a wrong or used token, 422 for an unfit password."""
-        keys = [lockout.address_key(client.address)]
-        self._attempt(keys, username, client)
         if not self._secrets.matches(FIRST_ACCOUNT, token):
             detail = "This is not the open token for the first account; the console shows it."
             problem = Problem(403, "wrong-token", detail)
@@ -86,7 +82,6 @@ class Login:
             if accounts.count(db):
                 raise Problem(409, "accounts-exist", "There already is an account; ask its administrator.")
             account = accounts.create(db, username, encoded, Role.ADMIN, datetime.now(UTC))
-            lockout.succeeded(db, keys)
             audit.write(db, username, client.address, Act("user-created", username, new_value="admin"))
             return self._start(db, account, client, "first account")
 
@@ -94,8 +89,6 @@ class Login:
 
     def by_link(self, token: str, client: Client) -> LoggedIn:
         """A login as the local user by a one-time link. Raises a 403 problem."""
-        keys = [lockout.address_key(client.address)]
-        self._attempt(keys, accounts.LOCAL_USER, client)
         if not self._secrets.redeem(LOCAL_LINK, token):
             detail = "This login link has been used or is too old. Press Enter on the server's console."
             problem = Problem(403, "link-expired", detail)
@@ -105,7 +98,6 @@ class Login:
             account = accounts.by_name(db, accounts.LOCAL_USER)
             if account is None or account.disabled:
                 raise Problem(403, "link-refused", "The local account has been disabled.")
-            lockout.succeeded(db, keys)
             return self._start(db, account, client, "local link")
 
         return self._database.write(start)
@@ -117,9 +109,7 @@ class Login:
 
         `begin` records the act, right before it is done.
         """
-        keys = [lockout.account_key(who.username), lockout.address_key(who.address)]
-        client = Client(who.address, "")
-        self._attempt(keys, who.username, client)
+        keys = self._attempt(who.username, Client(who.address, ""))
         account = self._database.read(lambda db: accounts.by_id(db, who.user_id))
         if account.has_password and not self._passwords.verify(account.password_hash, current):
             raise Problem(403, "wrong-password", "The current password is wrong.")
@@ -142,9 +132,18 @@ class Login:
 
         self._database.write(ensure)
 
-    def _attempt(self, keys: list[str], username: str, client: Client) -> None:
+    def _attempt(self, username: str, client: Client) -> list[str]:
+        """Counts an attempt; returns what it is counted under. Raises a 429 problem, audited."""
         now = datetime.now(UTC)
-        pause = self._database.write(lambda db: lockout.attempt(db, keys, now))
+
+        def count(db: Connection) -> tuple[list[str], timedelta]:
+            known = sessions.addresses(db, accounts.name_key(username))
+            here = lockout.network(client.address)
+            is_known = here in map(lockout.network, known)
+            keys = lockout.Attempt(username, client.address, is_known).keys()
+            return keys, lockout.attempt(db, keys, now)
+
+        keys, pause = self._database.write(count)
         if pause:
             seconds = max(1, round(pause.total_seconds()))
             problem = Problem(
@@ -155,6 +154,7 @@ class Login:
                 retry_after=seconds,
             )
             raise self._refused("login-locked-out", username, client, problem)
+        return keys
 
     def _refused(self, action: str, username: str, client: Client, problem: Problem) -> Problem:
         """The problem, with a row in the audit log that counts equal ones."""

@@ -64,6 +64,7 @@ def _me(db: Connection, who: Identity) -> Me:
 
 def _welcome(services: Services, response: Response, logged_in: LoggedIn, address: str) -> Me:
     sessions.set_cookie(response, logged_in.secret, services.settings)
+    services.ended_sessions.tell()  # the one that the browser had before
     account = logged_in.account
     who = Identity(account.id, account.username, account.role, address)
     return services.database.read(lambda db: _me(db, who))
@@ -135,14 +136,15 @@ def logout(
     act: Annotated[ActRecord, audited("logout", Role.VIEWER)],
     request: Request,
     response: Response,
-    database: DatabaseDep,
+    services: ServicesDep,
     settings: SettingsDep,
 ) -> None:
     """End this session; its open sockets are closed."""
     act.begin(Act("logout", act.who.username))
     secret = request.cookies.get(sessions.COOKIE)
     if secret and act.who.session_id:
-        database.write(lambda db: sessions.end(db, secret))
+        services.database.write(lambda db: sessions.end(db, secret))
+        services.ended_sessions.tell()
     sessions.clear_cookie(response, settings)
 
 
@@ -158,12 +160,13 @@ def change_password(
     body: PasswordChange,
     services: ServicesDep,
 ) -> None:
-    """Set a new password for oneself; all other sessions end."""
+    """Set a new password for oneself; all tokens and all other sessions end."""
     who = act.who
     if who.session_id is None:
         raise Problem(403, "session-needed", "A token cannot change a password; log in.")
     accounts.check_password(body.new, who.username)
     services.login.change_own_password(who, body.current, body.new, act.begin)
+    services.ended_sessions.tell()
 
 
 @router.get("/tokens")
@@ -197,8 +200,10 @@ def create_token(
 def revoke_token(
     act: Annotated[ActRecord, audited("token-revoked", Role.VIEWER)],
     token_id: str,
-    database: DatabaseDep,
+    services: ServicesDep,
 ) -> None:
     """End one of one's own tokens at once."""
     act.begin(Act("token-revoked", token_id))
-    act.resulted(subject=database.write(lambda db: tokens.revoke(db, act.who.user_id, token_id)))
+    name = services.database.write(lambda db: tokens.revoke(db, act.who.user_id, token_id))
+    act.resulted(subject=name)
+    services.ended_sessions.tell()

@@ -72,6 +72,12 @@ def find(db: Connection, secret: str, settings: ServerSettings, now: datetime) -
     return Session(session_id, user_id, username, Role(role), now - seen > SEEN_STEP)
 
 
+def addresses(db: Connection, username_key: str) -> list[str]:
+    """Where the user has sessions from."""
+    query = select(sessions.c.address).join(users, users.c.id == sessions.c.user_id)
+    return list(db.scalars(query.where(users.c.username_key == username_key).distinct()))
+
+
 def touch(db: Connection, session_id: str, now: datetime) -> None:
     """Writes down that the session was used."""
     db.execute(update(sessions).where(sessions.c.id == session_id).values(seen_at=now))

@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, WebSocket
 from starlette.concurrency import run_in_threadpool
 
-from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
+from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
 
 router = APIRouter(tags=["projects"])
 
@@ -17,9 +17,9 @@ async def events(
     socket: WebSocket,
     who: Viewer,
     services: ServicesDep,
-    still_allowed: SessionCheck,
+    session: SessionDep,
     project: Annotated[str, Query(description="Id of the project.")],
 ) -> None:
     """Changes of objects and who looks at which; `shapes` has the messages."""
     await run_in_threadpool(services.store.project, project)
-    await services.events.serve(socket, project, who.username, still_allowed)
+    await services.events.serve(socket, project, who.username, session)

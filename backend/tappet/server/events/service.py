@@ -13,7 +13,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
-import anyio
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket
 
@@ -57,7 +56,7 @@ class ProjectEvents:
         socket: WebSocket,
         project_id: str,
         username: str,
-        still_allowed: sockets.StillAllowed,
+        session: sockets.SessionWatch,
     ) -> None:
         """Serve one socket until it closes. Never raises for what the browser sends or how it leaves."""
         await socket.accept()
@@ -68,7 +67,8 @@ class ProjectEvents:
             await sockets.until_one_ends(
                 partial(self._read, socket, project_id, member),
                 partial(_send, socket, member),
-                partial(_watch, socket, member, still_allowed),
+                partial(_close_overrun, socket, member),
+                partial(sockets.close_with_session, socket, session),
             )
         finally:
             self._members[project_id].remove(member)
@@ -123,14 +123,7 @@ async def _send(socket: WebSocket, member: _Member) -> None:
         await socket.send_text(await member.queue.get())
 
 
-async def _watch(socket: WebSocket, member: _Member, still_allowed: sockets.StillAllowed) -> None:
-    """Close the socket when it cannot follow, or when its session ends."""
-    while True:
-        with anyio.move_on_after(sockets.CHECK_EVERY_S):
-            await member.overrun.wait()
-        if member.overrun.is_set():
-            await socket.close(TOO_SLOW, "too many changes to follow; read the project again")
-            return
-        if not await still_allowed():
-            await socket.close(sockets.SESSION_ENDED, "The session has ended.")
-            return
+async def _close_overrun(socket: WebSocket, member: _Member) -> None:
+    """Close the socket when it cannot follow."""
+    await member.overrun.wait()
+    await socket.close(TOO_SLOW, "too many changes to follow; read the project again")

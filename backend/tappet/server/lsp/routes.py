@@ -10,7 +10,7 @@ from starlette.concurrency import run_in_threadpool
 
 from tappet.project.store.records import UnknownProjectError
 from tappet.server.analysis.project import PROJECT_GONE
-from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
+from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
 from tappet.server.sockets import close_with_session, until_one_ends
 
 router = APIRouter(tags=["language"])
@@ -23,7 +23,7 @@ async def language_server(
     socket: WebSocket,
     who: Viewer,
     services: ServicesDep,
-    still_allowed: SessionCheck,
+    session: SessionDep,
     project: Annotated[str, Query(description="Id of the project.")],
 ) -> None:
     """The Language Server Protocol on the objects of a project, documents `tappet:/PROJECT/OBJECT/PART`."""
@@ -53,6 +53,6 @@ async def language_server(
         await socket.close(code, reason)
 
     try:
-        await until_one_ends(read, write, partial(close_with_session, socket, still_allowed))
+        await until_one_ends(read, write, partial(close_with_session, socket, session))
     finally:
         services.analysis.detach(project, client)

@@ -19,6 +19,7 @@ from tappet.server.objects.shapes import (
 from tappet.server.problems import Problem
 from tappet.server.projects.replies import object_revision
 from tappet.server.projects.shapes import RevertTarget, Revision
+from tappet.server.shapes import Number
 
 router = APIRouter(prefix="/projects/{project_id}/objects", tags=["objects"])
 
@@ -149,7 +150,7 @@ def list_object_revisions(project_id: str, object_id: str, who: Viewer, store: S
 
 @router.get("/{object_id}/revisions/{revision}")
 def read_object_revision(
-    project_id: str, object_id: str, revision: int, who: Viewer, store: StoreDep
+    project_id: str, object_id: str, revision: Number, who: Viewer, store: StoreDep
 ) -> ObjectDetail:
     """An object as it was; its index is not kept and 0."""
     return object_detail(store.object_at(project_id, object_id, revision))

@@ -13,7 +13,7 @@ from pydantic_core import CoreSchema
 from tappet.project.data import UnknownData
 from tappet.project.kind_registry import kinds
 from tappet.server.projects.shapes import Name
-from tappet.server.shapes import Reply, Request
+from tappet.server.shapes import Number, Reply, Request
 
 
 class ObjectSummary(Reply):
@@ -75,13 +75,13 @@ class NewObject(Request):
     subkind: str | None = Field(default=None, description="Which template, such as `function_block`.")
     language: str | None = Field(default=None, description="Language of the body, see /languages.")
     data: dict[str, Any] | None = None
-    index: int | None = Field(default=None, ge=0, description="Place among the siblings; null is the end.")
+    index: Number | None = Field(default=None, description="Place among the siblings; null is the end.")
 
 
 class ObjectSave(Request):
     """New data on top of the revision that was edited."""
 
-    base_revision: int
+    base_revision: Number
     data: dict[str, Any]
     comment: str = Field(default="", max_length=2000)
     autosave: bool = Field(
@@ -94,7 +94,7 @@ class ObjectContent(Request):
     """New data of one object on top of the revision that was edited."""
 
     object_id: str
-    base_revision: int
+    base_revision: Number
     data: dict[str, Any]
 
 
@@ -108,18 +108,20 @@ class ObjectsSave(Request):
 class ObjectMove(Request):
     """A new name or place; what is left out stays. A new parent without index: the end of its children."""
 
-    base_revision: int | None = Field(default=None, description="Refuse if the content is newer than this.")
+    base_revision: Number | None = Field(
+        default=None, description="Refuse if the content is newer than this."
+    )
     name: Name | None = None
     parent_id: str | None = Field(default=None, description="Null: the root of the view (when sent at all).")
     excluded: bool | None = Field(default=None, description="From the build.")
-    index: int | None = Field(default=None, ge=0)
+    index: Number | None = None
 
 
 class CopyTarget(Request):
     """Where a copy goes."""
 
     parent_id: str | None
-    index: int | None = Field(default=None, ge=0, description="Place among the siblings; null is the end.")
+    index: Number | None = Field(default=None, description="Place among the siblings; null is the end.")
     source_project_id: str | None = Field(
         default=None, description="The project that the object is in, when it is another one."
     )

@@ -23,7 +23,7 @@ from tappet.server.online.shapes import (
     Subscribed,
 )
 from tappet.server.runtimes.links import Change, RuntimeLink
-from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
+from tappet.server.sockets import SessionWatch, close_with_session, until_one_ends
 
 MOST_SUBSCRIPTIONS = 100
 """Of one socket."""
@@ -44,12 +44,12 @@ class OnlineChannel:
         socket: WebSocket,
         link: RuntimeLink,
         pool: SamplerPool,
-        still_allowed: StillAllowed,
+        session: SessionWatch,
     ) -> None:
         self._socket = socket
         self._link = link
         self._pool = pool
-        self._still_allowed = still_allowed
+        self._session = session
         self._subscriptions: dict[int, _Subscription] = {}
         self.outbox = Outbox()
 
@@ -61,7 +61,7 @@ class OnlineChannel:
         ignore = self._link.listen(self._on_change)
         try:
             await until_one_ends(
-                self._read, self._send, partial(close_with_session, self._socket, self._still_allowed)
+                self._read, self._send, partial(close_with_session, self._socket, self._session)
             )
         finally:
             ignore()

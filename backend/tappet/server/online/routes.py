@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, WebSocket
 
-from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
+from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
 from tappet.server.online.channel import OnlineChannel
 
 router = APIRouter(tags=["online"])
@@ -17,12 +17,12 @@ async def online(
     socket: WebSocket,
     who: Viewer,
     services: ServicesDep,
-    still_allowed: SessionCheck,
+    session: SessionDep,
     runtime: Annotated[str, Query(description="Id of the runtime.")],
 ) -> None:
     """Live values of a runtime; `shapes` has the messages."""
     link = services.runtimes.get(runtime)
-    channel = OnlineChannel(socket, link, services.samplers(link), still_allowed)
+    channel = OnlineChannel(socket, link, services.samplers(link), session)
     services.metrics.online_channels.add(channel)
     try:
         await channel.run()

@@ -26,6 +26,7 @@ from tappet.server.projects.shapes import (
     RevertTarget,
     Revision,
 )
+from tappet.server.shapes import Number
 
 router = APIRouter(tags=["projects"])
 
@@ -138,7 +139,7 @@ def export_project(
     project_id: str,
     who: Viewer,
     store: StoreDep,
-    revision: Annotated[int | None, Query(description="As it was after this change; null: now.")] = None,
+    revision: Annotated[Number | None, Query(description="As it was after this change; null: now.")] = None,
     objects: Annotated[
         list[str],
         Query(alias="object", description="Only these objects with all below them; none: everything."),
@@ -167,7 +168,7 @@ def list_project_revisions(
     who: Viewer,
     store: StoreDep,
     limit: Annotated[int, Query(ge=1, le=1000)] = 200,
-    before: Annotated[int | None, Query(description="Only changes older than this revision.")] = None,
+    before: Annotated[Number | None, Query(description="Only changes older than this revision.")] = None,
 ) -> list[Revision]:
     """The changes of a project, newest first."""
     return [

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from tappet.server.shapes import Reply, Request
+from tappet.server.shapes import Number, Reply, Request
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 
@@ -61,7 +61,7 @@ class Revision(Reply):
 class RevertTarget(Request):
     """The revision to go back to, as a new revision."""
 
-    revision: int
+    revision: Number
     comment: str = Field(default="", max_length=2000)
 
 

@@ -17,6 +17,7 @@ from tappet.server.auth.accounts import Account
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import Admin, DatabaseDep, Engineer, ServicesDep
 from tappet.server.problems import Problem
+from tappet.server.shapes import Number
 from tappet.server.users.shapes import AuditEntry, NewUser, User, UserChange
 
 router = APIRouter(tags=["users"])
@@ -75,23 +76,38 @@ def change_user(
     if wanted != account or not acts:
         acts.append(Act("user-changed", account.username, _summary(account), _summary(wanted)))
     act.begin(*acts)
-    return services.database.write(change)
+    changed = services.database.write(change)
+    services.ended_sessions.tell()
+    return changed
+
+
+@router.post("/users/{user_id}/sign-out", status_code=204)
+def sign_out_user(
+    act: Annotated[ActRecord, audited("user-signed-out", Role.ADMIN)], user_id: str, services: ServicesDep
+) -> None:
+    """End all sessions and tokens of a user, their open sockets too; of oneself, all but this session."""
+    account = services.database.read(lambda db: accounts.by_id(db, user_id))
+    act.begin(Act("user-signed-out", account.username))
+    keep = act.who.session_id
+    services.database.write(lambda db: accounts.sign_out(db, user_id, keep_session=keep))
+    services.ended_sessions.tell()
 
 
 @router.delete("/users/{user_id}", status_code=204)
 def delete_user(
     act: Annotated[ActRecord, audited("user-deleted", Role.ADMIN)],
     user_id: str,
-    database: DatabaseDep,
+    services: ServicesDep,
 ) -> None:
     """Delete an account with its sessions, tokens and settings; the audit log keeps its name."""
     if user_id == act.who.user_id:
         raise Problem(
             409, "own-account", "Nobody deletes the account they are using; another administrator can."
         )
-    account = database.read(lambda db: accounts.by_id(db, user_id))
+    account = services.database.read(lambda db: accounts.by_id(db, user_id))
     act.begin(Act("user-deleted", account.username, old_value=account.role.value))
-    database.write(lambda db: accounts.remove(db, accounts.by_id(db, user_id)))
+    services.database.write(lambda db: accounts.remove(db, accounts.by_id(db, user_id)))
+    services.ended_sessions.tell()
 
 
 @router.get("/audit")
@@ -99,7 +115,9 @@ def read_audit(
     who: Engineer,
     database: DatabaseDep,
     limit: Annotated[int, Query(ge=1, le=1000)] = 100,
-    before: Annotated[int | None, Query(description="Only entries older than the one with this id.")] = None,
+    before: Annotated[
+        Number | None, Query(description="Only entries older than the one with this id.")
+    ] = None,
     action: Annotated[str | None, Query(max_length=40)] = None,
 ) -> list[AuditEntry]:
     """What was done by whom, newest first."""

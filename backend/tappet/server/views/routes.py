@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response, WebSocket
 from starlette.responses import RedirectResponse
 
-from tappet.server.dependencies import ServicesDep, SessionCheck, Viewer
+from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
 from tappet.server.views.service import VIEW_POLICY
 
 router = APIRouter(prefix="/views", include_in_schema=False)
@@ -30,7 +30,7 @@ async def view_page(
 @router.websocket("/{view_id}")
 @router.websocket("/{view_id}/")
 async def view_socket(
-    view_id: str, who: Viewer, socket: WebSocket, services: ServicesDep, still_allowed: SessionCheck
+    view_id: str, who: Viewer, socket: WebSocket, services: ServicesDep, session: SessionDep
 ) -> None:
     """The scene of a view and what its user does in it."""
-    await services.views.connect(view_id, socket, still_allowed)
+    await services.views.connect(view_id, socket, session)

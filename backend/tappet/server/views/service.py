@@ -19,7 +19,7 @@ from starlette.websockets import WebSocket
 from websockets.asyncio.client import ClientConnection
 
 from tappet.server.problems import Problem, not_found
-from tappet.server.sockets import StillAllowed, close_with_session, until_one_ends
+from tappet.server.sockets import SessionWatch, close_with_session, until_one_ends
 
 if TYPE_CHECKING:
     from tappet.server.views.pages import File
@@ -107,7 +107,7 @@ class ViewRegistry:
         except pages.UnreachableError as error:
             raise _unreachable(view_id, error) from error
 
-    async def connect(self, view_id: str, socket: WebSocket, still_allowed: StillAllowed) -> None:
+    async def connect(self, view_id: str, socket: WebSocket, session: SessionWatch) -> None:
         """Passes messages between a browser and the view until one of them leaves."""
         view = self._get(view_id)
         offered = [websockets.Subprotocol(p) for p in socket.scope.get("subprotocols", [])]
@@ -124,7 +124,7 @@ class ViewRegistry:
         try:
             async with upstream:
                 await socket.accept(upstream.subprotocol)
-                await _pump(socket, upstream, still_allowed)
+                await _pump(socket, upstream, session)
         finally:
             view.clients -= 1
 
@@ -139,7 +139,7 @@ def _unreachable(view_id: str, error: Exception) -> Problem:
     return Problem(502, "view-unreachable", f"The view '{view_id}' does not answer: {error}.")
 
 
-async def _pump(socket: WebSocket, upstream: ClientConnection, still_allowed: StillAllowed) -> None:
+async def _pump(socket: WebSocket, upstream: ClientConnection, session: SessionWatch) -> None:
     async def to_view() -> None:
         while True:
             message = await socket.receive()
@@ -155,6 +155,6 @@ async def _pump(socket: WebSocket, upstream: ClientConnection, still_allowed: St
     await until_one_ends(
         to_view,
         to_browser,
-        partial(close_with_session, socket, still_allowed),
+        partial(close_with_session, socket, session),
         gone=(websockets.ConnectionClosed, RuntimeError),
     )

@@ -1,5 +1,5 @@
 import { useQuery } from '@tanstack/react-query';
-import { Trash2, UserPlus } from 'lucide-react';
+import { LogOut, Trash2, UserPlus } from 'lucide-react';
 import { useMemo, useState } from 'react';
 import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
@@ -47,6 +47,15 @@ export function UsersDialog({ close }: { close: () => void }) {
         await queryClient.invalidateQueries({ queryKey: KEY });
       });
     };
+    const signOut = async (account: Account) => {
+      const sure = await confirm({
+        title: t('users.signOutTitle', { name: account.username }),
+        text: t('users.signOutText'),
+        action: t('users.signOutAction'),
+        danger: true,
+      });
+      if (sure) await guard(() => api.post('/api/v1/users/{user_id}/sign-out', at(account)));
+    };
     return [
       {
         id: 'name',
@@ -78,6 +87,19 @@ export function UsersDialog({ close }: { close: () => void }) {
         sort: (account) => account.last_login_at ?? '',
         cell: (account) => (
           <span className="digits">{account.last_login_at ? secondText(account.last_login_at) : t('users.never')}</span>
+        ),
+      },
+      {
+        id: 'signOut',
+        title: '',
+        width: 40,
+        cell: (account) => (
+          <IconButton
+            small
+            icon={LogOut}
+            label={t('users.signOut', { name: account.username })}
+            onClick={() => void signOut(account)}
+          />
         ),
       },
       {
