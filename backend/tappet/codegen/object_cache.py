@@ -66,7 +66,8 @@ class ObjectCache:
             self.trim()
         folder = self.folder / name[:2]
         with suppress(OSError):
-            folder.mkdir(parents=True, exist_ok=True)
+            self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            folder.mkdir(exist_ok=True, mode=0o700)
             replace_file(folder / name, hashlib.blake2b(data, digest_size=16).digest() + data, mode=PRIVATE)
 
     def forget(self, keep: Iterable[str]) -> None:
