@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import json
+import unicodedata
 from collections.abc import Callable
 
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
+from hypothesis import given
+from hypothesis import strategies as st
 from server_clients import PASSWORD, SOCKETS, browser, script
 from sqlalchemy import select
 from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
 
 from tappet.server import tables
+from tappet.server.auth.confusables import skeleton
 from tappet.server.services import Services
 from tappet.server.sockets import SESSION_ENDED
 
@@ -45,6 +49,35 @@ def test_names_differ_by_more_than_case(admin: TestClient) -> None:
     answer = admin.post(USERS, json=body)
     assert answer.status_code == 409
     assert answer.json()["type"] == "urn:tappet:problem:name-taken"
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["аdmin", "αdmin", "adm\u200din", "ａｄｍｉｎ", "ADMIN", "аԁміп", "admín", "ⓐdmin"],
+)
+def test_names_that_look_like_another_are_refused(admin: TestClient, name: str) -> None:
+    answer = admin.post(USERS, json={"username": name, "password": PASSWORD, "role": "viewer"})
+    assert answer.status_code in (409, 422), answer.text
+    assert [user["username"] for user in admin.get(USERS).json()] == ["admin"]
+
+
+@pytest.mark.parametrize(
+    ("one", "other"), [("Ian", "lan"), ("root1", "rootl"), ("b0b", "bob"), ("Ольга", "Oльгa")]
+)
+def test_digits_and_letters_that_look_alike(admin: TestClient, one: str, other: str) -> None:
+    _make(admin, one)
+    answer = admin.post(USERS, json={"username": other, "password": PASSWORD, "role": "viewer"})
+    assert (answer.status_code, one in answer.json()["detail"]) == (409, True)
+
+
+@given(st.text(max_size=20))
+def test_equal_names_have_equal_looks(name: str) -> None:
+    assert skeleton(name) == skeleton(unicodedata.normalize("NFC", name)) == skeleton(skeleton(name))
+
+
+def test_different_names_look_different() -> None:
+    names = ["ann", "anna", "bob", "王工", "李工", "Ольга", "Игорь", "Jörg", "Marie", "mario", "op1", "op2"]
+    assert len({skeleton(name) for name in names}) == len(names)
 
 
 def test_chinese_names_are_names(admin: TestClient) -> None:
