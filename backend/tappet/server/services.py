@@ -21,6 +21,7 @@ from tappet.server.builds.packages import PackageStore
 from tappet.server.database import Database
 from tappet.server.events.service import ProjectEvents
 from tappet.server.metrics.service import Metrics
+from tappet.server.online.quota import UserQuotas
 from tappet.server.online.sampler import SamplerPool
 from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.runtimes.local import LocalRuntime
@@ -49,6 +50,7 @@ class Services:
     commissioning: Commissioning
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
+    quotas: UserQuotas = field(default_factory=UserQuotas)
     test_runs: TestRuns = field(default_factory=TestRuns)
     metrics: Metrics = field(default_factory=Metrics)
     first_account_token: str | None = field(default=None, repr=False)

@@ -12,12 +12,14 @@ from starlette.websockets import WebSocket
 from tappet.runtime.recorder import Frame
 from tappet.server.online.layout import HEADER, lay_out
 from tappet.server.online.outbox import Outbox
+from tappet.server.online.quota import Share, UserQuota
 from tappet.server.online.sampler import SamplerPool, Sink
 from tappet.server.online.shapes import (
     ClientMessage,
     ForcesChanged,
     ImagePlace,
     OnlineError,
+    Paced,
     StateChanged,
     Subscribe,
     Subscribed,
@@ -33,6 +35,7 @@ _MESSAGE: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
 @dataclass(slots=True)
 class _Subscription:
     order: Subscribe
+    share: Share
     detach: Callable[[], None] = field(default=lambda: None)
 
 
@@ -45,11 +48,13 @@ class OnlineChannel:
         link: RuntimeLink,
         pool: SamplerPool,
         session: SessionWatch,
+        quota: UserQuota,
     ) -> None:
         self._socket = socket
         self._link = link
         self._pool = pool
         self._session = session
+        self._quota = quota
         self._subscriptions: dict[int, _Subscription] = {}
         self.outbox = Outbox()
 
@@ -67,6 +72,7 @@ class OnlineChannel:
             ignore()
             for subscription in self._subscriptions.values():
                 subscription.detach()
+                self._quota.leave(subscription.share)
 
     # -- in ------------------------------------------------------------------------------------------
 
@@ -80,9 +86,9 @@ class OnlineChannel:
             if text is None:
                 self._error(None, "Messages to this channel are JSON text, not binary.")
             else:
-                self._serve(text)
+                await self._serve(text)
 
-    def _serve(self, text: str) -> None:
+    async def _serve(self, text: str) -> None:
         try:
             order = _MESSAGE.validate_json(text)
         except ValidationError as error:
@@ -91,6 +97,7 @@ class OnlineChannel:
             self._error(None, f"{place}: {first['msg']}" if place else first["msg"])
             return
         if isinstance(order, Subscribe):
+            await self._quota.pay(1 + len(order.expressions))
             self._subscribe(order)
         else:
             self._unsubscribe(order.id)
@@ -102,13 +109,26 @@ class OnlineChannel:
             return
         try:
             layout = lay_out(self._link.symbols, order.expressions)
+            share = Share(HEADER.size + layout.size, order.interval_ms, len(order.expressions))
+            interval_ms = self._quota.enter(share)
         except ValueError as error:
             self._error(order.id, str(error))
             return
-        self._enqueue(Subscribed(id=order.id, items=list(layout.items), renewed=renewed))
-        subscription = self._subscriptions[order.id] = _Subscription(order)
-        if layout.places and self._link.connected:
-            subscription.detach = self._pool.attach(layout.places, order.interval_ms, self._sink(order.id))
+        items = list(layout.items)
+        self._enqueue(Subscribed(id=order.id, items=items, interval_ms=interval_ms, renewed=renewed))
+        subscription = self._subscriptions[order.id] = _Subscription(order, share)
+
+        def attach(interval_ms: int) -> None:
+            if layout.places and self._link.connected:
+                subscription.detach()
+                subscription.detach = self._pool.attach(layout.places, interval_ms, self._sink(order.id))
+
+        def paced(interval_ms: int) -> None:
+            self._enqueue(Paced(id=order.id, interval_ms=interval_ms))
+            attach(interval_ms)
+
+        attach(interval_ms)
+        share.paced = paced
 
     def _sink(self, subscription: int) -> Sink:
         def sink(frame: Frame) -> None:
@@ -121,6 +141,7 @@ class OnlineChannel:
         known = self._subscriptions.pop(subscription, None)
         if known is not None:
             known.detach()
+            self._quota.leave(known.share)
         self.outbox.drop_frame(subscription)
 
     # -- out -----------------------------------------------------------------------------------------

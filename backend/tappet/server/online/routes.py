@@ -22,9 +22,13 @@ async def online(
 ) -> None:
     """Live values of a runtime; `shapes` has the messages."""
     link = services.runtimes.get(runtime)
-    channel = OnlineChannel(socket, link, services.samplers(link), session)
-    services.metrics.online_channels.add(channel)
+    quota = services.quotas.open(who.user_id)
     try:
-        await channel.run()
+        channel = OnlineChannel(socket, link, services.samplers(link), session, quota)
+        services.metrics.online_channels.add(channel)
+        try:
+            await channel.run()
+        finally:
+            services.metrics.channel_closed(channel)
     finally:
-        services.metrics.channel_closed(channel)
+        services.quotas.close(who.user_id)

@@ -72,7 +72,16 @@ class Subscribed(Reply):
     op: Literal["subscribed"] = "subscribed"
     id: int
     items: list[Item]
+    interval_ms: int = Field(description="The one asked for, or a longer one: see `paced`.")
     renewed: bool = Field(default=False, description="Set up again after a lost connection or a download.")
+
+
+class Paced(Reply):
+    """A subscription has another interval now, because its user watches more, or less, than before."""
+
+    op: Literal["paced"] = "paced"
+    id: int
+    interval_ms: int
 
 
 class StateChanged(RuntimeState):
@@ -97,4 +106,6 @@ class OnlineError(Reply):
     detail: str
 
 
-ServerMessage = Annotated[Subscribed | StateChanged | ForcesChanged | OnlineError, Field(discriminator="op")]
+ServerMessage = Annotated[
+    Subscribed | Paced | StateChanged | ForcesChanged | OnlineError, Field(discriminator="op")
+]
