@@ -3398,7 +3398,22 @@ export interface components {
              */
             op: "error";
         };
-        OnlineServerMessage: components["schemas"]["Subscribed"] | components["schemas"]["StateChanged"] | components["schemas"]["ForcesChanged"] | components["schemas"]["OnlineError"];
+        OnlineServerMessage: components["schemas"]["Subscribed"] | components["schemas"]["Paced"] | components["schemas"]["StateChanged"] | components["schemas"]["ForcesChanged"] | components["schemas"]["OnlineError"];
+        /**
+         * Paced
+         * @description A subscription has another interval now, because its user watches more, or less, than before.
+         */
+        Paced: {
+            /** Id */
+            id: number;
+            /** Interval Ms */
+            interval_ms: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            op: "paced";
+        };
         /**
          * ParameterValue
          * @description A value that a library asks for in one that it needs.
@@ -4210,6 +4225,11 @@ export interface components {
         Subscribed: {
             /** Id */
             id: number;
+            /**
+             * Interval Ms
+             * @description The one asked for, or a longer one: see `paced`.
+             */
+            interval_ms: number;
             /** Items */
             items: components["schemas"]["Item"][];
             /**

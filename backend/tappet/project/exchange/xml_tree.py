@@ -16,6 +16,7 @@ from xml.sax.saxutils import escape
 from tappet.project.exchange.decoding import decode_xml
 from tappet.project.exchange.report import ExchangeError
 
+_NO_MEMORY = expat.errors.codes[expat.errors.XML_ERROR_NO_MEMORY]
 MAX_DEPTH = 200
 MAX_NODES = 4_000_000
 XHTML = "http://www.w3.org/1999/xhtml"
@@ -129,6 +130,8 @@ class _Reader:
         try:
             self._parser.Parse(text.encode("utf-8", errors="replace"), True)
         except expat.ExpatError as error:
+            if error.code == _NO_MEMORY:
+                raise MemoryError from error
             raise ExchangeError(
                 self.source, f"is no sound XML ({expat.ErrorString(error.code)})", error.lineno
             ) from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Form, Query, UploadFile
@@ -9,7 +10,6 @@ from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
 from tappet.project.exchange.parts import part_of, st_files
-from tappet.project.exchange.report import ImportReport
 from tappet.project.folder.archive import zip_files
 from tappet.project.model import Project
 from tappet.project.project_file import PROJECT_FILE
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from tappet.server.exchange.uploads import Upload
 
 router = APIRouter(tags=["projects"])
+MOST_ATTEMPTS = 5
 _KEYS = TypeAdapter(list[str])
 
 
@@ -101,16 +102,20 @@ def import_files_into_project(
     Without a place, the first application takes the objects.
     """
     upload, keys = _upload(files), _keys(chosen)
-
-    def grown(project: Project) -> tuple[Project, ImportReport]:
-        imported = upload.imported(project, place=place, chosen=keys)
-        return imported.project, imported.report
-
-    info = store.project(project_id)
+    info, project = store.snapshot(project_id)
     act.begin(Act("files-imported", info.name, new_value=_named(files), project_id=project_id))
-    report = store.edit(project_id, act.who.username, "import", grown, _named(files))
-    info = store.project(project_id)
-    return ImportResult(project=project_summary(info), report=report)
+    for _ in range(MOST_ATTEMPTS):  # reading takes its time, and must not hold up who writes
+        imported = upload.imported(project, place=place, chosen=keys)
+        grown = partial(_unless_changed, project, imported.project)
+        if store.edit(project_id, act.who.username, "import", grown, _named(files)):
+            return ImportResult(project=project_summary(store.project(project_id)), report=imported.report)
+        project = store.load(project_id)
+    raise Problem(409, "project-busy", f"'{info.name}' is changed by others all the time; try again.")
+
+
+def _unless_changed(before: Project, wanted: Project, now: Project) -> tuple[Project, bool]:
+    """What shall be, if the project is still what `wanted` was made from."""
+    return (wanted, True) if now.objects == before.objects else (now, False)
 
 
 def _upload(files: list[UploadFile]) -> Upload:

@@ -6,12 +6,12 @@ from collections.abc import Collection
 
 from fastapi import UploadFile
 
-from tappet.libraries.missing import report_missing
 from tappet.project.errors import FolderFormatError
-from tappet.project.exchange.importing import ARCHIVES, TAKEN, Imported, import_files, importable
-from tappet.project.exchange.placing import Place
+from tappet.project.exchange.importing import ARCHIVES, TAKEN, Imported, importable
 from tappet.project.folder.archive import DEFAULT_LIMITS, unpack
 from tappet.project.model import Project
+from tappet.server.exchange.import_order import ImportOrder
+from tappet.server.exchange.import_process import run_import
 
 ENDINGS = (*TAKEN, *ARCHIVES)
 """Of the names of files and archives that an import takes, in lower case."""
@@ -31,14 +31,11 @@ class Upload:
         name: str = "",
         chosen: Collection[str] | None = None,
     ) -> Imported:
-        """The project with the files in it, without one a new project of this name.
+        """The project with the files in it, without one a new project of this name; blocks.
 
         `place` is the id of an application or folder, or `pous`. The report names libraries that are missing.
         """
-        where = None if place is None else Place(None if place == "pous" else place)
-        imported = import_files(self._files, project, where=where, name=name, chosen=chosen)
-        report_missing(imported.project, imported.report)
-        return imported
+        return run_import(ImportOrder(self._files, project, place, name, chosen))
 
 
 def _files_of(files: list[UploadFile]) -> dict[str, bytes]:
