@@ -353,3 +353,27 @@ async def test_a_lost_runtime_ends_waiting_calls() -> None:
         await client.call(GetInfo())
     assert events[-1] == "lost"
     await client.close()
+
+
+async def test_connections_that_never_say_hello_do_not_pile_up(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(service, "MOST_OPEN", 8)
+    monkeypatch.setattr(protocol, "HELLO_TIMEOUT_S", 0.5)
+    async with running() as (client, _, url):
+        port = int(url.rpartition(":")[2])
+        silent = [await asyncio.open_connection("127.0.0.1", port) for _ in range(100)]
+        assert (await client.call(GetInfo())).state == "run"
+        ended = [await asyncio.wait_for(reader.read(), 30) for reader, _ in silent]
+        assert ended == [b""] * 100
+
+        async def connected() -> bool:
+            with contextlib.suppress(ConnectionError, OSError):
+                async with await RuntimeClient.connect(url, TOKEN) as another:
+                    return (await another.call(GetInfo())).state == "run"
+            return False
+
+        await until(connected)
+        assert len(caplog.records) <= 25
+        for _, writer in silent:
+            writer.close()

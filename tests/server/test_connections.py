@@ -12,8 +12,9 @@ import pytest
 import uvicorn
 from uvicorn.server import Server
 
+from tappet.log_rate import RateLimit
 from tappet.server.connection_limits import DESCRIPTORS_KEPT, ConnectionLimits
-from tappet.server.connections import LimitedProtocol, RateLimit
+from tappet.server.connections import LimitedProtocol
 
 ANSWER = 64 << 20
 """More than all buffers on the way take."""

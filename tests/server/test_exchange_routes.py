@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
+import tempfile
 import zipfile
 
+import pytest
 from fastapi.testclient import TestClient
 from tests.project.archives import archive
 
@@ -130,3 +133,12 @@ def test_what_is_taken_of_a_folder_is_what_is_taken_of_an_archive(admin: TestCli
     answer = admin.post(f"{API}/projects/import-files", files={"files": ("Pumps.zip", packed)})
     assert answer.status_code == 201, answer.text
     assert [entry["object"] for entry in answer.json()["report"]["entries"]][:1] == ["FB_Pump"]
+
+
+def test_an_upload_without_room_for_it_says_so(admin: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(tempfile.SpooledTemporaryFile, "rollover", full)
+    answer = admin.post(f"{API}/projects/preview-files", files={"files": ("x.st", b"// x\n" * 1_000_000)})
+    assert (answer.status_code, answer.json()["type"]) == (507, "urn:tappet:problem:disk-full")

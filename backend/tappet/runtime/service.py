@@ -9,12 +9,14 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hmac
+import logging
 from collections import deque
 from typing import Any, TypeVar
 
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
+from tappet.log_rate import RateLimit
 from tappet.runtime import protocol
 from tappet.runtime.errors import DiskFullError, NoApplicationError, PlcError
 from tappet.runtime.operations import registry
@@ -27,6 +29,8 @@ from tappet.runtime.task_group import TaskError
 
 T = TypeVar("T")
 MOST_CONNECTIONS = 32
+MOST_OPEN = 128
+"""With those that have not said hello yet."""
 MOST_REASON = 100
 """Characters of the reason of a closed WebSocket, which has room for 123 bytes."""
 _MALFORMED_LIMIT = 10
@@ -34,6 +38,17 @@ _EVENT_LIMIT = 200
 _DRAIN_S = 0.01
 _POLL_S = 0.05
 _SYNC_S = 1.0
+
+
+class LimitedConnection(ServerConnection):
+    """A connection from its first byte on; beyond `MOST_OPEN` it is ended at once."""
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Those that never say hello count, too, until their time is over."""
+        super().connection_made(transport)
+        if len(self.server.handlers) > MOST_OPEN:
+            assert isinstance(transport, asyncio.Transport)
+            transport.abort()
 
 
 class Connection:
@@ -130,6 +145,14 @@ def refusal_code(error: Exception) -> str:
     return "refused" if isinstance(error, PlcError | TaskError) else "bad_request"
 
 
+def _quiet_log() -> logging.Logger:
+    """Tells of handshakes that fail, but not of each of very many."""
+    log = logging.getLogger(__name__)
+    if not log.filters:
+        log.addFilter(RateLimit())
+    return log
+
+
 class RuntimeService:
     """Listens for clients and looks after the PLC between cycles."""
 
@@ -155,6 +178,8 @@ class RuntimeService:
             compression=None,
             origins=[None],  # a browser page has no business here: clients are servers and tools
             open_timeout=protocol.HELLO_TIMEOUT_S,
+            create_connection=LimitedConnection,
+            logger=_quiet_log(),
         )
         self._background = [
             asyncio.create_task(self._drain_loop()),

@@ -10,8 +10,6 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import time
-from collections.abc import Callable
 from typing import Any
 
 import h11
@@ -24,8 +22,6 @@ HEAD_S = 15.0
 """For the head of a request, whether the connection is new or was used before."""
 SILENCE_S = 60.0
 """Between two pieces of a body that is sent, or of an answer that is taken."""
-MOST_KINDS = 1000
-"""Of lines that a `RateLimit` counts."""
 
 
 class LimitedProtocol(H11Protocol):
@@ -127,35 +123,3 @@ def limited_protocol(given: ConnectionLimits) -> type[LimitedProtocol]:
         limits = given
 
     return Protocol
-
-
-class RateLimit(logging.Filter):
-    """Lets a kind of line pass `most` times in `seconds`, and says afterwards how many were left out.
-
-    Lines are of one kind when they come from one place and begin alike before values are put in. Whoever
-    makes the server complain does not fill its disk.
-    """
-
-    def __init__(
-        self, most: int = 20, seconds: float = 10.0, clock: Callable[[], float] | None = None
-    ) -> None:
-        super().__init__()
-        self._most = most
-        self._seconds = seconds
-        self._clock = clock or time.monotonic
-        self._kinds: dict[tuple[str, int, str], tuple[float, int]] = {}
-
-    def filter(self, record: logging.LogRecord) -> bool:
-        """Whether the line is written."""
-        kind = (record.name, record.lineno, str(record.msg)[:60])
-        now = self._clock()
-        begun, count = self._kinds.get(kind, (now, 0))
-        if now - begun >= self._seconds:
-            if count > self._most:
-                record.msg = f"{record.getMessage()} ({count - self._most} lines like this were left out)"
-                record.args = ()
-            begun, count = now, 0
-        if len(self._kinds) >= MOST_KINDS and kind not in self._kinds:
-            self._kinds.clear()
-        self._kinds[kind] = (begun, count + 1)
-        return count < self._most

@@ -18,12 +18,13 @@ from pathlib import Path
 import uvicorn
 
 from tappet.libraries.repository import LOCATION_VARIABLE
+from tappet.log_rate import RateLimit
 from tappet.project.errors import ProjectError
 from tappet.project.store import Store
 from tappet.server.app import create_app
 from tappet.server.auth.login import LOCAL_LINK
 from tappet.server.connection_limits import raise_descriptor_limit
-from tappet.server.connections import RateLimit, limited_protocol
+from tappet.server.connections import limited_protocol
 from tappet.server.example import find_example, load_example, run_example
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
