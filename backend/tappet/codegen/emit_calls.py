@@ -106,6 +106,9 @@ class CallEmitter(PlaceEmitter):
         elif names:
             value = self._select_body(expr, names, instance, args)
         else:
+            if not method.targets:
+                # the table is known to be empty, so nothing else would look at the instance
+                self.value(f"load volatile i32, ptr {instance}{self.location}")
             number = self._type_number(instance)
             value = self._invoke(expr.type, self._entry(method, number), args)
         return self._after_call(barriers, value)

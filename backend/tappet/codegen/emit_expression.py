@@ -55,7 +55,17 @@ class ExpressionEmitter(CallEmitter):
         """Operand text of the value."""
         if isinstance(expr, ir.Const):
             return constant(expr.type, expr.value)
-        return _HANDLERS[type(expr)](self, expr)
+        value = _HANDLERS[type(expr)](self, expr)
+        if isinstance(expr, ir.Binary | ir.Compare | ir.Convert | ir.Unary) and _takes_from_pointer(expr):
+            self._locate(value)
+        return value
+
+    def _locate(self, value: str) -> None:
+        """Gives the last instruction, if it makes `value`, its line: what is loaded becomes an operand of it,
+        and is then found by its line alone."""
+        last = self.out[-1]
+        if last.startswith(f"{value} = ") and "!dbg" not in last:
+            self.out[-1] = last + self.location
 
     def _load(self, expr: ir.Load) -> str:
         pointer = self.address(expr.place)
@@ -357,6 +367,12 @@ class ExpressionEmitter(CallEmitter):
     @abstractmethod
     def statements(self, body: list[ir.Stmt]) -> None:
         """Emit statements."""
+
+
+def _takes_from_pointer(expr: ir.Binary | ir.Compare | ir.Convert | ir.Unary) -> bool:
+    """Whether an operand is loaded from where a pointer leads, which may be nowhere."""
+    operands = (expr.operand,) if isinstance(expr, ir.Convert | ir.Unary) else (expr.left, expr.right)
+    return any(isinstance(o, ir.Load) and isinstance(o.place.base, ir.Indirect) for o in operands)
 
 
 def _cannot_be_minimum(expr: ir.Expr) -> bool:

@@ -144,6 +144,7 @@ class LoadedApplication:
     def connect_code(self, code: LinkedCode) -> None:
         """From its next cycle on every task runs `code`."""
         self.code = code
+        self.heap.new_code()
         self.connect_files()
         self.connect_types()
         for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):

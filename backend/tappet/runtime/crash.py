@@ -21,7 +21,7 @@ from tappet.runtime.application import LoadedApplication
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block, Record
-from tappet.runtime.faults import RawFault
+from tappet.runtime.faults import NOT_TOLD, RawFault
 from tappet.runtime.link import LinkedCode
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.posix import PAGE, Mapping, map_memory, write_memory
@@ -95,7 +95,7 @@ class Crash:
         code, stack = Fault.PROCESS_ENDED, stack_of(application, fault, log)
         here = stack[0] if stack else CallFrame("", "", 0)
         values = {"signal": self.reason.rpartition(" ")[2]} if self.signal else {}
-        if self.signal and self.address:
+        if self.signal and self.address not in (0, NOT_TOLD):
             values["address"] = f"16#{self.address:X}"
         return ExceptionReport(
             code, code.name, fault_message(code, reason=self.reason),

@@ -13,6 +13,8 @@ from tappet.runtime.link import CodeSection, LinkedCode, ObjectSymbol, read_symb
 
 ABORTED = 100
 """FAULT_CODE.ABORTED: the runtime itself ended the cycle."""
+NOT_TOLD = 1 << 63
+"""Address of an access violation that the processor did not tell: one of more than 47 bits."""
 _GENERATED = "tappet."
 """Functions the compiler adds: the list of a task's programs, initialisation."""
 
@@ -63,6 +65,8 @@ def describe(raw: RawFault) -> tuple[str, dict[str, str]]:
         case Fault.ARRAY_BOUNDS:
             numbers = {"index": raw.a, "low": raw.b, "high": raw.c}
             return fault_message(raw.code, raw.a, raw.b, raw.c), {k: str(v) for k, v in numbers.items()}
+        case Fault.ACCESS_VIOLATION if raw.address == NOT_TOLD:
+            return "access to an address of more than 47 bits, where no memory can be", {}
         case Fault.ACCESS_VIOLATION:
             return fault_message(raw.code, raw.address), {"address": f"16#{raw.address:X}"}
         case Fault.NULL_REFERENCE:

@@ -20,6 +20,9 @@ FENCE = 1 << 20
 LEAST_BLOCK_SHARE = 2
 """Granules for each descriptor of a block: the arena holds at most so many blocks, free ones counted."""
 
+_GENERATION, _MASK = 1 << 48, (1 << 64) - 1
+"""Code addresses have at most 48 bits; above them stands which code of the application it was."""
+
 
 @dataclass(frozen=True, slots=True)
 class DamagedBlock:
@@ -28,7 +31,7 @@ class DamagedBlock:
     address: int
     size: int
     origin: int
-    """Return address of the __NEW that made it."""
+    """Return address of the __NEW that made it, as `maker` understands it."""
 
 
 class ApplicationHeap:
@@ -64,6 +67,14 @@ class ApplicationHeap:
     def used(self) -> tuple[int, int]:
         """Blocks that are not given back, and their bytes with guards."""
         return self._heap["usedBlocks"], self._heap["usedBytes"]
+
+    def new_code(self) -> None:
+        """What is made from now on is made by other code than before."""
+        self._heap["generation"] = (self._heap["generation"] + _GENERATION) & _MASK
+
+    def maker(self, origin: int) -> int:
+        """Return address of the __NEW that made a block of this `origin`; 0 when its code is gone."""
+        return origin % _GENERATION if origin - origin % _GENERATION == self._heap["generation"] else 0
 
     def serve(self, code: LinkedCode) -> None:
         """Have an arena when `code` makes something; OSError when there is no memory for it."""

@@ -11,8 +11,10 @@ from pathlib import Path
 
 from tappet.codegen.package import ONLINE_CHANGE_SYMBOL, CodePackage, left_behind, rearranged
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.faults import RawFault
+from tappet.runtime.exception_report import ExceptionReport
+from tappet.runtime.logbook import Logbook
 from tappet.runtime.places import Place, find_again
+from tappet.runtime.reports import build_report
 from tappet.runtime.tasks import TaskOwnership
 
 
@@ -20,11 +22,15 @@ class OnlineChangeError(RuntimeError):
     """The running application cannot become this one; a download is needed."""
 
 
+DURING = "online change"
+"""What the code of FB_Exit, FB_Init and FB_Reinit runs in that a change calls."""
+
+
 @dataclass(frozen=True, slots=True)
 class ChangeResult:
     """What happened to forces and to the code that the change itself ran."""
 
-    fault: RawFault | None
+    report: ExceptionReport | None
     lost_forces: tuple[Place, ...] = ()
     paused: bool = False
     retain_problem: str = ""
@@ -55,7 +61,7 @@ def check_change(running: CodePackage, package: CodePackage) -> None:
 
 
 def apply_change(
-    application: LoadedApplication, package: CodePackage, retain_folder: Path | None
+    application: LoadedApplication, package: CodePackage, retain_folder: Path | None, log: Logbook
 ) -> ChangeResult:
     """Make `application` run `package`. Nothing has changed when it raises OnlineChangeError, ImageError or
     LinkError.
@@ -83,7 +89,11 @@ def apply_change(
         return ChangeResult(None)
     with application.tasks.standing():
         # what FB_Exit does with other objects is to be seen in what they keep
-        faults = [application.tasks.call(old_code[function]) for function in left_behind(running, package)]
+        report = None
+        for function in left_behind(running, package):
+            fault = application.tasks.call(old_code[function])
+            if fault is not None and report is None:  # its place is known as long as its code is there
+                report = build_report(application, log, DURING)
         _rearrange(application, package)
         application.package = package
         application.count_change()
@@ -98,14 +108,15 @@ def apply_change(
             except OSError as error:
                 problem = str(error)
         if ONLINE_CHANGE_SYMBOL in package.exports:
-            faults.append(application.tasks.call(code[ONLINE_CHANGE_SYMBOL]))
+            fault = application.tasks.call(code[ONLINE_CHANGE_SYMBOL])
+            if fault is not None and report is None:
+                report = build_report(application, log, DURING)
         application.files.sweep()
-        fault = next((found for found in faults if found is not None), None)
-        if fault is not None:
+        if report is not None:
             application.mark_faulted()
         old_code.close()
         application.connect_flight()  # in what was kept, places would name other variables
-    return ChangeResult(fault, tuple(lost), paused=True, retain_problem=problem)
+    return ChangeResult(report, tuple(lost), paused=True, retain_problem=problem)
 
 
 def _rearrange(application: LoadedApplication, package: CodePackage) -> None:

@@ -24,7 +24,7 @@ from tappet.runtime.crash import Crash, RunningMark
 from tappet.runtime.errors import DiskFullError, PlcError
 from tappet.runtime.exception_report import ExceptionReport, summary
 from tappet.runtime.executive.loader import Executive
-from tappet.runtime.faults import RawFault, describe
+from tappet.runtime.faults import RawFault
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
@@ -375,17 +375,20 @@ class SoftPlc(ApplicationAccess):
             with application.tasks.standing():
                 fault = application.run_exit()
             if fault is not None:
-                self.log.add("error", "application", f"FB_Exit ended by an exception: {describe(fault)[0]}")
+                report = build_report(application, self.log, "FB_Exit")
+                self.log.add("error", "application", f"ended by an exception: {summary(report)}")
         self.application = None
         self._report = None
         application.close()
 
     def _change(self, package: CodePackage) -> None:
         application = self._need()
+        if self._crash is not None:
+            raise PlcError("online change refused: the application waits to be started; download the new one")
         check_room(self.folder, package)
         begun = time.monotonic()
         try:
-            result = apply_change(application, package, self.folder)
+            result = apply_change(application, package, self.folder, self.log)
         except (OnlineChangeError, ImageError, LinkError, TaskError) as error:
             raise PlcError(f"online change refused: {error}") from error
         took = (time.monotonic() - begun) * 1000
@@ -401,8 +404,9 @@ class SoftPlc(ApplicationAccess):
                 "warning", "forces", f"{len(result.lost_forces)} forces released: their variables are gone"
             )
             self._notify("forces")
-        if result.fault is not None:
-            self._report = None
+        if result.report is not None:
+            self._report = result.report
+            self.log.add("exception", "application", summary(result.report))
             self.poll()
 
     def boot(self) -> bool:

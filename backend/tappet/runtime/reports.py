@@ -17,12 +17,14 @@ _MOST_VALUES = 200
 """Variables listed in a report."""
 
 
-def build_report(application: LoadedApplication, log: Logbook) -> ExceptionReport:
-    """Report on the fault that ended the application."""
+def build_report(
+    application: LoadedApplication, log: Logbook, during: str = "initialisation"
+) -> ExceptionReport:
+    """Report on the fault that ended the application; `during` names what ran when it was no task."""
     number = application.contexts.faulted_task()
     is_task = number is not None and number >= 0
     task = application.contexts.tasks[number] if is_task else application.contexts.service  # type: ignore[index]
-    name = application.package.tasks[number].name if is_task else "initialisation"  # type: ignore[index]
+    name = application.package.tasks[number].name if is_task else during  # type: ignore[index]
     raw = application.contexts.fault(task)
     message, values = describe(raw)
     stack = stack_of(application, raw, log)
@@ -69,7 +71,8 @@ def _heap_values(application: LoadedApplication, raw: RawFault, made: CallFrame 
 
 def _maker(application: LoadedApplication, origin: int) -> CallFrame | None:
     """Where the __NEW stands that returned to `origin`; None when that code is gone."""
-    frames = Locator(application.code).frames_at(origin - 1) if origin else []
+    address = application.heap.maker(origin)
+    frames = Locator(application.code).frames_at(address - 1) if address else []
     return _with_place(frames[0], application.package.source_maps) if frames else None
 
 
