@@ -52,5 +52,5 @@ def test_workbench_and_plant(browser: Browser, server: Server, theme: str, langu
                 remark.first.click()
             page.wait_for_timeout(15_000)
             page.screenshot(path=folder / f"plant-{suffix}.png", timeout=60_000)
-            page.locator(".dv-tab").filter(has_text="Plant3D").locator("button, [role=button]").last.click()
+            page.locator(".dv-tab").filter(has_text="Plant3D").locator("[class*=close]").click()
     assert errors == []

@@ -41,7 +41,7 @@ export function Loading() {
     return () => clearTimeout(timer);
   }, []);
   return (
-    <div className={styles.loading} aria-busy aria-label={t('state.loading')}>
+    <div className={styles.loading} role="status" aria-busy aria-label={t('state.loading')}>
       {shown && <Spinner size={20} />}
     </div>
   );

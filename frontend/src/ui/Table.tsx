@@ -74,9 +74,10 @@ export function Table<Item>(props: TableProps<Item>) {
       <div
         ref={scroll}
         className={styles.scroll}
-        role="grid"
+        // Without rows it is no grid: what is shown instead may hold a button.
+        role={rows.length === 0 && empty !== undefined ? 'group' : 'grid'}
         aria-label={label}
-        aria-rowcount={rows.length}
+        aria-rowcount={rows.length === 0 && empty !== undefined ? undefined : rows.length}
         aria-activedescendant={at >= 0 ? `${id}-${at}` : undefined}
         tabIndex={0}
         onKeyDown={onKeyDown}
@@ -114,7 +115,9 @@ export function Table<Item>(props: TableProps<Item>) {
                   className={styles.row}
                   style={{ transform: `translateY(${entry.start}px)` }}
                   onPointerDown={() => onSelect(item)}
-                  onClick={props.opensOnClick === true && onOpen ? (event) => event.detail <= 1 && onOpen(item) : undefined}
+                  onClick={
+                    props.opensOnClick === true && onOpen ? (event) => event.detail <= 1 && onOpen(item) : undefined
+                  }
                   onDoubleClick={onOpen && (() => onOpen(item))}
                 >
                   {columns.map((column) => (

@@ -106,38 +106,44 @@ export function ProgramList({ pous, programs, readOnly, onChange }: ProgramListP
           onClick={remove}
         />
       </div>
-      <div className={styles.table} role="listbox" aria-label={t('task.programs')} tabIndex={0} onKeyDown={onKeyDown}>
+      <div className={styles.table} role="grid" aria-label={t('task.programs')} tabIndex={0} onKeyDown={onKeyDown}>
         {pous.length === 0 && <Empty title={t('task.noPrograms')} text={t('task.noProgramsText')} />}
         {pous.map((pou, index) => (
           <div
             key={`${index}:${pou.name}`}
-            role="option"
+            role="row"
             aria-selected={index === at}
             className={styles.row}
             onMouseDown={() => setChosen(index)}
             onDoubleClick={open}
           >
-            <span className={styles.number}>{index + 1}</span>
-            <ProgramIcon />
-            <span className={styles.name}>{pou.name}</span>
-            {!known(pou.name) && (
-              <Tooltip text={t('task.unknownProgram')}>
-                <TriangleAlert size={14} color="var(--warn)" />
-              </Tooltip>
-            )}
-            <input
-              className={styles.comment}
-              value={pou.comment}
-              aria-label={t('task.comment', { name: pou.name })}
-              placeholder={readOnly ? '' : t('task.commentHint')}
-              disabled={readOnly !== null}
-              onDoubleClick={(event) => event.stopPropagation()}
-              onChange={(event) =>
-                onChange(
-                  pous.map((other, place) => (place === index ? { ...other, comment: event.target.value } : other)),
-                )
-              }
-            />
+            <span role="gridcell" className={styles.number}>
+              {index + 1}
+            </span>
+            <span role="gridcell" className={styles.program}>
+              <ProgramIcon />
+              <span className={styles.name}>{pou.name}</span>
+              {!known(pou.name) && (
+                <Tooltip text={t('task.unknownProgram')}>
+                  <TriangleAlert size={14} color="var(--warn)" />
+                </Tooltip>
+              )}
+            </span>
+            <span role="gridcell" className={styles.commentCell}>
+              <input
+                className={styles.comment}
+                value={pou.comment}
+                aria-label={t('task.comment', { name: pou.name })}
+                placeholder={readOnly ? '' : t('task.commentHint')}
+                disabled={readOnly !== null}
+                onDoubleClick={(event) => event.stopPropagation()}
+                onChange={(event) =>
+                  onChange(
+                    pous.map((other, place) => (place === index ? { ...other, comment: event.target.value } : other)),
+                  )
+                }
+              />
+            </span>
           </div>
         ))}
       </div>

@@ -96,11 +96,12 @@ function TabFrame({ title, dirty, tool, onClose, entries, children }: TabFramePr
     <ContextMenu entries={entries}>
       <div className={styles.tab} data-tool={tool ? '' : undefined} title={title} onAuxClick={middleClick}>
         {children}
-        <button
+        {/* For the mouse: a tab holds no other control; the keyboard closes it by a command (Window menu). */}
+        <span
           className={styles.close}
           data-dirty={dirty ? '' : undefined}
-          aria-label={t('tab.close', { name: title })}
-          tabIndex={-1}
+          title={t('tab.close', { name: title })}
+          aria-hidden
           onPointerDown={(event) => event.stopPropagation()}
           onClick={(event) => {
             event.stopPropagation();
@@ -109,7 +110,7 @@ function TabFrame({ title, dirty, tool, onClose, entries, children }: TabFramePr
         >
           <span className={styles.dot} />
           <X className={styles.cross} size={13} />
-        </button>
+        </span>
       </div>
     </ContextMenu>
   );

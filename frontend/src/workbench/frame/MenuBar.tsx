@@ -52,7 +52,7 @@ export function MenuBar() {
       <button
         className={styles.finder}
         onClick={() => void runCommand('view.quickOpen')}
-        aria-label={t('command.quickOpen')}
+        aria-label={`${name ?? ''} ${t('command.quickOpen')}`}
       >
         <Search size={13} aria-hidden />
         <span>{name}</span>

@@ -139,15 +139,13 @@ function MessageItem() {
   const count = useMemo(() => countOf(presentMessages(build, live)), [build, live]);
   return (
     <Tooltip text={t('status.messages')} side="top">
-      <button
-        className={styles.item}
-        onClick={() => showPanel('messages')}
-        aria-label={`${t('messages.error', { count: count.error })}, ${t('messages.warning', { count: count.warning })}`}
-      >
+      <button className={styles.item} onClick={() => showPanel('messages')}>
         <CircleX size={13} className={count.error ? styles.error : undefined} aria-hidden />
-        {count.error}
+        <span aria-hidden>{count.error}</span>
+        <span className="visually-hidden">{t('messages.error', { count: count.error })},</span>
         <TriangleAlert size={13} className={count.warning ? styles.warn : undefined} aria-hidden />
-        {count.warning}
+        <span aria-hidden>{count.warning}</span>
+        <span className="visually-hidden">{t('messages.warning', { count: count.warning })}</span>
       </button>
     </Tooltip>
   );

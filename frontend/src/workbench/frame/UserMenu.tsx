@@ -56,9 +56,7 @@ export function UserMenu() {
       entries={entries}
       trigger={
         <button className={styles.user} aria-label={t('user.menu', { name: user.username })}>
-          <span className={styles.avatar} aria-hidden>
-            {initials(user.username)}
-          </span>
+          <span className={styles.avatar} data-initials={initials(user.username)} aria-hidden />
           {user.username}
           <ChevronDown size={13} aria-hidden />
         </button>

@@ -1,0 +1,82 @@
+"""axe-core finds nothing serious in any view, in both themes (WCAG 2.2 A and AA)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from .conftest import Server, new_profile, start_page
+from .workbench import choose_menu, implementation, log_in, open_object, open_panel, open_project
+
+pytestmark = pytest.mark.e2e
+
+AXE = Path(__file__).parents[2] / "frontend/node_modules/axe-core/axe.min.js"
+RUN = """async () => {
+    const options = {
+        runOnly: {type: 'tag', values: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']},
+        resultTypes: ['violations'],
+    };
+    // The 3D scene is a page of its own and not ours.
+    const found = await axe.run({exclude: [['iframe']]}, options);
+    return found.violations
+        .filter(({impact}) => impact === 'serious' || impact === 'critical')
+        .flatMap(({id, help, nodes}) => nodes.map((node) => `${id}: ${help}: ${node.html.slice(0, 160)} `
+            + `${node.any.map(({message}) => message).join('; ').slice(0, 200)}`));
+}"""
+
+
+def _objects(page: Page) -> Iterator[str]:
+    """Editors of every kind in the example."""
+    for name in ("GVL_IO", "Task Configuration", "MainTask", "Library Manager", "Application", "PLC_PRG"):
+        open_object(page, name)
+        page.wait_for_timeout(400)
+        yield name
+
+
+def _panels(page: Page) -> Iterator[str]:
+    for name in ("Messages", "Watch 1", "Forces", "Tasks", "Log"):
+        open_panel(page, name)
+        yield name
+
+
+def _dialogs(page: Page) -> Iterator[str]:
+    for menu, entry in (("Project", "Add object"), ("Project", "Project information"), ("Help", "About")):
+        choose_menu(page, menu, entry)
+        page.wait_for_timeout(300)
+        yield entry
+        page.keyboard.press("Escape")
+
+
+def _online(page: Page) -> Iterator[str]:
+    open_object(page, "PLC_PRG")
+    log_in(page)
+    expect(implementation(page)).to_contain_text("Execute")
+    yield "PLC_PRG online"
+    open_object(page, "GVL_IO")
+    page.wait_for_timeout(400)
+    yield "GVL_IO online"
+
+
+def _serious(page: Page) -> list[str]:
+    # Evaluated from outside: the policy of the page lets no foreign script in.
+    page.evaluate(f"() => {{ if (!('axe' in window)) {{ {AXE.read_text(encoding='utf-8')} }} }}")
+    found: list[str] = page.evaluate(RUN)
+    return found
+
+
+@pytest.mark.parametrize("theme", ["dark", "light"])
+@pytest.mark.parametrize(
+    "views", [_objects, _panels, _dialogs, _online], ids=lambda views: views.__name__.strip("_")
+)
+def test_nothing_serious(
+    browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]
+) -> None:
+    with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
+        found = [f"start page: {line}" for line in _serious(page)]
+        open_project(page)
+        for name in views(page):
+            found += [f"{name}: {line}" for line in _serious(page)]
+    assert found == [], "\n".join(found)
