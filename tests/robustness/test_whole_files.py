@@ -66,3 +66,12 @@ def test_a_cause_far_below_counts() -> None:
         deep()
     assert is_disk_full(found.value)
     assert not is_disk_full(ValueError("disk full"))
+
+
+@pytest.mark.parametrize(("name", "value"), [("sqlite_errorcode", 13), ("sqlstate", "53100")])
+def test_databases_say_it_in_their_own_way(name: str, value: object) -> None:
+    error = ValueError("INSERT INTO audit ...")
+    error.__cause__ = ValueError("full")
+    assert not is_disk_full(error)
+    setattr(error.__cause__, name, value)
+    assert is_disk_full(error)

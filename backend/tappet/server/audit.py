@@ -13,7 +13,7 @@ from datetime import UTC, datetime, timedelta
 from enum import StrEnum
 from typing import Any
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, func, insert, select, update
 from sqlalchemy.exc import DBAPIError
 
 from tappet.server.auth.identity import Identity
@@ -25,6 +25,8 @@ MAX_TEXT = 2000
 """Longer values are cut in the log."""
 REPEATED_WITHIN = timedelta(minutes=10)
 """Equal refusals in this time are one row that counts them: nobody fills the disk by being refused."""
+MOST_LOOKED_BACK = 5000
+"""Rows among which an equal one is looked for: the log may be long."""
 
 
 class Result(StrEnum):
@@ -84,7 +86,9 @@ def refuse(db: Connection, username: str, address: str, act: Act, reason: str) -
     row = {**_columns(username, address, act), "result": Result.REFUSED.value}
     now = row.pop("at")
     equal = [audit.c[name].is_not_distinct_from(value) for name, value in row.items()]
-    newest = select(audit.c.id).where(*equal, audit.c.at > now - REPEATED_WITHIN)
+    last = select(func.max(audit.alias().c.id)).scalar_subquery()
+    recent = audit.c.id > last - MOST_LOOKED_BACK
+    newest = select(audit.c.id).where(*equal, recent, audit.c.at > now - REPEATED_WITHIN)
     known = db.scalar(newest.order_by(audit.c.id.desc()).limit(1))
     if known is None:
         db.execute(insert(audit).values(**row, at=now, reason=_text(reason)))

@@ -107,7 +107,7 @@ class LimitedProtocol(H11Protocol):
             self._give_up()
 
     def _give_up(self) -> None:
-        log.warning("a connection from %s was closed: it was silent", self.client[0] if self.client else "")
+        log.debug("a connection from %s was closed: it was silent", self.client)  # browsers keep spare ones
         self.transport.abort()
 
     def _stop_writing_timer(self) -> None:
