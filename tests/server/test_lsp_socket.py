@@ -13,6 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from tappet.project.model import Project
 from tappet.project.store import Store
+from tappet.server.lsp import rpc
 from tappet.server.lsp.project_programs import ProjectPrograms, parse_part_uri, part_uri
 from tappet.server.services import Services
 
@@ -105,6 +106,18 @@ def test_binary_frames_end_the_connection(as_role: dict[str, TestClient], projec
         with pytest.raises(WebSocketDisconnect) as closed:
             socket.receive_text()
         assert closed.value.code == 1003
+
+
+def test_half_of_a_character_is_answered_and_ends_nothing(
+    as_role: dict[str, TestClient], project: str
+) -> None:
+    with as_role["viewer"].websocket_connect(f"{SOCKETS}/api/v1/lsp?project={project}") as raw:
+        socket = Socket(raw)
+        socket.start()
+        for method in ("\\ud800", "\ud800"):  # as an escape of JSON, and as it is
+            raw.send_text('{"jsonrpc": "2.0", "id": 7, "method": "' + method + '"}')
+            assert socket.hear()["error"]["code"] in (rpc.PARSE_ERROR, rpc.METHOD_NOT_FOUND)
+        assert socket.ask("workspace/symbol", {"query": "PLC_PRG"}) is not None
 
 
 def test_unknown_projects_and_strangers_are_refused(

@@ -11,6 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from tappet.project.store.records import UnknownProjectError
 from tappet.server.analysis.project import PROJECT_GONE
 from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
+from tappet.server.lsp import rpc
 from tappet.server.sockets import close_with_session, until_one_ends
 
 router = APIRouter(tags=["language"])
@@ -42,6 +43,8 @@ async def language_server(
                 return
             try:
                 await services.analysis.receive(project, client, text)
+            except UnicodeEncodeError:  # half of a character: no message to the analysis can hold it
+                client.outbox.put(rpc.failure(None, rpc.PARSE_ERROR, "This is no text"), "")
             except UnknownProjectError:
                 await socket.close(PROJECT_GONE, "The project was deleted.")
                 return
