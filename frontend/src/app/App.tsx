@@ -1,9 +1,8 @@
 import { QueryClientProvider, useQuery } from '@tanstack/react-query';
-import { useEffect } from 'react';
+import { lazy, Suspense, useEffect } from 'react';
 import { api, setUnauthorisedListener } from '@/api/client';
 import { queryClient } from '@/api/queries';
 import { DialogHost } from '@/ui/dialogs';
-import { Workbench } from '@/workbench/frame/Workbench';
 import { Failed, Loading } from '@/ui/Empty';
 import { ErrorBoundary } from '@/ui/ErrorBoundary';
 import { Notices } from '@/ui/Notices';
@@ -13,7 +12,10 @@ import { LoginPage } from './login/LoginPage';
 import { adoptPreferences } from '@/session/preferences';
 import { listenToRoute, useRoute } from '@/session/route';
 import { setUser, useSession } from '@/session/session';
-import { StartPage } from './start/StartPage';
+
+// Who logs in waits for the login page only; the rooms of the workbench come with the first project.
+const StartPage = lazy(() => import('./start/StartPage'));
+const Workbench = lazy(() => import('./rooms'));
 
 const TOOLTIP_DELAY_MS = 450;
 
@@ -22,7 +24,9 @@ export function App() {
     <QueryClientProvider client={queryClient}>
       <TooltipProvider delayDuration={TOOLTIP_DELAY_MS} skipDelayDuration={150}>
         <ErrorBoundary resetKey="app">
-          <Page />
+          <Suspense fallback={<Loading />}>
+            <Page />
+          </Suspense>
         </ErrorBoundary>
         <DialogHost />
         <Notices />

@@ -7,10 +7,10 @@ import './tokens.css';
 import './global.css';
 import { App } from './App';
 import { startPreferences } from '@/session/preferences';
-import { registerRooms } from './rooms';
+import { registerKinds } from '@/kinds/register';
 
 await startPreferences();
-registerRooms();
+registerKinds();
 const root = document.getElementById('root');
 if (root) {
   createRoot(root).render(

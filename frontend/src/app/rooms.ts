@@ -1,13 +1,15 @@
-/** Everything that registers itself with the workbench, in the order of the rooms; components load when first shown. */
+/**
+ * The workbench with everything that registers itself with it, in the order of the rooms; components load when first
+ * shown. The kinds of objects are known before: the start page shows them, too.
+ */
 import { registerEditors } from '@/editors/register';
-import { registerKinds } from '@/kinds/register';
 import { registerOnline } from '@/online/register';
+import { Workbench } from '@/workbench/frame/Workbench';
 import { registerPanelCommands, registerWorkbench } from '@/workbench/register';
 
-export function registerRooms(): void {
-  registerWorkbench();
-  registerOnline();
-  registerEditors();
-  registerKinds();
-  registerPanelCommands();
-}
+registerWorkbench();
+registerOnline();
+registerEditors();
+registerPanelCommands();
+
+export default Workbench;

@@ -32,11 +32,10 @@ export interface TextTables {
 }
 
 type Table = Readonly<Record<string, string>>;
-const FILES = {
-  en: import.meta.glob<Table>(['./en/*.json', '../{kinds,editors}/*/en.json'], { eager: true, import: 'default' }),
-  zh: import.meta.glob<Table>(['./zh/*.json', '../{kinds,editors}/*/zh.json'], { eager: true, import: 'default' }),
-};
-const tableOf = (language: Language): Table => Object.assign({}, ...Object.values(FILES[language])) as Table;
+const ENGLISH = import.meta.glob<Table>(['./en/*.json', '../{kinds,editors}/*/en.json'], {
+  eager: true,
+  import: 'default',
+});
 
 type WithoutPlural<Key> = Key extends `${infer Base}_one` | `${infer Base}_other` ? Base : Key;
 
@@ -47,7 +46,7 @@ export type TextValues = Record<string, string | number>;
 void i18next.init({
   lng: 'en',
   fallbackLng: 'en',
-  resources: { en: { translation: tableOf('en') }, zh: { translation: tableOf('zh') } },
+  resources: { en: { translation: Object.assign({}, ...Object.values(ENGLISH)) as Table } },
   keySeparator: false,
   nsSeparator: false,
   interpolation: { escapeValue: false },
@@ -68,8 +67,17 @@ export function language(): Language {
   return i18next.language === 'zh' ? 'zh' : 'en';
 }
 
-/** Switches the language of everything on screen; the choice is stored by `app/preferences.ts`. */
+let wanted: Language = 'en';
+
+/** Switches the language of everything on screen; the choice is stored by `session/preferences.ts`. */
 export async function setLanguage(next: Language): Promise<void> {
+  wanted = next;
+  if (next === 'zh' && !i18next.hasResourceBundle('zh', 'translation')) {
+    const { CHINESE } = await import('./chinese');
+    // Another choice may have been made while the texts were fetched.
+    if (wanted !== next) return;
+    i18next.addResourceBundle('zh', 'translation', CHINESE);
+  }
   await i18next.changeLanguage(next);
   document.documentElement.lang = next === 'zh' ? 'zh-CN' : 'en';
 }

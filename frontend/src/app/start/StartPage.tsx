@@ -28,7 +28,7 @@ import { ago, sections } from './projects';
 import styles from './StartPage.module.css';
 
 /** All projects: open, make, import. */
-export function StartPage() {
+export default function StartPage() {
   const t = useText();
   const projects = useQuery(projectsQuery);
   const recent = useQuery({
