@@ -47,7 +47,10 @@ def _debug_frames(data: bytes, section: CodeSection, address: int, function: str
             continue
         uri, line = here
         frames: list[Frame] = []
-        for die in reversed(_enclosing(unit.get_top_DIE(), address)):
+        scopes = _enclosing(unit.get_top_DIE(), address)
+        if not line and scopes:
+            line = _line_beside(lines, unit.get_top_DIE(), scopes[-1], address)
+        for die in reversed(scopes):
             inlined = die.tag == "DW_TAG_inlined_subroutine"
             frames.append((_name(die) or function, uri, line))
             if inlined:
@@ -55,6 +58,18 @@ def _debug_frames(data: bytes, section: CodeSection, address: int, function: str
                 line = _number(die, "DW_AT_call_line")
         return frames or [(function, uri, line)]
     return [(function, "", 0)]
+
+
+def _line_beside(lines: _Lines, top: DIE, scope: DIE, address: int) -> int:
+    """Line beside an address that stands for several lines at once, in the same function: the compiler has
+    merged what they have in common. The first line of the function when there is none.
+    """
+    rows = lines.rows()
+    before = [row for row in rows if row[0] <= address]
+    for at, line in (*reversed(before), *rows[len(before) :]):
+        if line and _covers(scope, at) and _enclosing(top, at)[-1].offset == scope.offset:
+            return line
+    return _number(scope, "DW_AT_decl_line")
 
 
 def _place(data: bytes, section: CodeSection) -> bytes:
@@ -98,6 +113,11 @@ class _Lines:
                 return self.file(before.file), _code_line(before.line)
             before = None if state.end_sequence else state
         return None
+
+    def rows(self) -> list[tuple[int, int]]:
+        """Addresses and lines of the table, by address."""
+        states = (entry.state for entry in self._program.get_entries())
+        return sorted((s.address, _code_line(s.line)) for s in states if s is not None and not s.end_sequence)
 
     def file(self, number: int) -> str:
         """Name of a file of the table."""
