@@ -55,3 +55,16 @@ def test_accounts_tokens_settings_audit_and_lockout(app: FastAPI) -> None:
     actions = [entry["action"] for entry in admin.get("/api/v1/audit").json()]
     assert actions[:3] == ["runtime-removed", "runtime-added", "login-locked-out"]
     assert "user-created" in actions
+
+
+def test_refusals_are_counted_and_large_numbers_are_none(app: FastAPI) -> None:
+    client = browser(app)
+    token = app.state.services.first_account_token
+    body = {"token": token, "username": "admin", "password": PASSWORD}
+    assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
+    for _ in range(3):
+        assert client.post("/api/v1/users/nobody/sign-out").status_code == 404
+    (entry,) = client.get("/api/v1/audit", params={"action": "user-signed-out"}).json()
+    assert (entry["result"], entry["count"]) == ("refused", 3)
+    assert client.get("/api/v1/audit", params={"before": (1 << 31) - 1}).status_code == 200
+    assert client.get("/api/v1/audit", params={"before": 1 << 31}).status_code == 422
