@@ -11,7 +11,7 @@ import { useText } from '@/i18n';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import styles from './OnlineTable.module.css';
 import { isExpandable, type OnlineRow } from './treeRows';
-import { useLiveValue } from './useLive';
+import { useLiveItem } from './useLive';
 
 interface NameCellProps {
   row: OnlineRow;
@@ -24,9 +24,8 @@ const INDENT_PX = 16;
 /** Name with its place in the tree, an arrow to open, and an icon for input, output and others (DECL-46). */
 export function NameCell({ row, session, onToggle }: NameCellProps) {
   const t = useText();
-  const live = useLiveValue(session?.runtimeId ?? null, row.expression);
-  const error =
-    row.valueless !== true && (row.kind === undefined || row.kind === 'error') ? live?.item.error : undefined;
+  const item = useLiveItem(session?.runtimeId ?? null, row.expression);
+  const error = row.valueless !== true && (row.kind === undefined || row.kind === 'error') ? item?.error : undefined;
   const expandable = isExpandable(row);
   if (row.expression === '') return <span className={styles.placeholder}>{t('watch.newLine')}</span>;
   const Arrow = row.open === true ? ChevronDown : ChevronRight;
@@ -44,7 +43,7 @@ export function NameCell({ row, session, onToggle }: NameCellProps) {
       >
         <Arrow size={14} />
       </button>
-      <SectionIcon section={row.section ?? live?.item.section} flags={row.flags ?? live?.item.flags} />
+      <SectionIcon section={row.section ?? item?.section} flags={row.flags ?? item?.flags} />
       <span className={error ? styles.invalid : undefined} title={error ?? undefined}>
         {row.label}
       </span>

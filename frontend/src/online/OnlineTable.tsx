@@ -1,4 +1,14 @@
-import { useEffect, useMemo, useRef, useState, type DragEvent, type KeyboardEvent, type ReactNode } from 'react';
+import {
+  useEffect,
+  useImperativeHandle,
+  useMemo,
+  useRef,
+  useState,
+  type DragEvent,
+  type KeyboardEvent,
+  type ReactNode,
+  type Ref,
+} from 'react';
 import { useText } from '@/i18n';
 import { Grid, type GridColumn, type GridEditing } from '@/ui/grid/Grid';
 import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection';
@@ -36,12 +46,12 @@ export function OnlineTable(props: OnlineTableProps) {
   const runtimeId = session?.runtimeId ?? null;
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const [editing, setEditing] = useState<GridEditing | null>(null);
-  const [range, setRange] = useState({ first: 0, last: 60 });
+  const onScreen = useRef<OnScreenHandle>(null);
   const expressions = useMemo(
     () => roots.filter((r) => r.kind === undefined && r.valueless !== true).map((r) => r.expression),
     [roots],
   );
-  const items = useItems(runtimeId, expressions);
+  const items = useItems(runtimeId, session?.runtime?.code_id ?? null, expressions);
   const typed = useMemo(() => roots.map((root) => ({ ...items.get(root.expression), ...root })), [roots, items]);
   const children = useChildren(session, typed, open);
   const rows = useMemo(() => flatten(typed, open, children), [typed, open, children]);
@@ -51,10 +61,6 @@ export function OnlineTable(props: OnlineTableProps) {
   useEffect(() => {
     chosenNow.current = chosen;
   });
-  useWatched(
-    runtimeId,
-    useMemo(() => watchedExpressions(rows, range.first - 20, range.last + 20), [rows, range]),
-  );
 
   const toggleOpen = (row: OnlineRow, wanted = !open.has(row.key)) =>
     setOpen((before) => {
@@ -143,6 +149,7 @@ export function OnlineTable(props: OnlineTableProps) {
         data-lost={lost || undefined}
         onFocus={() => props.onFocus?.(() => chosenNow.current.map((row) => row.expression))}
       >
+        <OnScreen ref={onScreen} runtimeId={runtimeId} rows={rows} />
         <Grid
           label={props.label}
           columns={columns}
@@ -160,15 +167,45 @@ export function OnlineTable(props: OnlineTableProps) {
           onEdit={edit}
           opensOnClick={(column) => runtimeId !== null && (column.id === 'value' || column.id === 'prepared')}
           onKey={onKey}
-          onRange={(first, last) =>
-            setRange((before) => (before.first === first && before.last === last ? before : { first, last }))
-          }
+          onRange={(first, last) => onScreen.current?.show(first, last)}
           onDragRow={(index, event) => drag(event, rows, index, selection)}
           empty={props.empty}
         />
       </div>
     </ContextMenu>
   );
+}
+
+interface OnScreenHandle {
+  show: (first: number, last: number) => void;
+}
+
+/** Rows are asked for in blocks: a row that scrolls into view does not change the subscription each time. */
+const BLOCK = 20;
+
+interface OnScreenProps {
+  runtimeId: string | null;
+  rows: readonly OnlineRow[];
+  ref: Ref<OnScreenHandle>;
+}
+
+/** Watches the rows on screen and some around them; scrolling draws this again, not the table. */
+function OnScreen({ runtimeId, rows, ref }: OnScreenProps) {
+  const [range, setRange] = useState({ first: 0, last: 3 * BLOCK });
+  useImperativeHandle(
+    ref,
+    () => ({
+      show: (top, bottom) => {
+        const first = (Math.floor(top / BLOCK) - 1) * BLOCK;
+        const last = (Math.floor(bottom / BLOCK) + 2) * BLOCK - 1;
+        setRange((before) => (before.first === first && before.last === last ? before : { first, last }));
+      },
+    }),
+    [],
+  );
+  const expressions = useMemo(() => watchedExpressions(rows, range.first, range.last), [rows, range]);
+  useWatched(runtimeId, expressions);
+  return null;
 }
 
 /** The kind of what is dragged between watch lists, tables and editors. */

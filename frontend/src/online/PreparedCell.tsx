@@ -4,7 +4,7 @@ import { checkLiteral } from './literal';
 import styles from './OnlineTable.module.css';
 import { prepare, preparedLiteral, usePreparedLiteral } from './prepared';
 import { isExpandable, type OnlineRow } from './treeRows';
-import { useLiveValue } from './useLive';
+import { useLiveItem } from './useLive';
 import { useOpenField } from './useOpenField';
 
 /** The value that waits for Write or Force, in angle brackets. */
@@ -27,9 +27,8 @@ interface PreparedEditorProps {
  */
 export function PreparedEditor({ runtimeId, row, initial, onDone }: PreparedEditorProps) {
   const t = useText();
-  const live = useLiveValue(runtimeId, row.expression);
+  const item = useLiveItem(runtimeId, row.expression) ?? undefined;
   const handle = useOpenField();
-  const item = live?.item;
   const checked = (text: string) => (item === undefined ? null : checkLiteral(text, item));
   const names = Object.keys(item?.enum ?? {});
   const refusal = (text: string): string | null => {

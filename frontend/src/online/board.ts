@@ -2,10 +2,11 @@
  * The latest values of one runtime, with a listener list per expression.
  *
  * 1,000 values at 10 Hz stay cheap because a frame is compared byte by byte with the one before: only items whose
- * bytes differ are decoded, and only the views of those are notified, once per animation frame.
+ * bytes differ are decoded, and only the views of those are notified, once per animation frame. What stands still of
+ * a variable (type, section, place) has listeners of its own, which no value calls.
  */
 import { decodeValue, itemChanged, type Frame } from './frame';
-import { expressionKey, valueKind, type PlcValue, type SubscribedItem } from './item';
+import { expressionKey, sameItem, valueKind, type PlcValue, type SubscribedItem } from './item';
 
 export interface LiveValue {
   readonly item: SubscribedItem;
@@ -23,6 +24,7 @@ interface Subscription {
 }
 
 type Listener = () => void;
+type Listeners = Map<string, Set<Listener>>;
 
 export interface BoardClock {
   now: () => number;
@@ -33,9 +35,10 @@ export interface BoardClock {
 export class ValueBoard {
   private readonly values = new Map<string, LiveValue>();
   private readonly holders = new Map<string, number>();
-  private readonly listeners = new Map<string, Set<Listener>>();
+  private readonly listeners: Listeners = new Map();
+  private readonly itemListeners: Listeners = new Map();
   private readonly subscriptions = new Map<number, Subscription>();
-  private readonly touched = new Set<string>();
+  private readonly touched = new Set<Listener>();
   private scheduled = false;
   /** Frames and decoded items since the start, for the performance view and the tests. */
   readonly counters = { frames: 0, decoded: 0, notified: 0 };
@@ -46,16 +49,14 @@ export class ValueBoard {
     return this.values.get(expressionKey(expression)) ?? null;
   }
 
-  /** Calls `listener` after the value of `expression` has changed. */
+  /** Calls `listener` after the value of `expression`, or what it is, has changed. */
   subscribe(expression: string, listener: Listener): () => void {
-    const key = expressionKey(expression);
-    const own = this.listeners.get(key) ?? new Set();
-    own.add(listener);
-    this.listeners.set(key, own);
-    return () => {
-      own.delete(listener);
-      if (own.size === 0 && this.listeners.get(key) === own) this.listeners.delete(key);
-    };
+    return listen(this.listeners, expressionKey(expression), listener);
+  }
+
+  /** Calls `listener` after what the server says about `expression` has changed: its type, its place, an error. */
+  subscribeItem(expression: string, listener: Listener): () => void {
+    return listen(this.itemListeners, expressionKey(expression), listener);
   }
 
   /** The server has accepted a subscription: its items, in frame order. */
@@ -66,9 +67,10 @@ export class ValueBoard {
       this.holders.set(key, (this.holders.get(key) ?? 0) + 1);
       const item = items[index] as SubscribedItem;
       const before = this.values.get(key);
+      if (before !== undefined && sameItem(before.item, item)) return;
       const same = before !== undefined && before.item.type === item.type && valueKind(before.item) === valueKind(item);
       this.values.set(key, { item, value: same ? before.value : null, changedAt: same ? before.changedAt : 0 });
-      this.touch(key);
+      this.touch(key, true);
     });
   }
 
@@ -83,7 +85,7 @@ export class ValueBoard {
       else {
         this.holders.delete(key);
         this.values.delete(key);
-        this.touch(key);
+        this.touch(key, true);
       }
     }
   }
@@ -102,10 +104,8 @@ export class ValueBoard {
       const before = this.values.get(key);
       const value = decodeValue(item, frame.values);
       this.counters.decoded += 1;
-      if (before !== undefined && before.item === item && Object.is(before.value, value)) continue;
-      const first = before === undefined || before.value === null;
-      const same = !first && Object.is(before.value, value);
-      this.values.set(key, { item, value, changedAt: first ? 0 : same ? before.changedAt : now });
+      if (before === undefined || Object.is(before.value, value)) continue;
+      this.values.set(key, { item: before.item, value, changedAt: before.value === null ? 0 : now });
       this.touch(key);
     }
     subscription.last = frame.values;
@@ -117,21 +117,29 @@ export class ValueBoard {
     return this.subscriptions.get(id)?.cycle ?? -1n;
   }
 
-  private touch(key: string): void {
-    if (!this.listeners.has(key)) return;
-    this.touched.add(key);
-    if (this.scheduled) return;
+  private touch(key: string, item = false): void {
+    for (const listener of this.listeners.get(key) ?? []) this.touched.add(listener);
+    if (item) for (const listener of this.itemListeners.get(key) ?? []) this.touched.add(listener);
+    if (this.scheduled || this.touched.size === 0) return;
     this.scheduled = true;
     this.clock.soon(() => {
       this.scheduled = false;
-      const keys = [...this.touched];
+      const listeners = [...this.touched];
       this.touched.clear();
-      const notified = new Set<Listener>();
-      for (const touched of keys) for (const listener of this.listeners.get(touched) ?? []) notified.add(listener);
-      this.counters.notified += notified.size;
-      for (const listener of notified) listener();
+      this.counters.notified += listeners.length;
+      for (const listener of listeners) listener();
     });
   }
+}
+
+function listen(listeners: Listeners, key: string, listener: Listener): () => void {
+  const own = listeners.get(key) ?? new Set();
+  own.add(listener);
+  listeners.set(key, own);
+  return () => {
+    own.delete(listener);
+    if (own.size === 0 && listeners.get(key) === own) listeners.delete(key);
+  };
 }
 
 export const BROWSER_CLOCK: BoardClock = {

@@ -28,6 +28,22 @@ export function overlaps(a: ImagePlace, b: ImagePlace): boolean {
   return a.bit == null || b.bit == null || a.bit === b.bit;
 }
 
+/** Whether two answers say the same about an expression; where its bytes stand in a frame does not count. */
+export function sameItem(a: SubscribedItem, b: SubscribedItem): boolean {
+  return description(a) === description(b);
+}
+
+const descriptions = new WeakMap<SubscribedItem, string>();
+
+function description(item: SubscribedItem): string {
+  let text = descriptions.get(item);
+  if (text === undefined) {
+    text = JSON.stringify({ ...item, offset: 0 });
+    descriptions.set(item, text);
+  }
+  return text;
+}
+
 export type ValueKind =
   | 'bool'
   | 'int'

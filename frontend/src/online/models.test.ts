@@ -259,6 +259,31 @@ describe('value board', () => {
     expect(values.get('P.a')).toBeNull();
   });
 
+  it('tells those who show what a variable is of another type, not of values or another place in the frame', () => {
+    const { board: values, draw } = board();
+    const notified = { item: 0, value: 0 };
+    values.subscribeItem('P.a', () => (notified.item += 1));
+    values.subscribe('P.a', () => (notified.value += 1));
+    values.open(1, two);
+    values.receive(frame(1n, 1, 1));
+    draw();
+    expect(notified).toEqual({ item: 1, value: 1 });
+    const first = values.get('P.a')?.item;
+    values.receive(frame(2n, 2, 1));
+    draw();
+    expect(notified).toEqual({ item: 1, value: 2 });
+    // Scrolled: the same variable at another place of another frame keeps its value and what is known of it.
+    values.open(2, [{ ...item('INT', 'int', 2), expression: 'P.a', offset: 8 }]);
+    values.close(1);
+    draw();
+    expect(notified).toEqual({ item: 1, value: 2 });
+    expect(values.get('P.a')).toMatchObject({ value: 2, changedAt: 1000 });
+    expect(values.get('P.a')?.item).toBe(first);
+    values.open(3, [{ ...item('DINT', 'int', 4), expression: 'P.a' }]);
+    draw();
+    expect(notified).toEqual({ item: 2, value: 3 });
+  });
+
   it('decodes nothing of 1,000 standing values', () => {
     const { board: values } = board();
     const many = Array.from({ length: 1000 }, (_, i) => ({

@@ -17,6 +17,16 @@ export function useLiveValue(runtimeId: string | null, expression: string): Live
   return useSyncExternalStore(subscribe, () => board?.get(expression) ?? null);
 }
 
+/** What the server says about one expression; values do not draw again. Somebody must watch it. */
+export function useLiveItem(runtimeId: string | null, expression: string): SubscribedItem | null {
+  const board = channelOf(runtimeId)?.board ?? null;
+  const subscribe = useCallback(
+    (listener: () => void) => board?.subscribeItem(expression, listener) ?? (() => undefined),
+    [board, expression],
+  );
+  return useSyncExternalStore(subscribe, () => board?.get(expression)?.item ?? null);
+}
+
 /** Watches expressions while the component is there; what is watched may change with every drawing. */
 export function useWatched(runtimeId: string | null, expressions: readonly string[], intervalMs = 100): void {
   const handle = useRef<GroupHandle | null>(null);
@@ -43,8 +53,8 @@ export function isForced(item: SubscribedItem | undefined, forces: readonly Imag
 }
 
 export function useForced(runtimeId: string | null, expression: string): boolean {
-  const item = useLiveValue(runtimeId, expression)?.item;
-  return useOnline((state) => runtimeId !== null && isForced(item, state.forcedPlaces[runtimeId]));
+  const item = useLiveItem(runtimeId, expression);
+  return useOnline((state) => runtimeId !== null && isForced(item ?? undefined, state.forcedPlaces[runtimeId]));
 }
 
 /** The variables of the application that is loaded in the session's runtime. */

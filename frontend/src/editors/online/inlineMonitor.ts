@@ -1,11 +1,12 @@
 /**
  * Values behind the variables of the visible lines of one Monaco editor.
  *
- * Asks for what is on screen (and a little around it), and draws again only when one of these values changes.
+ * Asks for what is on screen (and a little around it), and draws only those again whose text or look has changed.
  */
 import type { editor, IDisposable } from 'monaco-editor/editor/editor.api';
 import type { GroupHandle, OnlineChannel } from '@/online/channel';
 import type { NumberFormat } from '@/text/settings';
+import { FRESH_MS } from '@/online/freshMarks';
 import { expressionKey } from '@/online/item';
 import { usePrepared } from '@/online/prepared';
 import { isForced } from '@/online/useLive';
@@ -15,7 +16,7 @@ import { valueTokens } from '@/text/bodies';
 import type { Monaco } from '@/text/monacoLoader';
 import { expressionOf, findVariables, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
 import styles from './inlineMonitor.module.css';
-import { FRESH_MS, pillOf, PillWidths } from './pills';
+import { pillOf, PillWidths } from './pills';
 
 export interface MonitorSettings {
   readonly runtimeId: string;
@@ -45,7 +46,8 @@ export class InlineMonitor {
   private uses: readonly VariableUse[] = [];
   private shown: readonly ShownUse[] = [];
   private readonly widths = new PillWidths();
-  private readonly decorations: editor.IEditorDecorationsCollection;
+  /** What is drawn, by line and column of its place: the number of its decoration, and text and look. */
+  private readonly drawn = new Map<string, { id: string; look: string }>();
   private readonly group: GroupHandle;
   private readonly disposables: IDisposable[] = [];
   private readonly stops: (() => void)[] = [];
@@ -53,7 +55,8 @@ export class InlineMonitor {
   private listened = '';
   private frame = 0;
   private fading: ReturnType<typeof setTimeout> | undefined;
-  private drawn = '';
+  /** Lines that were visible when it was last looked at what is on screen. */
+  private lookedAt = { first: 0, last: 0 };
   /** Nothing is shown before the first settings. */
   private settings: MonitorSettings | null = null;
 
@@ -62,10 +65,9 @@ export class InlineMonitor {
     private readonly target: CodeEditor,
     private readonly channel: OnlineChannel,
   ) {
-    this.decorations = target.createDecorationsCollection();
     this.group = channel.watch([], 100);
     this.disposables.push(
-      target.onDidScrollChange((event) => event.scrollTopChanged && this.look()),
+      target.onDidScrollChange((event) => event.scrollTopChanged && this.scrolled()),
       target.onDidLayoutChange(() => this.look()),
       target.onDidChangeModelContent(() => this.read()),
       target.onDidChangeHiddenAreas(() => this.look()),
@@ -97,13 +99,18 @@ export class InlineMonitor {
     this.stops.forEach((stop) => stop());
     this.listening.forEach((stop) => stop());
     this.group.release();
-    this.decorations.clear();
+    this.target.deltaDecorations(
+      [...this.drawn.values()].map(({ id }) => id),
+      [],
+    );
   }
 
   /** The text has changed: find its variables again. */
   private read(): void {
     const model = this.target.getModel();
     this.uses = model === null ? [] : findVariables(model.getValue(), valueTokens(model.getValue()));
+    // Decorations have moved with the text: each is set where it belongs now.
+    for (const pill of this.drawn.values()) pill.look = '';
     this.look();
   }
 
@@ -112,11 +119,24 @@ export class InlineMonitor {
     return typeof value === 'number' ? value : typeof value === 'bigint' ? Number(value) : null;
   };
 
+  private visibleLines(): { first: number; last: number } {
+    const ranges = this.target.getVisibleRanges();
+    return { first: ranges[0]?.startLineNumber ?? 1, last: ranges[ranges.length - 1]?.endLineNumber ?? 1 };
+  }
+
+  /** The lines around what was on screen are watched already: a few lines more change nothing. */
+  private scrolled(): void {
+    const { first, last } = this.visibleLines();
+    const near = (line: number, before: number) => Math.abs(line - before) < AROUND_LINES / 2;
+    if (!near(first, this.lookedAt.first) || !near(last, this.lookedAt.last)) this.look();
+  }
+
   /** Scrolled, resized or other settings: what is on screen and what has to be asked for. */
   private look(): void {
     const model = this.target.getModel();
     const settings = this.settings;
     if (model === null || settings === null) return;
+    this.lookedAt = this.visibleLines();
     const ranges = this.target.getVisibleRanges();
     const visible = (line: number) =>
       ranges.some((r) => line >= r.startLineNumber - AROUND_LINES && line <= r.endLineNumber + AROUND_LINES);
@@ -176,8 +196,9 @@ export class InlineMonitor {
     const forces = useOnline.getState().forcedPlaces[runtimeId];
     const now = performance.now();
     let freshUntil = 0;
-    const next: editor.IModelDeltaDecoration[] = [];
-    const signature: string[] = [];
+    const present = new Set<string>();
+    const outdated: string[] = [];
+    const changed: { place: string; look: string; decoration: editor.IModelDeltaDecoration }[] = [];
     for (const { expression, line, column } of this.shown) {
       const live = this.channel.board.get(expression);
       if (live === null) continue;
@@ -196,13 +217,25 @@ export class InlineMonitor {
       );
       if (pill === null) continue;
       if (pill.classes.includes('fresh')) freshUntil = Math.max(freshUntil, live.changedAt + FRESH_MS);
-      signature.push(`${String(line)}.${String(column)} ${pill.text} ${pill.classes.join()} ${pill.prepared ?? ''}`);
-      next.push(this.decoration({ expression }, pill, line, column));
+      const place = `${String(line)}.${String(column)}`;
+      const look = `${expression} ${pill.text} ${pill.classes.join()} ${pill.prepared ?? ''}`;
+      present.add(place);
+      const before = this.drawn.get(place);
+      if (before?.look === look) continue;
+      if (before !== undefined) outdated.push(before.id);
+      changed.push({ place, look, decoration: this.decoration({ expression }, pill, line, column) });
     }
-    const drawn = signature.join('\n');
-    if (drawn !== this.drawn) {
-      this.drawn = drawn;
-      this.decorations.set(next);
+    for (const [place, { id }] of this.drawn) {
+      if (present.has(place)) continue;
+      outdated.push(id);
+      this.drawn.delete(place);
+    }
+    if (outdated.length > 0 || changed.length > 0) {
+      const ids = this.target.deltaDecorations(
+        outdated,
+        changed.map(({ decoration }) => decoration),
+      );
+      changed.forEach(({ place, look }, at) => this.drawn.set(place, { id: ids[at] ?? '', look }));
     }
     clearTimeout(this.fading);
     if (freshUntil > 0) this.fading = setTimeout(this.redraw, freshUntil - now + 20);

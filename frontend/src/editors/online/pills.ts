@@ -1,6 +1,7 @@
 /** What stands behind a variable in a line: the text and look of its value. Pure. */
 import type { LiveValue } from '@/online/board';
 import { formatShort } from '@/online/format';
+import { FRESH_MS } from '@/online/freshMarks';
 import type { NumberFormat } from '@/text/settings';
 import { isLeaf, valueKind } from '@/online/item';
 
@@ -23,7 +24,6 @@ export interface Pill {
   readonly prepared: string | null;
 }
 
-export const FRESH_MS = 1000;
 const NO_BREAK = '\u00a0';
 const LONGEST = 24;
 

@@ -1,0 +1,286 @@
+"""What the workbench costs the browser: live values, editors, the first page. Figures with `pytest -s`.
+
+Shares are processor time of the page's main thread by wall time, as Chromium counts it (`TaskDuration`).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import (
+    APIRequestContext,
+    Browser,
+    CDPSession,
+    Page,
+    WebSocket,
+    expect,
+    sync_playwright,
+)
+
+from .conftest import BROWSERS, CHROMIUM_FLAGS, Server
+from .workbench import implementation, log_in, open_object, open_panel, open_project
+
+pytestmark = [pytest.mark.e2e, pytest.mark.slow]
+
+PROJECT = "Thousand values"
+VARIABLES = 1000
+ROW_PX = 26
+SECONDS = 5.0
+NUMBER = re.compile(r"\d+")
+FRAMES = """
+async ([selector, px]) => {
+  const target = selector === null ? null : document.querySelector(selector);
+  let frames = 0;
+  const began = performance.now();
+  while (performance.now() - began < %d) {
+    if (target !== null) target.scrollTop += px;
+    await new Promise(requestAnimationFrame);
+    frames += 1;
+  }
+  return (frames * 1000) / (performance.now() - began);
+}
+"""
+
+WHEEL = """
+async () => {
+  const editors = [...document.querySelectorAll('.monaco-editor .editor-scrollable')];
+  const editor = editors.filter((each) => each.checkVisibility()).at(-1);
+  const began = performance.now();
+  let frames = 0;
+  while (performance.now() - began < %d) {
+    editor.dispatchEvent(new WheelEvent('wheel', { deltaY: 40, bubbles: true, cancelable: true }));
+    await new Promise(requestAnimationFrame);
+    frames += 1;
+  }
+  return (frames * 1000) / (performance.now() - began);
+}
+"""
+OPENED = """
+async ([name, shown]) => {
+  const rows = [...document.querySelectorAll('[role=treeitem]')];
+  const row = rows.find((each) => each.textContent.trim().startsWith(name));
+  const began = performance.now();
+  row.dispatchEvent(new MouseEvent('dblclick', { bubbles: true, cancelable: true }));
+  while (performance.now() - began < 20000) {
+    const group = document.querySelector('.dv-groupview.dv-active-group');
+    const tab = group?.querySelector('.dv-active-tab');
+    const busy = [...document.querySelectorAll('[aria-busy]')].some((each) => each.checkVisibility());
+    const content = [...(group?.querySelectorAll(shown) ?? [])].find((each) => each.checkVisibility());
+    if (tab?.textContent.includes(name) && !busy && content !== undefined && content.textContent !== '')
+      return performance.now() - began;
+    await new Promise(requestAnimationFrame);
+  }
+  return null;
+}
+"""
+TEXT = ".view-line span span"
+EDITORS = [
+    ("PLC_PRG", TEXT),
+    ("GVL_IO", TEXT),
+    ("GVL_Line", TEXT),
+    ("GVL_Plant", TEXT),
+    ("Library Manager", ".dv-content-container [role=treegrid], .dv-content-container [role=grid]"),
+    ("MainTask", ".dv-content-container label"),
+    ("Tappet Soft PLC", ".dv-content-container label"),
+    ("PersistentVars", TEXT),
+]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """Chromium with its optimising compilers, which the other tests switch off."""
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        pytest.fail("Chromium is missing; `make system` installs it")
+    flags = [flag for flag in CHROMIUM_FLAGS if not flag.startswith("--js-flags")]
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=found, args=flags)
+        yield chromium
+        chromium.close()
+
+
+class Load:
+    """Measures the page's main thread."""
+
+    def __init__(self, page: Page) -> None:
+        self._page = page
+        self._session: CDPSession = page.context.new_cdp_session(page)
+        self._session.send("Performance.enable")
+
+    def busy(self, name: str, *, scrolled: str | None = None, px: int = 40) -> None:
+        """Prints the share of the main thread and the frames a second, while `scrolled` is scrolled."""
+        before = self._counters()
+        script = WHEEL if scrolled == "text" else FRAMES
+        rate = self._page.evaluate(script % int(SECONDS * 1000), [scrolled, px])
+        after = self._counters()
+        wall = after["Timestamp"] - before["Timestamp"]
+        parts = ("TaskDuration", "ScriptDuration", "RecalcStyleDuration", "LayoutDuration")
+        task, scripts, style, layout = (100.0 * (after[part] - before[part]) / wall for part in parts)
+        print(
+            f"\n{name}: main thread {task:.0f} %"
+            f" (script {scripts:.0f}, style {style:.0f}, layout {layout:.0f}), {rate:.0f} frames/s",
+            end="",
+        )
+
+    def _counters(self) -> dict[str, float]:
+        answer = self._session.send("Performance.getMetrics")
+        return {metric["name"]: metric["value"] for metric in answer["metrics"]}
+
+
+class Subscriptions:
+    """What the page asks the online socket for."""
+
+    def __init__(self, page: Page) -> None:
+        self.asked: dict[int, int] = {}
+        page.on("websocket", self._opened)
+
+    def _opened(self, socket: WebSocket) -> None:
+        if "/online" in socket.url:
+            socket.on("framesent", self._sent)
+
+    def _sent(self, frame: str | bytes) -> None:
+        if isinstance(frame, bytes):
+            return
+        message = json.loads(frame)
+        if message.get("op") == "subscribe":
+            self.asked[message["id"]] = len(message["expressions"])
+        elif message.get("op") == "unsubscribe":
+            self.asked.pop(message["id"], None)
+
+
+def make_project(request: APIRequestContext, server: Server) -> str:
+    """A running application whose variables change in every cycle; the id of its project."""
+    api = f"{server.address}/api/v1"
+    headers = {"X-Tappet-Client": "1", "Origin": server.address}
+
+    def send(method: str, path: str, body: object) -> Any:
+        answer = request.fetch(api + path, method=method, headers=headers, data=body)
+        assert answer.ok, f"{method} {path}: {answer.status} {answer.text()}"
+        return answer.json() if answer.text() else None
+
+    project = send("POST", "/projects", {"name": PROJECT})["id"]
+    path = f"/projects/{project}"
+    objects = request.get(f"{api}{path}/objects").json()
+    found = {each["kind"]: each for each in objects}
+    application, program = found["application"], found["pou"]
+    types = ("DINT", "LREAL", "BOOL", "TIME")
+    names = [f"v{number:04d}" for number in range(VARIABLES)]
+    declared = "\n".join(f"  {name} : {types[number % 4]};" for number, name in enumerate(names))
+    send(
+        "POST",
+        f"{path}/objects",
+        {
+            "parent_id": application["id"],
+            "kind": "gvl",
+            "name": "GVL_Values",
+            "data": {"declaration": f"VAR_GLOBAL\n{declared}\nEND_VAR"},
+        },
+    )
+    step = {"DINT": "{0} := {0} + 1;", "LREAL": "{0} := {0} + 0.25;", "BOOL": "{0} := NOT {0};"}
+    step["TIME"] = "{0} := {0} + T#20ms;"
+    # A BOOL that changes in each cycle of 20 ms is the same in every fifth; the counter decides instead.
+    step["BOOL"] = "{0} := (v0000 / 5) MOD 2 = 0;"
+    lines = [step[types[number % 4]].format(name) for number, name in enumerate(names)]
+    detail = request.get(f"{api}{path}/objects/{program['id']}").json()
+    data = detail["data"] | {"implementation": "\n".join(lines)}
+    send("PUT", f"{path}/objects/{program['id']}", {"base_revision": detail["revision"], "data": data})
+    send("PUT", f"/me/settings/watch.{project}", {"1": names})
+    send(
+        "POST",
+        f"{path}/applications/{application['id']}/download",
+        {"runtime_id": "local", "mode": "download", "start": True},
+    )
+    return str(project)
+
+
+@pytest.fixture
+def subscriptions(page: Page, server: Server) -> Subscriptions:
+    """The page logged in to the application of many values."""
+    make_project(page.request, server)
+    seen = Subscriptions(page)
+    page.goto(server.address)
+    open_project(page, PROJECT)
+    log_in(page)
+    return seen
+
+
+def test_a_thousand_values_on_screen(page: Page, subscriptions: Subscriptions) -> None:
+    """All rows of a table in a window of that height, then a window of usual height, still and scrolled."""
+    load = Load(page)
+    load.busy("logged in, no values shown")
+    page.set_viewport_size({"width": 1440, "height": int(VARIABLES * ROW_PX * 1.6)})
+    open_object(page, "GVL_Values")
+    table = page.get_by_role("treegrid").filter(has_text="v0000").first
+    cell = table.get_by_role("row").filter(has_text="v0000").get_by_role("gridcell").nth(2)
+    expect(cell).to_have_text(NUMBER)
+    first = cell.inner_text()
+    load.busy(f"table, {table.get_by_role('row').count() - 1} values on screen")
+    assert cell.inner_text() != first
+    page.set_viewport_size({"width": 1440, "height": 1200})
+    page.wait_for_timeout(1000)
+    assert 0 < sum(subscriptions.asked.values()) < 200
+    load.busy("table, 1,000 rows in a window of 1,200 px")
+    load.busy("table, scrolled", scrolled="[role=treegrid]")
+
+
+def test_a_thousand_values_in_a_watch_list(page: Page, subscriptions: Subscriptions) -> None:
+    """What no row on screen shows is not asked for once its type is known."""
+    open_panel(page, "Watch 1")
+    table = page.get_by_role("treegrid", name="Watch 1")
+    expect(table.get_by_role("row").filter(has_text="v0000").get_by_role("gridcell").nth(2)).to_have_text(
+        NUMBER
+    )
+    page.wait_for_timeout(3000)
+    load = Load(page)
+    load.busy("watch list of 1,000 rows, some on screen")
+    load.busy("watch list, scrolled", scrolled="[aria-label='Watch 1'][role=treegrid]")
+    print(f"\n  expressions asked for: {sum(subscriptions.asked.values())}", end="")
+
+
+def test_a_text_with_many_values(page: Page, subscriptions: Subscriptions) -> None:
+    """Values behind the variables of a text, in a window of 3,200 px, and scrolled in one of 1,200 px."""
+    load = Load(page)
+    page.set_viewport_size({"width": 1440, "height": 3200})
+    open_object(page, "PLC_PRG")
+    pills = implementation(page).locator("[class*=pill]")
+    expect(pills.nth(20)).to_be_visible()
+    load.busy(f"text, {pills.count()} values on screen")
+    page.set_viewport_size({"width": 1440, "height": 1200})
+    page.wait_for_timeout(1000)
+    load.busy("text in a window of 1,200 px")
+    load.busy("text, scrolled", scrolled="text")
+    assert pills.count() > 0
+
+
+def test_opening_editors(page: Page, server: Server) -> None:
+    """From the double click until the editor shows its content: the first one, and each further one."""
+    open_project(page)
+    for name, shown in EDITORS:
+        taken = page.evaluate(OPENED, [name, shown])
+        assert taken is not None, f"{name} was not shown"
+        print(f"\n{name} opened: {taken:.0f} ms", end="")
+        page.wait_for_timeout(1500)
+
+
+def test_the_first_page(browser: Browser, server: Server) -> None:
+    """Bytes as they come over the wire until the login page stands, and the start page."""
+    for name, address in (("login page", server.address), ("start page", server.fresh_link())):
+        profile = browser.new_context()
+        page = profile.new_page()
+        session = profile.new_cdp_session(page)
+        session.send("Network.enable")
+        sizes: list[float] = []
+        session.on(
+            "Network.loadingFinished", lambda event, sizes=sizes: sizes.append(event["encodedDataLength"])
+        )
+        page.goto(address)
+        expect(page.get_by_role("button").first).to_be_visible()
+        page.wait_for_timeout(3000)
+        print(f"\n{name}: {sum(sizes) / 1000:.0f} kB in {len(sizes)} answers", end="")
+        assert sizes
+        profile.close()
