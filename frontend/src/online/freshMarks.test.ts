@@ -8,6 +8,7 @@ describe('marks of changed values', () => {
 
   it('fade a second after the last change, each at its time, by one timer', () => {
     const [a, b] = [document.createElement('span'), document.createElement('span')];
+    vi.advanceTimersByTime(100);
     markFresh(a, performance.now());
     vi.advanceTimersByTime(500);
     markFresh(b, performance.now());
