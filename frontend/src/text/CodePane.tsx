@@ -110,9 +110,10 @@ export function CodePane({ monaco, model, label, readOnly, onEditor }: CodePaneP
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [monaco, model]);
 
+  const tabFocusMode = useEditorSettings((settings) => settings.tabMovesFocus);
   useEffect(() => {
-    instance.current?.updateOptions({ readOnly });
-  }, [readOnly, monaco, model]);
+    instance.current?.updateOptions({ readOnly, tabFocusMode });
+  }, [readOnly, tabFocusMode, monaco, model]);
 
   return <div ref={host} className={styles.pane} />;
 }

@@ -25,6 +25,8 @@ export interface EditorSettings {
   /** Formatting puts blanks around operators, and behind commas. */
   formatOperators: boolean;
   formatCommas: boolean;
+  /** Tab leaves the text instead of indenting it. */
+  tabMovesFocus: boolean;
 }
 
 const TAB_WIDTH = 4;
@@ -44,6 +46,7 @@ const settings = settingsOf<EditorSettings>('editors', {
   formatKeywords: 'upper',
   formatOperators: true,
   formatCommas: true,
+  tabMovesFocus: false,
 });
 
 export const useEditorSettings = settings.use;

@@ -1,4 +1,5 @@
 /** Running commands, from menus, buttons, keys and the palette alike. */
+import { create } from 'zustand';
 import { t, type TextKey } from '@/i18n';
 import {
   activeHandler,
@@ -68,6 +69,9 @@ function onKeyDown(event: KeyboardEvent): void {
     event.preventDefault();
     event.stopPropagation();
     void runCommand(command.id);
+  } else if (openMenuByLetter(event)) {
+    event.preventDefault();
+    event.stopPropagation();
   } else if (shieldedFromBrowser(event)) event.preventDefault();
 }
 
@@ -90,5 +94,34 @@ const MENU_IDS: readonly MenuId[] = [
   'help',
 ];
 
+/** Alt and this letter open a menu; W closes an editor, so that Window has its second letter. */
+const LETTERS: Record<MenuId, string> = {
+  file: 'F',
+  edit: 'E',
+  view: 'V',
+  project: 'P',
+  build: 'B',
+  online: 'O',
+  debug: 'D',
+  tools: 'T',
+  window: 'I',
+  help: 'H',
+};
+
 /** The menus of the menu bar, left to right. */
-export const MENUS: readonly { id: MenuId; title: TextKey }[] = MENU_IDS.map((id) => ({ id, title: `menu.${id}` }));
+export const MENUS: readonly { id: MenuId; title: TextKey; letter: string }[] = MENU_IDS.map((id) => ({
+  id,
+  title: `menu.${id}`,
+  letter: LETTERS[id],
+}));
+
+/** The menu that is open; empty when none is. */
+export const useOpenMenu = create<{ id: MenuId | '' }>(() => ({ id: '' }));
+
+/** Opens the menu of Alt and a letter; false for other keys. */
+function openMenuByLetter(event: KeyboardEvent): boolean {
+  if (!event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return false;
+  const menu = MENUS.find(({ letter }) => event.code === `Key${letter}`);
+  if (menu !== undefined) useOpenMenu.setState({ id: menu.id });
+  return menu !== undefined;
+}

@@ -123,6 +123,14 @@ const commands: Command[] = [
       enabled: mayEdit,
     },
   ),
+  {
+    id: 'st.tabMovesFocus',
+    title: 'st.command.tabMovesFocus',
+    keys: ['Ctrl+M'],
+    menu: { menu: 'edit', group: '8_keyboard' },
+    checked: () => useEditorSettings.getState().tabMovesFocus,
+    run: () => setEditorSettings({ tabMovesFocus: !useEditorSettings.getState().tabMovesFocus }),
+  },
   ...FOLDING.map(({ id, keys }, order): Command => ({
     id: `st.${id}`,
     title: `st.command.${id}`,
@@ -165,6 +173,6 @@ const commands: Command[] = [
 export function registerTextCommands(): void {
   registerCommands(commands);
   useEditorSettings.subscribe((now, before) => {
-    if (now.autoDeclare !== before.autoDeclare) contextChanged();
+    if (now.autoDeclare !== before.autoDeclare || now.tabMovesFocus !== before.tabMovesFocus) contextChanged();
   });
 }

@@ -11,6 +11,7 @@ import {
 import { menuGroup, registerCommands, type Command, type Enablement } from '../commands';
 import { editor } from '../conditions';
 import type { CommandContext } from '../context';
+import { stepArea } from '../areas';
 import { closeEditors } from '../docking/close';
 import { dockApi, focusPanel, resetLayout } from '../docking/dock';
 import { floatPanel, popOutPanel, splitPanel } from '../docking/panelMenu';
@@ -43,6 +44,18 @@ const commands: Command[] = [
   ...menuGroup(
     'window',
     '1_go',
+    {
+      id: 'window.nextArea',
+      title: 'command.nextArea',
+      keys: ['F6'],
+      run: () => stepArea(1),
+    },
+    {
+      id: 'window.previousArea',
+      title: 'command.previousArea',
+      keys: ['Shift+F6'],
+      run: () => stepArea(-1),
+    },
     {
       id: 'window.next',
       title: 'command.nextEditor',

@@ -12,7 +12,9 @@ import { useRuntimeState, useTasks } from '../online/poll';
 import { runtimeText } from '../online/runtimeText';
 import { useOnline, type OnlineSession } from '../onlineSession';
 import { useProject } from '@/project/openProject';
+import { useRegistry } from '../commands';
 import { runCommand } from '../run';
+import { useCommandContext } from '../useCommandContext';
 import { useSelection } from '../selection';
 import { isSimulated, toneOfApplication } from '../tones';
 import { Spinner } from '@/ui/Empty';
@@ -178,12 +180,19 @@ function BusyItem() {
 function CursorItem() {
   const t = useText();
   const cursor = useSelection((state) => (state.activeEditor ? state.cursors.get(state.activeEditor) : undefined));
+  const context = useCommandContext();
+  const tabMoves = useRegistry((state) => state.commands.get('st.tabMovesFocus')?.checked?.(context) === true);
   if (!cursor) return null;
   return (
-    <span className={styles.item}>
-      {t('status.position', { line: cursor.line, column: cursor.column })}
-      {cursor.selected ? ` (${t('status.selected', { count: cursor.selected })})` : ''}
-    </span>
+    <>
+      <button className={styles.item} title={t('status.tabRules')} onClick={() => void runCommand('st.tabMovesFocus')}>
+        {t(tabMoves ? 'status.tabMoves' : 'status.tabIndents')}
+      </button>
+      <span className={styles.item}>
+        {t('status.position', { line: cursor.line, column: cursor.column })}
+        {cursor.selected ? ` (${t('status.selected', { count: cursor.selected })})` : ''}
+      </span>
+    </>
   );
 }
 
