@@ -171,7 +171,7 @@ def boot(case):
     assert plc.boot()
     report = plc.exception()
     outcome = {"state": plc.state, "name": "", "text": "", "pou": ""}
-    outcome["started again"] = any("started again" in e.message for e in plc.log.since())
+    outcome["started again"] = any("without stopping it" in e.message for e in plc.log.since())
     if report is not None:
         outcome |= {"name": report.name, "text": report.message, "pou": report.pou}
     plc.start()
