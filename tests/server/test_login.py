@@ -16,6 +16,7 @@ from tappet.server import tables
 from tappet.server.app import create_app
 from tappet.server.auth import lockout
 from tappet.server.auth.login import LOCAL_LINK
+from tappet.server.auth.passwords import WeakPasswordError, check
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 
@@ -51,6 +52,36 @@ def test_weak_password_does_not_use_up_the_token(app: FastAPI, services: Service
     assert answer.status_code == 422
     assert "at least 10 characters" in answer.json()["detail"]
     assert client.post(FIRST, json={**body, "password": PASSWORD}).status_code == 201
+
+
+@pytest.mark.parametrize(
+    ("password", "words"),
+    [
+        ("password123", "very common"),
+        ("qwertzuiop", "very common"),
+        ("Passw0rd!2024", "similar to a commonly used password"),
+        ("aaaaaaaaaaaaaaaaaaaaaaaaaaa", "Repeats"),
+        ("王工王工王工王工王工", "Repeats"),
+        ("abcdefghijkl", "Sequences"),
+        ("ｐａｓｓｗｏｒｄ１２３", "very common"),
+        ("angelika.mueller", "guessed too soon"),
+        ("tappetcodesys", "guessed too soon"),
+        ("a" * 1024, "Repeats"),
+        ("short", "at least 10"),
+        ("x" * 1025, "at most 1024"),
+    ],
+)
+def test_passwords_that_are_guessed_soon_are_refused(password: str, words: str) -> None:
+    with pytest.raises(WeakPasswordError, match=words):
+        check(password, "angelika.mueller")
+
+
+@pytest.mark.parametrize(
+    "password",
+    [PASSWORD, "another good phrase", "蓝天白云下的小马过河", "Zk7#pQ-w9!vR", "\ud800 of no use at all"],
+)
+def test_others_are_taken(password: str) -> None:
+    check(password, "angelika.mueller")
 
 
 def test_token_is_gone_after_restart_with_accounts(
