@@ -69,13 +69,16 @@ def status_bar(page: Page) -> Locator:
 
 
 def log_in(page: Page, expected: str = "running") -> None:
-    """Alt+F8; agrees to what the dialog proposes first, if the runtime holds something else."""
+    """Alt+F8; loads what has changed, by online change where that is possible."""
     page.keyboard.press("Alt+F8")
     dialog = page.get_by_role("dialog")
     online = status_bar(page).get_by_text(expected)
     expect(dialog.or_(online).first).to_be_visible()
     if dialog.count():
-        page.keyboard.press("Enter")
+        loading = dialog.get_by_role("radio", name=re.compile("^Login with (online change|download)"))
+        if loading.count():
+            loading.first.click()
+        dialog.locator("button[type=submit]").click()
         expect(dialog).to_have_count(0)
     expect(online).to_be_visible()
 

@@ -125,7 +125,11 @@ def test_relations_from_foreign_to_online_change(
     done = _download(admin, project, runtime_id)
     assert done.status_code == 200, done.text
     assert done.json()["state"] == "run"
-    assert _login(admin, project, runtime_id) == {"relation": "same", "reasons": []}
+    assert _login(admin, project, runtime_id) == {
+        "relation": "same",
+        "reasons": [],
+        "loaded_project": None,
+    }
 
     project.edit("PROGRAM PLC_PRG\nVAR\n  n : INT := 5;\nEND_VAR", "n := n + 2;")
     code = _login(admin, project, runtime_id)
@@ -151,6 +155,19 @@ def test_relations_from_foreign_to_online_change(
     refused = _download(admin, project, runtime_id)
     assert refused.status_code == 422
     assert refused.json()["diagnostics"][0]["part"] == "implementation"
+
+
+def test_login_names_the_project_that_the_runtime_holds(
+    admin: TestClient, project: Stored, services: Services, runtime_id: str, plc: FakePlc
+) -> None:
+    assert _download(admin, project, runtime_id).status_code == 200
+    info = services.store.create_project("Capper", "ann")
+    other = Stored(services, info.id, services.store.load(info.id).applications()[0].id)
+    found = _login(admin, other, runtime_id)
+    assert (found["relation"], found["loaded_project"]) == ("foreign", "Filler")
+    services.store.delete_project(project.id, "ann")
+    gone = _login(admin, other, runtime_id)
+    assert (gone["relation"], gone["loaded_project"]) == ("foreign", None)
 
 
 def test_downloads_are_audited(admin: TestClient, project: Stored, runtime_id: str) -> None:

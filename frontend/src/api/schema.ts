@@ -2988,6 +2988,11 @@ export interface components {
          */
         LoginReport: {
             /**
+             * Loaded Project
+             * @description Name of the project that the runtime's application came from, when known.
+             */
+            loaded_project: string | null;
+            /**
              * Reasons
              * @description What differs, one sentence each.
              */

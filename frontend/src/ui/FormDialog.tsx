@@ -11,6 +11,8 @@ interface FormDialogProps extends Omit<DialogProps, 'footer' | 'onSubmit'> {
   disabledReason?: string | null;
   /** The form has no field to begin with: its button gets the focus. */
   focusAction?: boolean;
+  /** The action stops something: Cancel gets the focus, so that Enter alone does not agree. */
+  focusCancel?: boolean;
   /** What stands in the foot before the buttons. */
   aside?: ReactNode;
   onSubmit: () => void;
@@ -22,6 +24,7 @@ export function FormDialog({
   danger,
   disabledReason,
   focusAction,
+  focusCancel,
   aside,
   onSubmit,
   onClose,
@@ -36,7 +39,9 @@ export function FormDialog({
       footer={
         <>
           {aside}
-          <Button onClick={onClose}>{t('action.cancel')}</Button>
+          <Button onClick={onClose} data-autofocus={focusCancel || undefined}>
+            {t('action.cancel')}
+          </Button>
           <Button
             type="submit"
             variant={danger ? 'danger' : 'primary'}

@@ -10,6 +10,7 @@ from starlette.concurrency import run_in_threadpool
 
 from tappet.project.kinds.application import ApplicationData
 from tappet.project.store import Store
+from tappet.project.store.records import UnknownProjectError
 from tappet.runtime.client import RuntimeRefused
 from tappet.runtime.exception_report import summary
 from tappet.runtime.operations.life_cycle import Start
@@ -80,8 +81,9 @@ class Commissioning:
             )
             return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason])
         if (loaded.project_id, loaded.application_id) != (project_id, application_id):
-            reason = f"'{link.name}' runs the application '{info.application}' of another project."
-            return LoginReport(relation=Relation.FOREIGN, reasons=[reason])
+            reason = f"'{link.name}' runs another application, '{info.application}'."
+            origin = await run_in_threadpool(self._project_name, loaded.project_id)
+            return LoginReport(relation=Relation.FOREIGN, reasons=[reason], loaded_project=origin)
         built = await self.builder.build(application, _base(loaded))
         if not built.report.ok:
             reason = "The project has errors; the running application is older than it."
@@ -93,6 +95,13 @@ class Commissioning:
             return LoginReport(relation=Relation.ONLINE_CHANGE, reasons=reasons)
         reasons = list(built.change_reasons) or ["The running application is another one."]
         return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons)
+
+    def _project_name(self, project_id: str) -> str | None:
+        """None for a project that has been deleted since."""
+        try:
+            return self.store.project(project_id).name
+        except UnknownProjectError:
+            return None
 
     async def download(
         self,

@@ -90,6 +90,9 @@ class LoginReport(Reply):
 
     relation: Relation
     reasons: list[str] = Field(description="What differs, one sentence each.")
+    loaded_project: str | None = Field(
+        default=None, description="Name of the project that the runtime's application came from, when known."
+    )
 
 
 class DownloadOrder(Request):

@@ -14,7 +14,7 @@ import { loggedIn, loggedOut, relationChanged, runtimePolled } from '../onlineSe
 import { ofRole } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
 import { atLeast } from '../rights';
-import { askDownload, askLogin, askRuntime } from './dialogs';
+import { askDownload, askLogin, askLoginWithErrors, askRuntime } from './dialogs';
 import { compareLogin } from './relation';
 
 /** The runtime on the server's own machine; devices in simulation run there. */
@@ -34,6 +34,11 @@ async function busy<Answer>(text: string, act: (signal: AbortSignal) => Promise<
 function nameOf(context: CommandContext): string {
   const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(context.projectId!)) ?? [];
   return objects.find((object) => object.id === context.applicationId)?.name ?? '';
+}
+
+/** The names that questions about the active application give. */
+function namesOf(context: CommandContext): { application: string; project: string } {
+  return { application: nameOf(context), project: useProject.getState().projectName };
 }
 
 /** Place of the active application in requests. */
@@ -123,10 +128,7 @@ export async function login(context: CommandContext): Promise<void> {
   if (mayLoad) {
     const report = await build(context);
     if (!report) return;
-    if (!report.ok) {
-      notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
-      return;
-    }
+    if (!report.ok) return loginWithErrors(context, runtime);
   }
   const answer = await compare(context, runtime.id);
   if (answer.relation === 'same') {
@@ -136,7 +138,7 @@ export async function login(context: CommandContext): Promise<void> {
   }
   if (!mayLoad && (answer.relation === 'foreign' || answer.relation === 'empty'))
     throw new Error(t('login.engineerLoads'));
-  const choice = await askLogin({ answer, application: nameOf(context), runtime, mayLoad });
+  const choice = await askLogin({ answer, ...namesOf(context), runtime, mayLoad });
   if (!choice) return;
   if (choice.how === 'without') {
     loggedIn(context.applicationId!, runtime.id, answer.relation);
@@ -144,6 +146,22 @@ export async function login(context: CommandContext): Promise<void> {
     return;
   }
   await load(context, runtime.id, choice.how, choice.start);
+}
+
+/** What does not build cannot be loaded: its last loaded state may still be looked at. */
+async function loginWithErrors(context: CommandContext, runtime: RuntimeState): Promise<void> {
+  const { relation } = await compare(context, runtime.id);
+  const { application, project } = namesOf(context);
+  // Foreign values would stand behind names that only happen to be the same.
+  if (relation === 'foreign' || relation === 'empty') tellBuildErrors();
+  else if (await askLoginWithErrors(application, project, runtime.name)) {
+    loggedIn(context.applicationId!, runtime.id, relation);
+    runtimePolled(runtime.id, runtime);
+  }
+}
+
+function tellBuildErrors(): void {
+  notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
 }
 
 /** Brings the built application into the runtime and shows its values from then on. */
@@ -179,11 +197,11 @@ export async function download(context: CommandContext): Promise<void> {
   const report = await build(context);
   if (!report) return;
   if (!report.ok) {
-    notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
+    tellBuildErrors();
     return;
   }
   const session = context.online!;
-  const choice = await askDownload(nameOf(context), session.runtime?.state === 'run');
+  const choice = await askDownload({ ...namesOf(context), running: session.runtime?.state === 'run' });
   if (choice) await load(context, session.runtimeId, 'download', choice.start);
 }
 
@@ -200,7 +218,7 @@ export async function onlineChange(context: CommandContext, ask = false): Promis
   else if (answer.relation === 'online_change' && !ask) await load(context, session.runtimeId, 'online_change', false);
   else {
     // Where only a download can load this change, the dialog says what stands in the way.
-    const question = { answer, application: nameOf(context), runtime: session.runtime, mayLoad: true };
+    const question = { answer, ...namesOf(context), runtime: session.runtime, mayLoad: true };
     const choice = await askLogin(question);
     if (choice && choice.how !== 'without') await load(context, session.runtimeId, choice.how, choice.start);
   }

@@ -7,10 +7,11 @@ import { FormDialog } from '@/ui/FormDialog';
 import { Checkbox } from '@/ui/Field';
 import { RadioCards } from '@/ui/RadioCards';
 import styles from './dialogs.module.css';
+import { loginChoices, proposedChoice, type LoginHow } from './loginChoices';
 import { RuntimeDialog } from './RuntimeDialog';
 
 export interface LoginChoice {
-  how: 'online_change' | 'download' | 'without';
+  how: LoginHow;
   /** After a download: start at once. */
   start: boolean;
 }
@@ -18,6 +19,7 @@ export interface LoginChoice {
 interface LoginQuestion {
   answer: LoginAnswer;
   application: string;
+  project: string;
   runtime: RuntimeState;
   /** Whether this user may download; others only look. */
   mayLoad: boolean;
@@ -27,9 +29,27 @@ export function askLogin(question: LoginQuestion): Promise<LoginChoice | undefin
   return openDialog<LoginChoice>((close) => <LoginDialog {...question} close={close} />);
 }
 
-export function askDownload(application: string, running: boolean): Promise<{ start: boolean } | undefined> {
-  return openDialog<{ start: boolean }>((close) => (
-    <DownloadDialog application={application} running={running} close={close} />
+interface DownloadQuestion {
+  application: string;
+  project: string;
+  running: boolean;
+}
+
+export function askDownload(question: DownloadQuestion): Promise<{ start: boolean } | undefined> {
+  return openDialog<{ start: boolean }>((close) => <DownloadDialog {...question} close={close} />);
+}
+
+/** The application has errors, and the runtime holds an older state of it: look at that one? */
+export function askLoginWithErrors(application: string, project: string, runtime: string): Promise<true | undefined> {
+  return openDialog<true>((close) => (
+    <FormDialog
+      title={t('login.buildErrors')}
+      description={t('login.withErrors', { application, project, runtime })}
+      onClose={() => close()}
+      onSubmit={() => close(true)}
+      action={t('login.do.unloaded')}
+      focusAction
+    />
   ));
 }
 
@@ -43,27 +63,33 @@ export function askRuntime(
 type Close<Answer> = (answer?: Answer) => void;
 
 /** The application in the runtime is not the one of the project: what now? One choice per relation, as CODESYS asks. */
-function LoginDialog({ answer, application, runtime, mayLoad, close }: LoginQuestion & { close: Close<LoginChoice> }) {
+function LoginDialog({
+  answer,
+  application,
+  project,
+  runtime,
+  mayLoad,
+  close,
+}: LoginQuestion & { close: Close<LoginChoice> }) {
   useText();
-  const choices: LoginChoice['how'][] = !mayLoad
-    ? ['without']
-    : answer.relation === 'online_change'
-      ? ['online_change', 'download', 'without']
-      : answer.relation === 'download'
-        ? ['download', 'without']
-        : ['download'];
-  const [how, setHow] = useState(choices[0]!);
-  const [start, setStart] = useState(runtime.state === 'run');
-  const values = { application, runtime: runtime.name, other: runtime.application ?? '' };
+  const running = runtime.state === 'run';
+  const choices = loginChoices(answer.relation, mayLoad);
+  const proposed = proposedChoice(choices, running);
+  const [how, setHow] = useState(proposed ?? choices[0]!);
+  const [start, setStart] = useState(running);
+  const otherProject = answer.loaded_project ?? '';
+  const values = { application, project, runtime: runtime.name, other: runtime.application ?? '', otherProject };
+  const relation = answer.relation === 'foreign' && otherProject !== '' ? 'foreignProject' : answer.relation;
   return (
     <FormDialog
       title={t('login.title')}
-      description={t(`login.relation.${answer.relation}`, values)}
+      description={t(`login.relation.${relation}`, values)}
       width={520}
       onClose={() => close()}
       onSubmit={() => close({ how, start: how === 'download' && start })}
       action={t(`login.do.${how}`)}
-      focusAction
+      focusAction={proposed !== null}
+      focusCancel={proposed === null}
     >
       {choices.length > 1 && (
         <RadioCards
@@ -80,7 +106,7 @@ function LoginDialog({ answer, application, runtime, mayLoad, close }: LoginQues
       {answer.relation !== 'empty' && answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />}
       {how === 'download' && (
         <>
-          {runtime.state === 'run' && <p className={styles.warning}>{t('login.stops')}</p>}
+          {running && <p className={styles.warning}>{t('login.stops')}</p>}
           <Checkbox checked={start} onChecked={setStart}>
             {t('login.startAfter')}
           </Checkbox>
@@ -105,22 +131,20 @@ function Reasons({ reasons }: { reasons: readonly string[] }) {
 
 function DownloadDialog({
   application,
+  project,
   running,
   close,
-}: {
-  application: string;
-  running: boolean;
-  close: Close<{ start: boolean }>;
-}) {
+}: DownloadQuestion & { close: Close<{ start: boolean }> }) {
   const [start, setStart] = useState(running);
   return (
     <FormDialog
       title={t('download.title')}
-      description={t('download.text', { name: application })}
+      description={t('download.text', { name: application, project })}
       onClose={() => close()}
       onSubmit={() => close({ start })}
       action={t('login.do.download')}
-      focusAction
+      focusAction={!running}
+      focusCancel={running}
     >
       {running && <p className={styles.warning}>{t('login.stops')}</p>}
       <Checkbox checked={start} onChecked={setStart}>
