@@ -17,9 +17,9 @@ export type PathPart =
   | { readonly kind: 'index'; readonly indices: readonly IndexPart[] }
   | { readonly kind: 'bit'; readonly bit: number };
 
-/** `inst.arr[i].x`, `.gVar`, `THIS^.x`. */
+/** `inst.arr[i].x`, `.gVar`, `THIS^.x`; `own` is a name where it is declared, which stands for nothing else. */
 export interface AccessPath {
-  readonly root: 'plain' | 'global' | 'this';
+  readonly root: 'plain' | 'global' | 'this' | 'own';
   readonly parts: readonly PathPart[];
 }
 
@@ -246,7 +246,7 @@ function rootOf(path: AccessPath, scope: MonitorScope): string | null {
   const name = first?.kind === 'name' ? first.name.toUpperCase() : '';
   if (scope.temporary.has(name)) return null;
   if (scope.members?.has(name)) return scope.instance;
-  return '';
+  return path.root === 'own' ? null : '';
 }
 
 function indexNumber(index: IndexPart, scope: MonitorScope, indexValue: IndexValue): number | null {

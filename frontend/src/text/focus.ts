@@ -21,7 +21,7 @@ interface PanelEditors {
   active: Part;
   table: PanelTable | null;
   chosen: (() => readonly string[]) | null;
-  prepare: (() => boolean) | null;
+  prepare: Partial<Record<Part, () => boolean>>;
 }
 
 const panels = new Map<string, PanelEditors>();
@@ -32,7 +32,7 @@ function panelOf(panelId: string): PanelEditors {
     active: 'implementation' as const,
     table: null,
     chosen: null,
-    prepare: null,
+    prepare: {},
   };
   panels.set(panelId, known);
   return known;
@@ -108,11 +108,14 @@ export function panelChosen(panelId: string): readonly string[] | null {
   return panels.get(panelId)?.chosen?.() ?? null;
 }
 
-/** Opens the field for a value at the cursor of the panel; false where no variable with a value stands. */
-export function setPanelPrepare(panelId: string, prepare: (() => boolean) | null): void {
-  panelOf(panelId).prepare = prepare;
+/** Opens the field for a value at the cursor of an editor; false where no variable with a value stands. */
+export function setPanelPrepare(panelId: string, part: Part, prepare: (() => boolean) | null): void {
+  const panel = panelOf(panelId);
+  if (prepare === null) delete panel.prepare[part];
+  else panel.prepare[part] = prepare;
 }
 
 export function panelPrepare(panelId: string): boolean {
-  return panels.get(panelId)?.prepare?.() ?? false;
+  const panel = panels.get(panelId);
+  return panel?.prepare[panel.active]?.() ?? false;
 }

@@ -7,6 +7,7 @@ import type { EditorProps } from '@/project/editorProps';
 import type { OpenText } from '@/text/useTextDocument';
 import { OnlineDeclaration } from '../online/OnlineDeclaration';
 import { useFaultLine } from '../online/useFaultLine';
+import { useOnlineView } from '../online/useOnlineView';
 import { setEditorSettings, useEditorSettings, type TextView } from '@/text/settings';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
 import { addPanelEditor, removePanelEditor } from '@/text/focus';
@@ -18,7 +19,7 @@ import { useShorthand } from './useShorthand';
 
 type DeclarationPaneProps = EditorProps & OpenText & { object: ObjectSummary };
 
-/** The declaration of an object as text or as table; online the table shows values (DECL-03, DECL-40). */
+/** The declaration of an object as text or as table; online both show values (DECL-03, DECL-40). */
 export function DeclarationPane(props: DeclarationPaneProps) {
   const { object, reveal } = props;
   const t = useText();
@@ -50,11 +51,13 @@ export function DeclarationPane(props: DeclarationPaneProps) {
   );
 }
 
-function DeclarationText({ panelId, projectId, object, monaco, document }: DeclarationPaneProps) {
+function DeclarationText(props: DeclarationPaneProps) {
+  const { panelId, projectId, object, monaco, document } = props;
   const t = useText();
   const [editor, setEditor] = useState<CodeEditor | null>(null);
   const readOnly = useEditingLock(object, editor);
   useShorthand(monaco, projectId, editor);
+  useOnlineView({ ...props, part: 'declaration', editor });
   useFaultLine(projectId, object, 'declaration', editor);
   const onEditor = useCallback(
     (made: CodeEditor | null) => {

@@ -1,5 +1,5 @@
 /**
- * Values behind the variables of the visible lines of one Monaco editor.
+ * Values behind the variables of the visible lines of one Monaco editor; `findUses` tells which stand in a text.
  *
  * Asks for what is on screen (and a little around it), and draws only those again whose text or look has changed.
  */
@@ -12,9 +12,8 @@ import { usePrepared } from '@/online/prepared';
 import { isForced } from '@/online/useLive';
 import { useOnline } from '@/workbench/onlineSession';
 import type { CodeEditor } from '@/text/CodePane';
-import { valueTokens } from '@/text/bodies';
 import type { Monaco } from '@/text/monacoLoader';
-import { expressionOf, findVariables, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
+import { expressionOf, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
 import styles from './inlineMonitor.module.css';
 import { pillOf, PillWidths } from './pills';
 
@@ -64,6 +63,7 @@ export class InlineMonitor {
     private readonly monaco: Monaco,
     private readonly target: CodeEditor,
     private readonly channel: OnlineChannel,
+    private readonly findUses: (text: string) => readonly VariableUse[],
   ) {
     this.group = channel.watch([], 100);
     this.disposables.push(
@@ -108,7 +108,7 @@ export class InlineMonitor {
   /** The text has changed: find its variables again. */
   private read(): void {
     const model = this.target.getModel();
-    this.uses = model === null ? [] : findVariables(model.getValue(), valueTokens(model.getValue()));
+    this.uses = model === null ? [] : this.findUses(model.getValue());
     // Decorations have moved with the text: each is set where it belongs now.
     for (const pill of this.drawn.values()) pill.look = '';
     this.look();

@@ -3,7 +3,9 @@ import type { ObjectSummary } from '@/api/types';
 import type { SubscribedItem } from '@/online/item';
 import { monitorTarget } from './monitorScope';
 import { pillOf, PillWidths, type PillState } from './pills';
+import { expressionOf } from '@/iec/variables';
 import { unchangedLines } from './staleLines';
+import { usesOf } from './uses';
 
 const object = (id: string, kind: string, parent: string | null, subkind: string | null = null) =>
   ({ id, kind, parent_id: parent, subkind, name: id, index: 0, revision: 1 }) as ObjectSummary;
@@ -111,4 +113,30 @@ describe('lines that run', () => {
     ['a|b', '  a|b ', [true, true]],
     ['', 'a', [false]],
   ])('%s -> %s', (running, now, expected) => expect(marks(running, now)).toEqual(expected));
+});
+
+describe('values in a declaration', () => {
+  const expressions = (text: string, members: readonly string[]) => {
+    const scope = { instance: 'PLC_PRG', members: new Set(members), temporary: new Set(['T']) };
+    return usesOf
+      .declaration(text)
+      .map(({ start, end, path }) => [text.slice(start, end), expressionOf(path, scope, () => null)]);
+  };
+  it('stand behind each name that has a place in the running program', () => {
+    const text =
+      'PROGRAM PLC_PRG\nVAR // a : INT\n a, b : INT := limit;\n new : INT;\nEND_VAR\n' +
+      'VAR_TEMP\n t : INT;\nEND_VAR\nVAR_EXTERNAL\n g : INT;\nEND_VAR';
+    expect(expressions(text, ['A', 'B'])).toEqual([
+      ['a', 'PLC_PRG.a'],
+      ['b', 'PLC_PRG.b'],
+      // Loaded later: another variable of that name would be shown otherwise.
+      ['new', null],
+      ['t', null],
+      ['g', 'g'],
+    ]);
+  });
+  it('are none of a structure or an enumeration', () => {
+    expect(expressions('TYPE S :\nSTRUCT\n a : INT;\nEND_STRUCT\nEND_TYPE', ['A'])).toEqual([]);
+    expect(expressions('TYPE E : (a, b);\nEND_TYPE', ['A'])).toEqual([]);
+  });
 });

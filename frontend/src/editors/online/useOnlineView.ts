@@ -6,6 +6,7 @@ import { channelOf } from '@/online/connections';
 import { useMemberNames, useSymbols } from '@/online/useLive';
 import { useObjectSession } from '@/online/useObjectSession';
 import type { EditorProps } from '@/project/editorProps';
+import type { Part } from '@/project/partUri';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import type { OpenText } from '@/text/useTextDocument';
 import { setPanelPrepare } from '@/text/focus';
@@ -16,6 +17,7 @@ import { monitorTarget } from './monitorScope';
 import { prepareClicked, prepareValue } from './preparePopup';
 import { noteRunningText, runningText } from './runningText';
 import { unchangedLines } from './staleLines';
+import { usesOf } from './uses';
 
 type MonitoredProps = Pick<EditorProps, 'projectId' | 'instance'> &
   Pick<OpenText, 'document'> & { object: ObjectSummary };
@@ -72,20 +74,25 @@ export function useMonitored({ projectId, object, instance, document }: Monitore
   return { session, runtimeId, settings, ready, needsInstanceOf: target.needsInstanceOf };
 }
 
-type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; editor: CodeEditor | null };
+type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; part: Part; editor: CodeEditor | null };
 
-/** Values behind the variables of an implementation while logged in; a click on one prepares a value. */
+/** Values behind the variables of a text while logged in; a click on one prepares a value. */
 export function useOnlineView(props: OnlineViewProps): void {
-  const { monaco, editor, panelId } = props;
-  const { runtimeId, settings, ready } = useMonitored(props);
+  const { monaco, editor, panelId, part } = props;
+  const { runtimeId, settings: monitored, ready } = useMonitored(props);
+  // Which lines run is known of the body; a name is declared in the running program, or has no value.
+  const settings = useMemo(
+    () => (monitored !== null && part === 'declaration' ? { ...monitored, running: null } : monitored),
+    [monitored, part],
+  );
   const monitor = useRef<InlineMonitor | null>(null);
 
   useEffect(() => {
     const channel = channelOf(runtimeId);
     if (editor === null || channel === null || !ready) return;
-    const made = new InlineMonitor(monaco, editor, channel);
+    const made = new InlineMonitor(monaco, editor, channel, usesOf[part]);
     const mouse = editor.onMouseUp((event) => prepareClicked(monaco, editor, runtimeId ?? '', event));
-    setPanelPrepare(panelId, () => {
+    setPanelPrepare(panelId, part, () => {
       const place = made.atCursor();
       const position = editor.getPosition();
       if (place === null || position === null) return false;
@@ -95,11 +102,11 @@ export function useOnlineView(props: OnlineViewProps): void {
     monitor.current = made;
     return () => {
       monitor.current = null;
-      setPanelPrepare(panelId, null);
+      setPanelPrepare(panelId, part, null);
       mouse.dispose();
       made.dispose();
     };
-  }, [editor, runtimeId, ready, monaco, panelId]);
+  }, [editor, runtimeId, ready, monaco, panelId, part]);
 
   // After the effect above: a monitor that has just been made gets its settings here.
   useEffect(() => {

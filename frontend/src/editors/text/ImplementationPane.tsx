@@ -35,7 +35,7 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
     [monaco, document, projectId, object, instance],
   );
   useAutoDeclare(panel, editor);
-  useOnlineView({ ...props, editor });
+  useOnlineView({ ...props, part: 'implementation', editor });
   useFaultLine(projectId, object, 'implementation', editor);
   return (
     <TextMenu panelId={panelId}>
