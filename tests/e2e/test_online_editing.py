@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from .workbench import (
+    add_line,
     choose_menu,
     implementation,
     log_in,
@@ -15,6 +16,8 @@ from .workbench import (
     open_object,
     open_panel,
     open_project,
+    plc_prg,
+    prepare,
     status_bar,
     text_of,
     watch,
@@ -117,6 +120,41 @@ def test_a_click_on_a_bool_prepares_it_and_a_double_click_is_one_click(page: Pag
     expect(prepared).to_have_text("<TRUE>")
     choose_menu(page, "Online", "Discard prepared")
     expect(prepared).to_have_text("")
+
+
+def test_the_status_bar_tells_what_is_forced(page: Page) -> None:
+    _logged_in(page)
+    row = watch(page, "GVL_Line.iRecipe")
+    prepare(row, "3")
+    force = status_bar(page).get_by_role("button", name="One variable is forced")
+    expect(force).to_have_count(0)
+    page.keyboard.press("F7")
+    expect(force).to_have_text("FORCE 1")
+    force.click()
+    forces = page.get_by_role("tabpanel", name="Forces")
+    expect(forces.get_by_role("row").filter(has_text="GVL_Line.iRecipe")).to_be_visible()
+    page.keyboard.press("Alt+F7")
+    expect(force).to_have_count(0)
+
+
+def test_an_exception_stands_in_the_status_bar_and_not_over_the_values(page: Page) -> None:
+    editor = plc_prg(page)
+    add_line(page, editor, "iLoaded := 7 / LEN('');")
+    log_in(page, expected="exception")
+    item = status_bar(page).get_by_role("button", name="Division by zero · PLC_PRG, line 2")
+    expect(item).to_be_visible()
+    expect(page.get_by_role("region", name="Notices").get_by_text("Division by zero")).to_have_count(0)
+    editor.locator(".view-line").last.click()
+    item.click()
+    expect(page.get_by_text("Ln 2, Col")).to_be_visible()
+
+
+def test_the_declaration_as_text_shows_values(page: Page) -> None:
+    _logged_in(page)
+    page.get_by_role("button", name="Declaration as text").click()
+    declaration = page.get_by_role("code").filter(has_text="xSafe\u00a0").first
+    line = declaration.locator(".view-line").filter(has_text=re.compile(r"xSafe.*(TRUE|FALSE).*BOOL")).first
+    expect(line.locator("[class*=pill]")).to_have_text(re.compile("TRUE|FALSE"))
 
 
 def test_login_again_after_a_change_offers_the_online_change(page: Page) -> None:

@@ -1,4 +1,15 @@
-import { CircleX, CloudOff, Equal, TriangleAlert, Unplug, X, Zap, CloudUpload } from 'lucide-react';
+import {
+  CircleX,
+  CloudOff,
+  CloudUpload,
+  Equal,
+  LockKeyhole,
+  OctagonAlert,
+  TriangleAlert,
+  Unplug,
+  X,
+  Zap,
+} from 'lucide-react';
 import { useMemo } from 'react';
 import type { LoginRelation } from '@/api/types';
 import { useSession } from '@/session/session';
@@ -7,6 +18,7 @@ import { timeText } from '../clock';
 import { showPanel } from '../docking/dock';
 import { usePresence } from '../events';
 import { countOf, presentMessages, useMessages } from '../messages/store';
+import { exceptionPlace, exceptionText, exceptionTitle, jumpToFrame } from '../online/exception';
 import { microsText } from '../online/times';
 import { useRuntimeState, useTasks } from '../online/poll';
 import { runtimeText } from '../online/runtimeText';
@@ -34,6 +46,8 @@ export function StatusBar() {
           <RuntimeItem session={session} />
           <TaskItem runtimeId={session.runtimeId} />
           <RelationItem relation={session.relation} />
+          <ForceItem runtimeId={session.runtimeId} />
+          <ExceptionItem session={session} />
         </>
       ) : (
         <OfflineItem />
@@ -117,6 +131,42 @@ function RelationItem({ relation }: { relation: LoginRelation }) {
       <span className={`${styles.item} ${className}`}>
         <Icon size={14} aria-label={t(`relation.${relation}`)} />
       </span>
+    </Tooltip>
+  );
+}
+
+/** That something is forced must not be forgotten, whatever panels are closed. */
+function ForceItem({ runtimeId }: { runtimeId: string }) {
+  const t = useText();
+  const count = useOnline((state) => state.forces[runtimeId]?.length ?? 0);
+  if (count === 0) return null;
+  return (
+    <Tooltip text={t('status.forced', { count })} side="top">
+      <button
+        className={`${styles.item} ${styles.force}`}
+        aria-label={t('status.forced', { count })}
+        onClick={() => showPanel('forces')}
+      >
+        <LockKeyhole size={13} aria-hidden />
+        {t('status.force')} <span className="digits">{count}</span>
+      </button>
+    </Tooltip>
+  );
+}
+
+/** What stopped the application, as long as it lasts; a click leads to its place. */
+function ExceptionItem({ session }: { session: OnlineSession }) {
+  const exception = session.runtime?.exception;
+  if (!exception) return null;
+  const title = exceptionTitle(exception);
+  const place = exceptionPlace(exception);
+  const text = [title, place].filter(Boolean).join(' · ');
+  return (
+    <Tooltip text={text} detail={exceptionText(exception) || undefined} side="top">
+      <button className={`${styles.item} ${styles.exception}`} onClick={() => jumpToFrame(exception)}>
+        <OctagonAlert size={13} aria-hidden />
+        <span>{text}</span>
+      </button>
     </Tooltip>
   );
 }

@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import type { RuntimeException, RuntimeState } from '@/api/types';
-import type { OnlineSession } from '../onlineSession';
-import { exceptionPlace, exceptionText, exceptionTitle, newExceptions } from './exception';
+import { useProject } from '@/project/openProject';
+import { useNotices } from '@/ui/notices';
+import { useOnline, type OnlineSession } from '../onlineSession';
+import { exceptionPlace, exceptionText, exceptionTitle, followExceptions, newExceptions } from './exception';
 
 const exception = (name: string, line: number | null = 2): RuntimeException => ({
   name,
@@ -53,5 +55,18 @@ describe('exceptions', () => {
     expect(newExceptions({ ...failed, a: session('a', exception('DIV_ZERO')) }, failed)).toEqual([]);
     expect(newExceptions(fine, failed)).toEqual([]);
     expect(newExceptions(failed, {}).map((one) => one.applicationId)).toEqual(['a']);
+  });
+
+  it('of the active application are no notice over its values', () => {
+    useProject.setState({ applicationId: 'a' });
+    useOnline.setState({ sessions: { a: session('a', null), b: session('b', null) } });
+    const stop = followExceptions();
+    useOnline.setState({ sessions: { a: session('a', exception('DIV_ZERO')), b: session('b', null) } });
+    expect(useNotices.getState().notices).toEqual([]);
+    useOnline.setState({
+      sessions: { a: session('a', exception('DIV_ZERO')), b: session('b', exception('DIV_ZERO')) },
+    });
+    expect(useNotices.getState().notices.map(({ title }) => title)).toEqual(['Exception: Division by zero']);
+    stop();
   });
 });

@@ -1,4 +1,4 @@
-/** The exception of an application: noticed once when it happens, and the ways to its place. */
+/** The exception of an application: shown once when it happens, and the ways to its place. */
 import { keys, queryClient } from '@/api/queries';
 import type { CallFrame, ObjectSummary, RuntimeException } from '@/api/types';
 import { t, type TextKey } from '@/i18n';
@@ -79,12 +79,16 @@ function objectsNow(): readonly ObjectSummary[] {
   return (projectId && queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId))) || [];
 }
 
-/** Says when an application stops with an exception, and shows where. */
+/**
+ * Shows where an application stops with an exception. That of the active one stands in the status bar and in the panel:
+ * a notice would lie over the values that one looks at now.
+ */
 export function followExceptions(): () => void {
   return useOnline.subscribe(({ sessions }, before) => {
-    for (const { runtime } of newExceptions(sessions, before.sessions)) {
+    for (const { applicationId, runtime } of newExceptions(sessions, before.sessions)) {
       const exception = runtime!.exception!;
       showPanel('callStack', false);
+      if (applicationId === useProject.getState().applicationId) continue;
       notify({
         tone: 'error',
         title: t('exception.happened', { what: exceptionTitle(exception) }),
