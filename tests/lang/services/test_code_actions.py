@@ -123,6 +123,19 @@ def test_an_unknown_name_is_declared_with_the_type_its_place_wants(code: str, de
     assert not asked.edits
 
 
+@pytest.mark.parametrize(
+    ("code", "titles"),
+    [
+        ("iCountt := 3;", ["Declare 'iCountt' as INT", "Declare 'iCountt'...", "Replace by 'iCount'"]),
+        ("iPressure := 3;", ["Declare 'iPressure' as INT", "Declare 'iPressure'..."]),
+    ],
+)
+def test_a_declaration_comes_first_and_only_near_names_are_proposed(code: str, titles: list[str]) -> None:
+    _, found = offered(f"{HEAD}{code}{USES}\nEND_PROGRAM")
+    assert [action.title for action in found] == titles
+    assert [action.preferred for action in found] == [True] + [False] * (len(titles) - 1)
+
+
 def test_without_a_block_of_variables_one_is_made() -> None:
     project, found = offered("PROGRAM PLC_PRG\nxNew := TRUE;\nEND_PROGRAM")
     action = next(item for item in found if item.key == "declareAs")

@@ -21,7 +21,7 @@ _PROPOSED = 3
 
 
 def unknown_name(site: Site) -> Iterator[CodeAction]:
-    """A name that is not declared: its right spelling, a declaration, a library (E0201)."""
+    """A name that is not declared: a declaration, the near names it may mean, a library (E0201)."""
     name = site.written
     if not name:
         return
@@ -29,16 +29,14 @@ def unknown_name(site: Site) -> Iterator[CodeAction]:
     known: dict[str, Symbol] = dict(site.snapshot.analysis.scope)
     known |= block_members(site.scope.block)
     known |= {key: symbol for key, symbol in site.scope.locals.items() if symbol.name}
-    found = list(_spellings(site, name, known.items(), called))
-    yield from found
-    yield from _libraries(site, name)
     type_ = type_for(site, name)
-    if not type_:
-        return  # a function that does not exist: no variable mends that
-    for edit in _declaration(site, name, type_):
-        title = f"Declare '{name}' as {type_}"
-        yield site.action("declareAs", title, edit, preferred=not found, name=name, type=type_)
-    yield site.action("declare", f"Declare '{name}'...", declare=name, type_=type_, name=name)
+    if type_:  # a function that does not exist: no variable mends that
+        for edit in _declaration(site, name, type_):
+            title = f"Declare '{name}' as {type_}"
+            yield site.action("declareAs", title, edit, preferred=True, name=name, type=type_)
+        yield site.action("declare", f"Declare '{name}'...", declare=name, type_=type_, name=name)
+    yield from _spellings(site, name, known.items(), called, preferred=not type_)
+    yield from _libraries(site, name)
 
 
 def qualified(site: Site) -> Iterator[CodeAction]:
@@ -89,7 +87,13 @@ def unknown_parameter(site: Site) -> Iterator[CodeAction]:
 
 
 def _spellings(
-    site: Site, name: str, known: Iterable[tuple[str, Symbol]], called: bool, span: Span | None = None
+    site: Site,
+    name: str,
+    known: Iterable[tuple[str, Symbol]],
+    called: bool,
+    span: Span | None = None,
+    *,
+    preferred: bool = True,
 ) -> Iterator[CodeAction]:
     """Close names that exist, closest first."""
     table: dict[str, str] = {}
@@ -107,7 +111,7 @@ def _spellings(
     for number, key in enumerate(nearest(name, table, _PROPOSED)):
         edit = site.replace(span or site.span, table[key])
         title = f"Replace by '{table[key]}'"
-        yield site.action("replace", title, edit, preferred=number == 0, name=table[key])
+        yield site.action("replace", title, edit, preferred=preferred and number == 0, name=table[key])
 
 
 def _libraries(site: Site, name: str) -> Iterator[CodeAction]:
