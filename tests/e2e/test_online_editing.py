@@ -149,11 +149,31 @@ def test_an_exception_stands_in_the_status_bar_and_not_over_the_values(page: Pag
     expect(page.get_by_text("Ln 2, Col")).to_be_visible()
 
 
+def test_a_command_that_changes_the_text_asks_first_and_then_acts(page: Page) -> None:
+    _logged_in(page)
+    editor = implementation(page)
+    first = editor.locator(".view-line").first
+    editor.locator(".view-line").first.click()
+    page.keyboard.press("Control+Home")
+    before = first.inner_text()
+    strip = page.get_by_role("alert").filter(has_text="Edit PLC_PRG while logged in?")
+    page.keyboard.press("Control+/")
+    expect(strip).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(strip).to_have_count(0)
+    assert first.inner_text() == before
+    page.keyboard.press("Control+/")
+    page.keyboard.press("Control+Enter")
+    expect(strip).to_have_count(0)
+    expect(first).not_to_have_text(before)
+    page.keyboard.press("Control+Z")
+
+
 def test_the_declaration_as_text_shows_values(page: Page) -> None:
     _logged_in(page)
     page.get_by_role("button", name="Declaration as text").click()
-    declaration = page.get_by_role("code").filter(has_text="xSafe\u00a0").first
-    line = declaration.locator(".view-line").filter(has_text=re.compile(r"xSafe.*(TRUE|FALSE).*BOOL")).first
+    declaration = page.locator(".monaco-editor:visible").first
+    line = declaration.locator(".view-line").filter(has_text=re.compile(r"xRun.*(TRUE|FALSE).*BOOL")).first
     expect(line.locator("[class*=pill]")).to_have_text(re.compile("TRUE|FALSE"))
 
 

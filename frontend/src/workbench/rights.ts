@@ -9,9 +9,14 @@ export function atLeast(role: Role | null, wanted: Role): boolean {
   return role !== null && RANK[role] >= RANK[wanted];
 }
 
+/** Changing a text: an engineer; while logged in, the text asks first. */
+export function mayChangeText(context: CommandContext): Enablement {
+  if (!context.projectId) return 'reason.noProject';
+  return atLeast(context.role, 'engineer') ? true : 'reason.engineer';
+}
+
 /** Changing the project: an engineer, and not while logged in to the controller. */
 export function mayEdit(context: CommandContext): Enablement {
-  if (!context.projectId) return 'reason.noProject';
-  if (!atLeast(context.role, 'engineer')) return 'reason.engineer';
-  return context.online ? 'reason.logOutToEdit' : true;
+  const allowed = mayChangeText(context);
+  return allowed === true && context.online ? 'reason.logOutToEdit' : allowed;
 }

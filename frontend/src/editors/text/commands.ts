@@ -2,7 +2,7 @@
 import { Braces, Eye, History, Lightbulb, ListTree, Search, WandSparkles, Waypoints } from 'lucide-react';
 import { contextChanged, menuGroup, registerCommands, type Command } from '@/workbench/commands';
 import { openPalette } from '@/workbench/palette/state';
-import { mayEdit } from '@/workbench/rights';
+import { mayChangeText } from '@/workbench/rights';
 import { setEditorSettings, useEditorSettings } from '@/text/settings';
 
 /** The focused editor offers the act, and the keys act in editors alone. */
@@ -99,28 +99,28 @@ const commands: Command[] = [
       icon: Lightbulb,
       keys: ['Ctrl+.'],
       ...OF_EDITOR,
-      enabled: mayEdit,
+      enabled: mayChangeText,
     },
     {
       id: 'st.renameSymbol',
       title: 'st.command.renameSymbol',
       keys: ['Ctrl+F2'],
       ...OF_EDITOR,
-      enabled: mayEdit,
+      enabled: mayChangeText,
     },
     {
       id: 'st.format',
       title: 'st.command.format',
       keys: ['Shift+Alt+F'],
       ...OF_EDITOR,
-      enabled: mayEdit,
+      enabled: mayChangeText,
     },
     {
       id: 'st.comment',
       title: 'st.command.comment',
       keys: ['Ctrl+/'],
       ...OF_EDITOR,
-      enabled: mayEdit,
+      enabled: mayChangeText,
     },
   ),
   {

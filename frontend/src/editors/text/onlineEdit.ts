@@ -5,6 +5,7 @@
  * kept and entered at the cursor once the user agrees.
  */
 import { create } from 'zustand';
+import { objectSession } from '@/online/useObjectSession';
 import type { CodeEditor } from '@/text/CodePane';
 
 export interface EditQuestion {
@@ -69,6 +70,11 @@ export function answerEdit(objectId: string, agreed: boolean): void {
 export function endOnlineEdit(objectId: string): void {
   answerEdit(objectId, true);
   useOnlineEdit.setState(({ unlocked }) => ({ unlocked: new Set([...unlocked].filter((id) => id !== objectId)) }));
+}
+
+/** For acts that change a text: true at once while logged out, else what the user answers. */
+export function mayChangeNow(projectId: string, objectId: string): Promise<boolean> {
+  return objectSession(projectId, objectId) === null ? Promise.resolve(true) : askToEdit(objectId);
 }
 
 /** Keeps what is typed into a locked editor instead of letting the editor refuse it; answers how to stop. */

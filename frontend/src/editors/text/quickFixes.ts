@@ -2,16 +2,17 @@
 import { Lightbulb } from 'lucide-react';
 import type { Diagnostic } from '@/api/types';
 import { useProject } from '@/project/openProject';
-import { partUri } from '@/project/partUri';
+import { parsePartUri, partUri } from '@/project/partUri';
 import { titleOfAction, type ServerAction } from '@/lsp/codeActions';
 import type { Range } from '@/lsp/protocol';
 import { languageClient } from '@/lsp/session';
 import { commandContext } from '@/workbench/context';
 import { guard } from '@/ui/notices';
-import { mayEdit } from '@/workbench/rights';
+import { mayChangeText } from '@/workbench/rights';
 import { reasonText } from '@/workbench/run';
 import type { MenuEntry } from '@/ui/Menu';
 import { applyQuickFix } from './applyQuickFix';
+import { mayChangeNow } from './onlineEdit';
 import { loadMonaco } from '@/text/monacoLoader';
 
 interface Wanted {
@@ -40,7 +41,7 @@ export async function quickFixEntries(
   const monaco = await loadMonaco();
   const params = { textDocument: { uri }, range, context: { diagnostics: [] } };
   const actions = await languageClient(monaco, projectId).request<ServerAction[]>('textDocument/codeAction', params);
-  const allowed = mayEdit(commandContext());
+  const allowed = mayChangeText(commandContext());
   return (actions ?? [])
     .filter((action) => code === undefined || action.diagnostics?.some((one) => one.code === code))
     .map((action, at) => ({
@@ -51,7 +52,11 @@ export async function quickFixEntries(
       disabledReason: allowed === true ? null : reasonText(allowed),
       run: () => {
         show?.();
-        void guard(() => applyQuickFix(monaco, { uri, action }));
+        void guard(async () => {
+          const address = parsePartUri(uri);
+          if (address === null || !(await mayChangeNow(projectId, address.objectId))) return;
+          await applyQuickFix(monaco, { uri, action });
+        });
       },
     }));
 }

@@ -17,7 +17,10 @@ import {
 import type { CodeEditor } from '@/text/CodePane';
 import { bodyOf } from '@/text/bodies';
 import { ACTIONS } from '../text/actions';
+import { mayChangeNow } from '../text/onlineEdit';
 import { panelChosen, panelEditor, panelPlace, panelPrepare, panelTable, type TextPlace } from '@/text/focus';
+
+const CHANGING = ['st.format', 'st.comment', 'st.quickFix'] as const;
 
 /** Acts of a panel with Monaco editors: they go to the one that had the focus last. */
 export function textHandlers(panelId: string, panel: TextPanel): Handlers {
@@ -42,6 +45,15 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       editor?.trigger('command', id, null);
     },
   });
+  /** Acts that change the text: while logged in it asks first. */
+  const changing = ({ run }: Handler): Handler => ({
+    run: async (argument) => {
+      if (!(await mayChangeNow(panel.projectId, object.id))) return;
+      // React unlocks the pane only with its next render.
+      panelEditor(panelId)?.updateOptions({ readOnly: false });
+      await run(argument);
+    },
+  });
   const history = (command: 'undo' | 'redo') => ({
     run: () => {
       const table = panelTable(panelId);
@@ -61,7 +73,8 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
     'edit.redo': history('redo'),
     'st.inputAssistant': onEditor((editor) => inputAssistant(panel, editor)),
     'st.autoDeclare': onPlace((place) => autoDeclare(panel, place)),
-    'st.renameSymbol': onPlace((place) => rename(panel, place)),
+    ...Object.fromEntries(CHANGING.map((command) => [command, changing(act(ACTIONS[command]!))])),
+    'st.renameSymbol': changing(onPlace((place) => rename(panel, place))),
     'st.crossReferences': onPlace((place) => showCrossReferences(panel, place)),
     'online.prepareValue': {
       run: () => {
