@@ -1,8 +1,6 @@
 import { useQuery } from '@tanstack/react-query';
 import { Download, LogIn, ScrollText } from 'lucide-react';
 import { useMemo, useState } from 'react';
-import { api } from '@/api/client';
-import { keys, queryClient } from '@/api/queries';
 import type { LogEntry, Severity } from '@/api/types';
 import { useText } from '@/i18n';
 import { millisecondText } from '../clock';
@@ -16,10 +14,9 @@ import { Empty, Failed, Loading } from '@/ui/Empty';
 import { Panel, PanelBar, PanelRest } from '@/ui/Panel';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
-import { countByLevel, levelOf, logCsv, merged, shownEntries } from './log';
+import { countByLevel, levelOf, logCsv, shownEntries } from './log';
+import { logQuery } from './logQuery';
 import { useActiveSession } from './session';
-
-const POLL_MS = 2000;
 
 /** The runtime's log, newest first. */
 export default function LogPanel() {
@@ -27,7 +24,12 @@ export default function LogPanel() {
   const session = useActiveSession();
   if (session)
     return (
-      <RuntimeLog key={session.runtimeId} runtimeId={session.runtimeId} name={session.runtime?.name ?? 'runtime'} />
+      <RuntimeLog
+        key={session.runtimeId}
+        runtimeId={session.runtimeId}
+        since={session.runtime?.since ?? null}
+        name={session.runtime?.name ?? 'runtime'}
+      />
     );
   return (
     <Empty icon={ScrollText} title={t('log.offline')} text={t('log.offlineText')}>
@@ -38,21 +40,12 @@ export default function LogPanel() {
   );
 }
 
-function RuntimeLog({ runtimeId, name }: { runtimeId: string; name: string }) {
+function RuntimeLog({ runtimeId, since, name }: { runtimeId: string; since: string | null; name: string }) {
   const t = useText();
   const [hidden, toggle] = useToggleSet<Severity>();
   const [search, setSearch] = useState('');
   const [selected, setSelected] = useState<string | null>(null);
-  const { data, error, refetch } = useQuery({
-    queryKey: keys.log(runtimeId),
-    queryFn: async () => {
-      const known = queryClient.getQueryData<LogEntry[]>(keys.log(runtimeId)) ?? [];
-      const params = { path: { runtime_id: runtimeId }, query: { since: known.at(-1)?.id ?? 0 } };
-      return merged(known, await api.get('/api/v1/runtimes/{runtime_id}/log', { params }));
-    },
-    refetchInterval: POLL_MS,
-    retry: false,
-  });
+  const { data, error, refetch } = useQuery(logQuery(runtimeId, since));
   const lines = useMemo(() => shownEntries(data ?? [], hidden, search), [data, hidden, search]);
   const columns = useMemo(
     (): Column<LogEntry>[] => [

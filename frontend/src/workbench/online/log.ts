@@ -17,7 +17,7 @@ export function countByLevel(entries: readonly LogEntry[]): Record<Severity, num
   return count;
 }
 
-/** Known lines and new ones, each once; the oldest fall out of a very long log. A smaller id means a new log began. */
+/** Known lines and new ones, each once; the oldest fall out of a very long log. */
 export function merged(known: readonly LogEntry[], fresh: readonly LogEntry[]): LogEntry[] {
   const last = known.at(-1)?.id ?? -1;
   return [...known, ...fresh.filter((entry) => entry.id > last)].slice(-MOST);
