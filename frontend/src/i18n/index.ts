@@ -88,10 +88,17 @@ export function onLanguageChange(listener: () => void): () => void {
   return () => i18next.off('languageChanged', listener);
 }
 
-/** The text function, bound to the language: the component draws again when the language changes. */
+const TEXT_IN: Readonly<Record<Language, typeof t>> = {
+  en: (key, values) => i18next.t(key, { ...values, lng: 'en' }),
+  zh: (key, values) => i18next.t(key, { ...values, lng: 'zh' }),
+};
+
+/**
+ * The text function of the language: the component draws again when the language changes. It is another function then,
+ * so that what a component remembers with it (columns of a table) is made anew.
+ */
 export function useText(): typeof t {
-  useSyncExternalStore(onLanguageChange, language);
-  return t;
+  return TEXT_IN[useLanguage()];
 }
 
 export function useLanguage(): Language {

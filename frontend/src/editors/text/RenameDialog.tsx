@@ -60,7 +60,12 @@ export function RenameDialog({ name, places, nameOf, rename, close }: RenameDial
       </Field>
       {places.length > 0 && (
         <>
-          <span className={styles.count}>{t('st.renamePlaces', { places: places.length, objects })}</span>
+          <span className={styles.count}>
+            {t('st.renamePlaces', {
+              places: t('st.places', { count: places.length }),
+              objects: t('st.objects', { count: objects }),
+            })}
+          </span>
           <ul className={`${list.list} ${styles.places}`} aria-label={t('st.renamePreview')} tabIndex={0}>
             {places.slice(0, SHOWN).map((place) => (
               <li

@@ -151,7 +151,11 @@ function tellRenamed(before: string, name: string, { places, objects, undo }: Ap
   };
   notify({
     tone: 'ok',
-    title: t('st.renamed', { name, places, objects }),
+    title: t('st.renamed', {
+      name,
+      places: t('st.places', { count: places }),
+      objects: t('st.objects', { count: objects }),
+    }),
     action: { text: t('st.renameUndo'), run: () => void guard(takeBack) },
   });
 }
