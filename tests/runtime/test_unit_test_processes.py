@@ -59,22 +59,22 @@ def test_each_deadly_test_has_its_error_and_the_others_run_on(deadly: Report) ->
     assert (after.expected, after.actual) == ("1", "2")
     (failure,) = outside.failures
     assert (outside.tests, failure.pou) == ((), "FB_Outside_Test")
-    assert failure.message.startswith("the process was killed (SIG")
+    assert failure.message.startswith("__DELETE of address 16#")
     assert [(test.name, test.outcome) for test in later.tests] == [("Fine", "passed")]
 
 
-def test_the_last_place_that_was_reached_is_told(deadly: Report) -> None:
+def test_a_wrong_release_is_told_with_its_line(deadly: Report) -> None:
     text = (FOLDER / "deadly.st").read_text().splitlines()
     (failure,) = deadly.suites[0].tests[1].failures
-    assert failure.message.startswith("the process was killed (SIG")
-    assert (failure.pou, text[failure.line - 1]) == ("FB_Deadly_Test", "AssertTrue(TRUE, 'reached');")
+    assert failure.message.endswith(", which is not memory of __NEW")
+    assert (failure.pou, text[failure.line - 1]) == ("FB_Deadly_Test", "__DELETE(pbRoom);")
 
 
 def test_memory_that_is_used_up_is_told(deadly: Report) -> None:
     (failure,) = deadly.suites[0].tests[2].failures
     assert (failure.code, failure.message) == (
         3,
-        "access through a null pointer or reference; the memory for tests is used up (128 MiB)",
+        "access through a null pointer or reference; the memory of __NEW is used up (64 MiB)",
     )
     (endless,) = deadly.suites[0].tests[3].failures
     assert endless.code == 6  # a watchdog that fires while memory is taken waits until it is
@@ -84,7 +84,7 @@ def test_junit_tells_it(deadly: Report) -> None:
     root = ET.fromstring(to_xml(deadly))
     case = root.find(".//testcase[@name='Deletes what is not new']/error")
     assert case is not None
-    assert case.attrib["message"].startswith("the process was killed (SIG")
+    assert case.attrib["message"].startswith("__DELETE of address 16#")
     assert (root.get("tests"), root.get("failures"), root.get("errors")) == ("7", "1", "4")
 
 

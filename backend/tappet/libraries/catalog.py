@@ -56,11 +56,13 @@ class Item:
 
 
 def items(library: Library) -> list[Item]:
-    """Everything the library declares, by name."""
+    """Everything the library offers, by name; what is INTERNAL in it is no business of others."""
     found: list[Item] = []
     for source in library.sources:
         found += parameter_lists(source)
         for declaration in parse(source).unit.declarations:
+            if declaration.access == "INTERNAL":
+                continue
             if isinstance(declaration, ast.Pou):
                 found.append(_pou(source, declaration))
             elif isinstance(declaration, ast.TypeDecl):

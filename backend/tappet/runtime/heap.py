@@ -64,6 +64,11 @@ class ApplicationHeap:
         return all(m.low for m in self._mappings[:1])
 
     @property
+    def limit(self) -> int:
+        """Bytes that blocks and their guards may take."""
+        return self._limit
+
+    @property
     def used(self) -> tuple[int, int]:
         """Blocks that are not given back, and their bytes with guards."""
         return self._heap["usedBlocks"], self._heap["usedBytes"]

@@ -1,4 +1,7 @@
-"""How much memory tests may take: what __NEW takes without end must not take the memory of the whole host."""
+"""How much memory tests may take: what they take without end must not take the memory of the whole host.
+
+`__NEW` takes from the arena of the application, which is bounded by itself; this bounds everything else.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ import resource
 from pathlib import Path
 
 MIB = 1 << 20
-_USED_UP = 0.9
+USED_UP = 0.9
 """Part of the room from which on tests are taken to have used it up."""
 
 
@@ -23,8 +26,8 @@ class MemoryLimit:
         self._former = resource.getrlimit(resource.RLIMIT_DATA)
 
     def begin(self) -> None:
-        """From now on; what was taken before counts when it had begun before."""
-        self._before = self._before or _data_bytes()
+        """From now on, with what is there already: the loaded application and the arena of __NEW."""
+        self._before = _data_bytes()
         self._former = resource.getrlimit(resource.RLIMIT_DATA)
         soft, hard = self._before + self.mib * MIB, self._former[1]
         if hard != resource.RLIM_INFINITY:
@@ -38,7 +41,7 @@ class MemoryLimit:
     @property
     def used_up(self) -> bool:
         """Whether there is hardly any room left."""
-        return _data_bytes() - self._before > _USED_UP * self.mib * MIB
+        return _data_bytes() - self._before > USED_UP * self.mib * MIB
 
 
 def _data_bytes() -> int:

@@ -22,7 +22,7 @@ from tappet.runtime.unit_tests.bench import MOST_CHOSEN, Bench
 from tappet.runtime.unit_tests.discovery import PROGRAM, TEST_LIBRARY, discover, program_text
 from tappet.runtime.unit_tests.instrument import instrument
 from tappet.runtime.unit_tests.known import NOTHING, Known, Mark
-from tappet.runtime.unit_tests.memory import MemoryLimit, MemoryLimitReachedError
+from tappet.runtime.unit_tests.memory import USED_UP, MemoryLimit, MemoryLimitReachedError
 from tappet.runtime.unit_tests.order import TestLimits
 from tappet.runtime.unit_tests.results import Report
 
@@ -86,7 +86,6 @@ def run_tests(
     chosen = tuple(only) if len(only) <= MOST_CHOSEN else ()
     if process is not None:
         process.marks(marks)
-        process.memory.begin()
     run = _Run(
         options.application, result.package, marks, limits or TestLimits(), test_filter, chosen, process
     )
@@ -157,6 +156,8 @@ class _Run:
             if runtime.exception is not None:
                 return f"the application does not start: {ApplicationException(runtime.exception)}"
             bench.prepare(runtime, self.filter, self.only, self.process.place if self.process else 0)
+            if self.process is not None:
+                self.process.memory.begin()
             self._report()
             runtime.start()
             end_ns = runtime.now_ns + int(self.limits.simulated_s * NS_PER_S)
@@ -170,14 +171,14 @@ class _Run:
                     runtime.run(cycles)
                     cycles = CHUNK
             except ApplicationException as error:
-                note = self._memory_note()
+                note = self._memory_note(runtime)
                 bench.collect(runtime)
                 return bench.broken(runtime, error.report, note)
             bench.collect(runtime)
             bench.complete = True
             return bench.overflow(runtime)
 
-    def _memory_note(self) -> str:
+    def _memory_note(self, runtime: LocalRuntime) -> str:
         """What is to be said of an exception that came when memory was used up."""
         if self.process is None:
             return ""
@@ -185,5 +186,7 @@ class _Run:
         memory.lift()
         if memory.used_up:
             return f"; the memory for tests is used up ({memory.mib} MiB)"
-        memory.begin()
+        heap = runtime.plc.application.heap if runtime.plc.application is not None else None
+        if heap is not None and heap.used[1] > USED_UP * heap.limit:
+            return f"; the memory of __NEW is used up ({heap.limit >> 20} MiB)"
         return ""
