@@ -109,7 +109,7 @@ class ApplicationAccess:
         """Start a recorder at a task, the bus cycle task for None."""
         with self._lock:
             application = self._need()
-            number = application.task_number(task)
+            number = application.ownership.number(task)
             return application.record(RecorderSpec(tuple(items), number, divider, min_interval_ns, frames))
 
     def end_record(self, recorder: Recorder) -> None:
@@ -169,4 +169,4 @@ class ApplicationAccess:
                 for number in range(len(application.contexts.tasks)):
                     application.reset_statistics(number)
             else:
-                application.reset_statistics(application.task_number(task))
+                application.reset_statistics(application.ownership.number(task))

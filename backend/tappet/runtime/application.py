@@ -458,18 +458,6 @@ class LoadedApplication:
         """Whether cycles run by themselves, so that it is worth waiting for a value."""
         return not self.virtual and self.tasks.state == RUNNING
 
-    def task_number(self, name: str | None) -> int:
-        """Index of a task; the bus cycle task for None. ValueError when there is none."""
-        if name is None:
-            if self.ownership.bus is None:
-                raise ValueError("the application has no task that could sample values")
-            return self.ownership.bus
-        for i, spec in enumerate(self.package.tasks):
-            if spec.name.upper() == name.upper():
-                return i
-        known = ", ".join(t.name for t in self.package.tasks)
-        raise ValueError(f"the application has no task '{name}'; it has {known or 'none'}")
-
     # -- monitoring --------------------------------------------------------------------------------------
 
     def statistics(self) -> list[TaskStatistics]:

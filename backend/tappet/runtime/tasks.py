@@ -41,6 +41,7 @@ class TaskOwnership:
     def __init__(self, package: CodePackage) -> None:
         self.bus = bus_task(package.tasks)
         self._kinds = [t.kind for t in package.tasks]
+        self._names = [t.name for t in package.tasks]
         owner: dict[str, int] = {}
         for i, task in enumerate(package.tasks):
             for program in task.programs:
@@ -59,6 +60,17 @@ class TaskOwnership:
         if at >= 0 and offset < self._rows[at][1]:
             return self._rows[at][2]
         return self.bus
+
+    def number(self, name: str | None) -> int:
+        """Index of a task; the bus cycle task for None. ValueError when there is none."""
+        if name is None:
+            if self.bus is None:
+                raise ValueError("the application has no task that could sample values")
+            return self.bus
+        for i, known in enumerate(self._names):
+            if known.upper() == name.upper():
+                return i
+        raise ValueError(f"the application has no task '{name}'; it has {', '.join(self._names) or 'none'}")
 
     def regular(self, offset: int) -> int | None:
         """Like `of`, but never a task that may not run for long; None when there are only such tasks."""
