@@ -9,6 +9,7 @@ from playwright.sync_api import Page, expect
 
 from .workbench import (
     add_line,
+    change_online,
     choose_menu,
     implementation,
     log_in,
@@ -186,13 +187,7 @@ def test_login_again_after_a_change_offers_the_online_change(page: Page) -> None
     page.keyboard.press("Control+Enter")
     expect(editor.locator(".view-line").first).to_contain_text("iRecipe")
     page.keyboard.press("Escape")
-    page.keyboard.press("Alt+F8")
-    dialog = page.get_by_role("dialog")
-    expect(dialog.get_by_role("radio", name=re.compile("online change"))).to_be_checked()
-    page.keyboard.press("Enter")
-    expect(dialog).to_have_count(0)
-    expect(page.get_by_text("changed online").first).to_be_visible()
-    expect(status_bar(page).get_by_text("running")).to_be_visible()
+    change_online(page)
 
 
 def test_one_click_on_a_message_goes_to_its_place(page: Page) -> None:

@@ -8,13 +8,13 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from .workbench import (
+    change_online,
     implementation,
     log_in,
     message_rows,
     open_object,
     open_panel,
     open_project,
-    status_bar,
     watch,
     watch_value,
 )
@@ -79,13 +79,7 @@ def test_the_five_minutes_of_the_readme(page: Page) -> None:
     page.keyboard.press("Control+Enter")
     expect(editor).to_contain_text("PT\xa0:=\xa0T#3S")
     page.keyboard.press("Escape")
-    page.keyboard.press("Alt+F8")
-    dialog = page.get_by_role("dialog")
-    expect(dialog.get_by_role("radio", name=re.compile("online change"))).to_be_checked()
-    page.keyboard.press("Enter")
-    expect(dialog).to_have_count(0)
-    expect(page.get_by_text("changed online").first).to_be_visible()
-    expect(status_bar(page).get_by_text("running")).to_be_visible()
+    change_online(page)
 
     editor.locator(".view-line").first.click()
     page.keyboard.press("End")

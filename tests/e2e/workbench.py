@@ -83,6 +83,17 @@ def log_in(page: Page, expected: str = "running") -> None:
     expect(online).to_be_visible()
 
 
+def change_online(page: Page) -> None:
+    """Alt+F8 while logged in: the dialog proposes the online change; agrees to it."""
+    page.keyboard.press("Alt+F8")
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("radio", name=re.compile("online change"))).to_be_checked()
+    page.keyboard.press("Enter")
+    expect(dialog).to_have_count(0)
+    expect(page.get_by_text("changed online").first).to_be_visible()
+    expect(status_bar(page).get_by_text("running")).to_be_visible()
+
+
 def message_rows(page: Page) -> Locator:
     return page.get_by_role("row").filter(has_text=re.compile(r"[EW]\d{4}"))
 
