@@ -4,10 +4,15 @@ const AREAS = '[role="menubar"], [role="toolbar"], [data-panel-id], footer[role=
 const FOCUSABLE =
   '[data-autofocus], textarea.inputarea, [tabindex="0"], input:not(:disabled), select, button:not([tabindex="-1"]), [role="menuitem"]';
 
+/** What takes the keyboard focus when it moves into a part of the page. */
+export function firstFocusable(part: Element): HTMLElement | null {
+  return part.querySelector<HTMLElement>(FOCUSABLE);
+}
+
 function areas(): HTMLElement[] {
   return [...document.querySelectorAll<HTMLElement>(AREAS)]
     .filter((area) => area.getClientRects().length > 0 && area.parentElement?.closest('[data-panel-id]') === null)
-    .filter((area) => area.querySelector(FOCUSABLE) !== null)
+    .filter((area) => firstFocusable(area) !== null)
     .map((area) => ({ area, box: area.getBoundingClientRect() }))
     .sort((a, b) => a.box.top - b.box.top || a.box.left - b.box.left)
     .map(({ area }) => area);
@@ -24,6 +29,6 @@ export function stepArea(by: 1 | -1): void {
   const next = found[at < 0 ? 0 : (at + by + found.length) % found.length];
   if (next === undefined) return;
   const before = last.get(next);
-  const target = before !== undefined && next.contains(before) ? before : next.querySelector<HTMLElement>(FOCUSABLE);
+  const target = before !== undefined && next.contains(before) ? before : firstFocusable(next);
   target?.focus();
 }

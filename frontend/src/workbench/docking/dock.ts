@@ -12,6 +12,7 @@ import type {
 } from 'dockview-react';
 import { t } from '@/i18n';
 import type { Reveal } from '@/project/editorProps';
+import { firstFocusable } from '../areas';
 import { defaultLayout, editorPanelId, type EditorParams } from './layout';
 import { allPanels, findPanel, type DockPosition } from '../panels';
 import type { Place } from '@/project/place';
@@ -116,7 +117,7 @@ export function focusPanel(panel: IDockviewPanel): void {
   requestAnimationFrame(() => {
     const element = panel.view.content.element;
     if (element.contains(document.activeElement)) return;
-    element.querySelector<HTMLElement>('[data-autofocus], [tabindex="0"], input, button')?.focus();
+    firstFocusable(element)?.focus();
   });
 }
 
