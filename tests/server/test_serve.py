@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import re
 import signal
@@ -16,7 +17,9 @@ from pathlib import Path
 import httpx
 import pytest
 
+from tappet.server import serve
 from tappet.server.example import UnknownExampleError, example_folders, find_example
+from tappet.server.settings import ServerSettings
 
 
 class Process:
@@ -88,6 +91,18 @@ def test_two_servers_do_not_share_a_data_folder(tmp_path: Path) -> None:
         with serving(tmp_path, "--no-runtime", name="second") as second:
             assert second.process.wait(30) == 1
         assert "another server works on" in second.log.read_text()
+
+
+async def test_bodies_of_answers_do_not_wait_for_an_acknowledgement() -> None:
+    accepted: asyncio.Queue[asyncio.StreamWriter] = asyncio.Queue()
+    with serve._listening(ServerSettings(port=0)) as listener:
+        async with await asyncio.start_server(lambda _, writer: accepted.put_nowait(writer), sock=listener):
+            _, client = await asyncio.open_connection(*listener.getsockname())
+            server = await accepted.get()
+            socket_of = server.get_extra_info("socket")
+            assert socket_of.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+            for writer in (client, server):
+                writer.close()
 
 
 def test_a_taken_port_is_named(tmp_path: Path) -> None:

@@ -223,7 +223,9 @@ def _owned(data_dir: Path) -> Iterator[None]:
 def _listening(settings: ServerSettings) -> Iterator[socket.socket]:
     """The socket the server listens on, so that a taken port is found before anything is started."""
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
-    listener = socket.socket(family, socket.SOCK_STREAM)
+    # Asyncio sends small pieces at once on sockets that say they are TCP only; others wait 40 ms for the
+    # acknowledgement of the head of an answer before they send its body.
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind((settings.host, settings.port))
