@@ -93,3 +93,19 @@ def test_a_forged_cookie_is_nobody(app: FastAPI) -> None:
     client.cookies.set("tappet_session", "x" * 43)
     assert client.get("/api/v1/auth/me").status_code == 401
     assert client.get("/api/v1/auth/status").json()["authenticated"] is False
+
+
+def test_methods_that_a_path_does_not_have_are_refused_with_those_it_has(app: FastAPI) -> None:
+    contexts = [
+        c for c in iter_route_contexts(app.routes) if (c.path or "").startswith("/api/") and c.methods
+    ]
+    assert len(contexts) > 50
+    for url in {_url(context.path or "") for context in contexts}:
+        fitting = [c for c in contexts if re.fullmatch(re.sub(r"\{[^}]+\}", "[^/]+", c.path or ""), url)]
+        methods = {method for c in fitting for method in c.methods or ()} - {"HEAD"}
+        for method in {"GET", "POST", "PUT", "PATCH", "DELETE", "TRACE", "QUERY"} - methods:
+            answer = bare(app).request(method, url)
+            assert answer.status_code == 405, (method, url)
+            assert set(answer.headers["allow"].split(", ")) == methods
+            assert answer.json()["type"] == "urn:tappet:problem:method-not-allowed"
+    assert bare(app).get("/api/v1/nothing").status_code == 404

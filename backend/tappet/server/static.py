@@ -9,6 +9,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.responses import FileResponse, HTMLResponse, Response
+from starlette.routing import Match, Mount
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
@@ -16,6 +17,7 @@ import tappet
 
 HASHED = "assets/"
 """Files below it carry a hash of their content in their names."""
+METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 FOREVER = "public, max-age=31536000, immutable"
 NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Tappet</title>
 <body style="font-family: sans-serif; max-width: 40em; margin: 4em auto">
@@ -45,7 +47,8 @@ class FrontEnd(StaticFiles):
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file, the page, or a 404 problem."""
         if path.startswith(("api/", "views/")) or path in ("api", "views"):
-            raise HTTPException(404)
+            methods = _methods(scope)
+            raise HTTPException(405, headers={"Allow": ", ".join(methods)}) if methods else HTTPException(404)
         if self._folder is None:
             return HTMLResponse(NOT_BUILT, headers={"Cache-Control": "no-store"})
         try:
@@ -71,6 +74,20 @@ class FrontEnd(StaticFiles):
             self._packed[str(response.path)] = packed
         headers = {"Content-Encoding": "gzip", "Vary": "Accept-Encoding", "ETag": response.headers["etag"]}
         return Response(packed, headers=headers, media_type=response.media_type)
+
+
+def _methods(scope: Scope) -> list[str]:
+    """What the routes of the app take at this address; none of them took the method of the request."""
+    routes = scope["app"].routes
+    return [
+        method
+        for method in METHODS
+        if any(
+            route.matches({**scope, "method": method})[0] is Match.FULL
+            for route in routes
+            if not isinstance(route, Mount)
+        )
+    ]
 
 
 def _is_text(media_type: str) -> bool:
