@@ -218,3 +218,12 @@ def test_no_library_of_the_product_has_messages_that_keep_all_of_it() -> None:
     messages += analyse([], libraries=shared).diagnostics
     assert [str(message) for message in messages] == []
     assert not index_of(sources).everything
+
+
+def test_a_library_text_that_converts_brings_the_functions_behind_the_operators() -> None:
+    references = (LibraryReference("Standard"), LibraryReference("TappetUnit"))
+    texts = library_texts((*references, LibraryReference("Conversion")))
+    suite = Source("Suite.st", "FUNCTION_BLOCK Suite EXTENDS FB_TestSuite\nEND_FUNCTION_BLOCK")
+    taken = named_texts(texts, [suite])
+    assert {source.uri for source in texts if source.library == "Conversion"} < {s.uri for s in taken}
+    assert len(taken) < len(texts)

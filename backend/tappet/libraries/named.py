@@ -34,7 +34,8 @@ _ALWAYS = re.compile(
 )
 _CONVERSION = "Conversion"
 """Library whose functions stand behind the conversion operators, which do not name them."""
-_CONVERTS = re.compile(r"(?:^|_)TO_")
+_CONVERTS = re.compile(r"(?:^|[_ ])TO_")
+"""In upper-case identifiers, separated by spaces."""
 
 
 @dataclass(slots=True)
@@ -90,7 +91,6 @@ def named_texts(
             of_library.setdefault(name, []).append(number)
     written = {name for source in own for name in identifiers(source.text)}
     written.update(name for source in libraries for one in source.given for name in identifiers(one.value))
-    converts = any(_CONVERTS.search(name) for name in written)
     taken = [False] * len(libraries)
     waiting: list[tuple[Iterable[str], set[str]]] = [(_seen(libraries, written), written)]
 
@@ -99,9 +99,20 @@ def named_texts(
         taken[number] = True
         seen = (_label(source), *(use.label.upper() for use in source.uses))
         waiting.append((seen, {*index.identifiers[number].split(), *names.split()}))
+        if _CONVERTS.search(index.identifiers[number]):
+            take_conversions()
 
-    for number, source in enumerate(libraries):
-        if index.always[number] or (converts and source.library == _CONVERSION):
+    def take_conversions() -> None:
+        while conversions:
+            number = conversions.pop()
+            if not taken[number]:
+                take(number, index.names[number])
+
+    conversions = [number for number, source in enumerate(libraries) if source.library == _CONVERSION]
+    if _CONVERTS.search(" ".join(written)):
+        take_conversions()
+    for number in range(len(libraries)):
+        if index.always[number] and not taken[number]:
             take(number, index.names[number])
     while waiting:
         labels, found = waiting.pop()

@@ -6,6 +6,7 @@ PlacePage; reports come back as JSON, one a line, the last one is the result.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import subprocess
@@ -27,6 +28,7 @@ from tappet.runtime.unit_tests.memory import MemoryLimit, MemoryLimitReachedErro
 from tappet.runtime.unit_tests.order import TestLimits
 from tappet.runtime.unit_tests.results import Report
 from tappet.runtime.unit_tests.runner import TestProcess, run_tests
+from tappet.user_cache import cache_folder
 
 
 def run_in_process(command: bytes) -> Report:
@@ -55,6 +57,8 @@ def perform(content: dict[str, Any], write: Callable[[dict[str, Any]], None], pl
         application=content["application"],
         libraries=tuple(LibraryReference.of(reference) for reference in content["libraries"]),
         defines=tuple((name, value) for name, value in content["defines"]),
+        cache=cache_folder("objects"),
+        once=True,
     )
     sources = [msgspec.convert(source, Source) for source in content["sources"]]
     tasks = [Task(**{**task, "programs": tuple(task["programs"])}) for task in content["tasks"]]
@@ -92,6 +96,7 @@ def main() -> None:
         output.write(json.dumps(line) + "\n")
         output.flush()
 
+    gc.disable()  # a build makes large trees and hardly any garbage, and the process ends soon
     content = msgpack.unpackb(sys.stdin.buffer.read(), raw=False, strict_map_key=False, use_list=False)
     page = map_memory(PAGE, int(sys.argv[1]))
     try:
@@ -100,6 +105,7 @@ def main() -> None:
         sys.exit(FRESH)
     except MemoryError:
         sys.exit(NO_MEMORY)
+    os._exit(0)  # all is written; giving back the trees of the program one by one takes as long as the tests
 
 
 if __name__ == "__main__":
