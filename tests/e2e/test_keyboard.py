@@ -41,7 +41,7 @@ def test_f6_goes_round_all_areas_and_back(page: Page) -> None:
 
 def test_alt_and_a_letter_open_a_menu(page: Page) -> None:
     open_project(page)
-    menus = {"F": "Close project", "B": "Build", "O": "Login", "I": "Next area", "H": "About"}
+    menus = {"F": "Close project", "B": "Build", "O": "Login", "I": "Next Area", "H": "About"}
     for letter, entry in menus.items():
         page.keyboard.press(f"Alt+{letter}")
         expect(page.get_by_role("menu").get_by_role("menuitem", name=entry).first).to_be_visible()

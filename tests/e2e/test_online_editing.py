@@ -73,9 +73,9 @@ def test_the_context_menu_of_the_text_is_about_the_clicked_symbol(page: Page) ->
     name = editor.locator(".view-line span").filter(has_text=re.compile(r"^\s*xSafe\s*$")).first
     name.click(button="right", position={"x": 8, "y": 8})
     menu = page.get_by_role("menu")
-    for entry in ("Go to definition", "Add to watch", "Prepare value", "Write values", "Rename", "Folding"):
+    for entry in ("Go to Definition", "Add to Watch", "Prepare Value", "Write Values", "Rename", "Folding"):
         expect(menu.get_by_role("menuitem", name=re.compile(entry, re.IGNORECASE)).first).to_be_visible()
-    menu.get_by_role("menuitem", name=re.compile("^Prepare value")).click()
+    menu.get_by_role("menuitem", name=re.compile("^Prepare Value")).click()
     expect(editor).to_contain_text(re.compile("<(TRUE|FALSE)>"))
     page.keyboard.press("Shift+F10")
     expect(menu).to_be_visible()

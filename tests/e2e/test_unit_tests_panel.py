@@ -36,7 +36,7 @@ ADD_SUITE = """async () => {
 
 
 def results(page: Page) -> Locator:
-    return page.get_by_role("tree", name="Unit tests")
+    return page.get_by_role("tree", name="Unit Tests")
 
 
 def row(page: Page, text: str | re.Pattern[str]) -> Locator:
@@ -53,7 +53,7 @@ def tested(page: Page) -> Page:
     page.evaluate(ADD_SUITE)
     page.reload()
     open_project(page)
-    choose_menu(page, "Build", "Run tests")
+    choose_menu(page, "Build", "Run Tests")
     expect(suite(page, "1 of 3")).to_be_visible()
     return page
 
@@ -63,7 +63,7 @@ def test_the_tree_says_what_came_of_each_test(tested: Page) -> None:
     expect(row(tested, "Bad").first.get_by_label("Failed", exact=True)).to_be_visible()
     expect(row(tested, "sum: expected 3, but was 2")).to_contain_text("FB_Sum_Test.Bad, line 3")
     expect(row(tested, "division by zero")).to_contain_text("FB_Sum_Test.Worse, line 2")
-    panel = tested.get_by_role("tabpanel", name="Unit tests")
+    panel = tested.get_by_role("tabpanel", name="Unit Tests")
     for count in ("1 passed", "1 failed", "1 with an error", "0 not run"):
         expect(panel.get_by_text(count, exact=True)).to_be_visible()
 
@@ -85,7 +85,7 @@ def test_what_is_good_can_be_hidden_and_suites_closed(tested: Page) -> None:
 
 def test_the_filter_runs_only_what_it_names(tested: Page) -> None:
     tested.get_by_label("Only tests with this text").fill("sum_test.good")
-    tested.get_by_role("button", name="Run tests", exact=True).click()
+    tested.get_by_role("button", name="Run Tests", exact=True).click()
     expect(tested.get_by_text("2 not run", exact=True)).to_be_visible()
     expect(tested.get_by_text("1 passed", exact=True)).to_be_visible()
     expect(tested.get_by_text("0 failed", exact=True)).to_be_visible()
@@ -100,7 +100,7 @@ def test_what_failed_runs_again_and_the_others_keep_their_results(tested: Page) 
     tested.keyboard.type("TEST('Bad');\nAssertEquals_INT(2, 1 + 1, 'sum');\nTEST_FINISHED();")
     tested.keyboard.press("Escape")
     expect(editor).to_contain_text("AssertEquals_INT(2")
-    tested.get_by_role("button", name="Run failed tests again").click()
+    tested.get_by_role("button", name="Run Failed Tests Again").click()
     expect(suite(tested, "2 of 3")).to_be_visible()
     expect(row(tested, "sum: expected 3")).to_have_count(0)
     expect(row(tested, "division by zero")).to_be_visible()
@@ -117,7 +117,7 @@ def test_pictures(browser: Browser, server: Server, theme: str, language: str) -
         page.evaluate(ADD_SUITE)
         open_project(page)
         menu, entry, title = (
-            ("Build", "Run tests", "Unit tests") if language == "en" else ("编译", "运行测试", "单元测试")
+            ("Build", "Run Tests", "Unit Tests") if language == "en" else ("编译", "运行测试", "单元测试")
         )
         choose_menu(page, menu, entry)
         tree = page.get_by_role("tree", name=title)
