@@ -105,7 +105,8 @@ def open_panel(page: Page, title: str) -> Locator:
 
 
 def choose_menu(page: Page, menu: str, *entries: str) -> None:
-    page.get_by_role("menuitem", name=menu, exact=True).click()
+    # Where the text lacks it, the letter of Alt+letter stands behind it: 编译(B).
+    page.get_by_role("menuitem", name=re.compile(f"^{re.escape(menu)}(\\([A-Z]\\))?$")).click()
     for entry in entries:
         page.get_by_role("menuitem", name=re.compile(f"^{re.escape(entry)}", re.IGNORECASE)).last.click()
 
