@@ -14,6 +14,7 @@ from typing import Any
 from msgspec import to_builtins
 
 from tappet.bench.report import Report, Row
+from tappet.iec.heap import DEFAULT_HEAP
 from tappet.iec.task import Task
 from tappet.lang.source import Source
 from tappet.project.library_reference import LibraryReference
@@ -105,6 +106,7 @@ def order(sources: list[Source], previous: bytes | None, cache: str) -> dict[str
             previous,
             cache,
             {"rules": {}, "prefixes": {}, "limits": {}},
+            asdict(DEFAULT_HEAP),
         )
     )
 

@@ -66,6 +66,7 @@ def run_unit_tests(given: Namespace) -> int:
                 defines=a.options.defines,
                 test_filter=given.filter,
                 limits=limits,
+                heap=a.options.heap,
             )
         )
         for a in chosen

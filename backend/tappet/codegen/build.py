@@ -21,6 +21,7 @@ from tappet.codegen.tasks import default_tasks, task_specs
 from tappet.core.edits.edit import Edit
 from tappet.core.internal_error import At, InternalError, reason_of
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
+from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
 from tappet.iec.source import source_maps
 from tappet.iec.task import Task
 from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
@@ -68,6 +69,8 @@ class BuildOptions:
     """Incomplete addresses that VAR_CONFIG does not name get a free place; False: an error (LDEC-94)."""
     static: StaticAnalysis = NO_RULES
     """The optional coding rules that are checked."""
+    heap: HeapSettings = DEFAULT_HEAP
+    """The memory of `__NEW`."""
     once: bool = False
     """The process builds this application no more: library texts that it cannot reach are left out."""
 
@@ -273,10 +276,11 @@ class _Build:
             options.byte_addressing,
             options.area_sizes,
             options.cache,
+            options.heap,
         )
         cache = session.cache(options.cache)
         with self.timed("package"):
-            known_by = (options.level, options.byte_addressing, options.defines)
+            known_by = (options.level, options.byte_addressing, options.defines, options.heap)
             program = b"" if options.check_only else session.digest(known_by)
         generator = Generator(settings, program, self.previous, cache, self.timed, result.diagnostics)
         last, session.generated = session.generated, None

@@ -32,6 +32,7 @@ from tappet.core.edits.edit import Edit
 from tappet.core.internal_error import At, InternalError
 from tappet.core.lower import Lowered, lower, task_symbol
 from tappet.core.program import AREA_PREFIX
+from tappet.iec.heap import KIB, HeapSettings
 from tappet.iec.task import Task
 from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
@@ -56,6 +57,7 @@ class GenerateOptions:
     byte_addressing: bool
     area_sizes: tuple[tuple[str, int], ...]
     cache: Path | None
+    heap: HeapSettings
 
 
 @dataclass(slots=True)
@@ -169,6 +171,8 @@ class Generator:
                 signatures=laid.signatures,
                 created=self.created(lowered),
                 watched=watched_values(lowered, laid.placed.objects),
+                heap_limit=self.options.heap.limit,
+                heap_poison=self.options.heap.poison,
             ),
         )
         package.code_id = code_id(package, self.program)
@@ -266,8 +270,13 @@ class Generator:
         return {name: _signature(type_) for name, type_ in sorted(lowered.program.created.items())}
 
     def refusal(self, lowered: Lowered) -> str:
-        """Why no online change leads here: objects made by __NEW would have another form (LOPR-101)."""
+        """Why no online change leads here: objects made by __NEW would have another form (LOPR-101), or the
+        memory that they lie in another size."""
         assert self.previous is not None
+        before_limit, limit = self.previous.facts.heap_limit, self.options.heap.limit
+        if limit != before_limit:
+            sizes = f"{before_limit // KIB} KiB to {limit // KIB} KiB"
+            return f"the limit of the memory of __NEW has changed from {sizes}: download it"
         assert lowered.program is not None
         analysis = lowered.program.analysis
         known = {pou.qualified_name.upper(): pou.instance for pou in analysis.pous}

@@ -14,6 +14,7 @@ from msgspec import Meta, Struct, field
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbol_types import Bit
+from tappet.iec.heap import DEFAULT_HEAP
 from tappet.iec.places import SourceMap
 from tappet.iec.task import Watchdog
 
@@ -121,9 +122,9 @@ class Facts(Struct):
     """PLC-02."""
     outputs_in_stop: Literal["keep", "default"] = "keep"
     """PLC-03."""
-    heap_limit: Natural = 64 << 20
+    heap_limit: Natural = DEFAULT_HEAP.limit
     """Bytes that __NEW may take in all."""
-    heap_poison: bool = False
+    heap_poison: bool = DEFAULT_HEAP.poison
     """Whether memory is filled when __DELETE gives it back."""
 
 

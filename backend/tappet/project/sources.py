@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from operator import is_
 from typing import Any
 
+from tappet.iec.heap import HeapSettings
 from tappet.iec.source import Scope, Source
 from tappet.iec.task import Task
 from tappet.project.data import UnknownData
@@ -152,6 +153,11 @@ def static_analysis(project: Project, application_id: str) -> StaticAnalysisData
     """The coding rules that run with each build of an application: none where it runs them on demand only."""
     chosen = _application(project, application_id).data_as(ApplicationData).static_analysis
     return chosen if chosen.with_build else NO_RULES
+
+
+def heap(project: Project, application_id: str) -> HeapSettings:
+    """The settings of the memory that `__NEW` of an application takes from."""
+    return _application(project, application_id).data_as(ApplicationData).heap.settings
 
 
 def source_of(project: Project, object_id: str) -> Source | None:

@@ -145,6 +145,7 @@ class LoadedApplication:
         """From its next cycle on every task runs `code`."""
         self.code = code
         self.heap.new_code()
+        self.heap.poison(self.package.facts.heap_poison)
         self.connect_files()
         self.connect_types()
         for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):

@@ -44,7 +44,7 @@ class ApplicationHeap:
         layouts = executive.layouts
         self._memory = Arena(layouts["HEAP_ARENA"].size)
         self._heap = Record(layouts["HEAP_ARENA"], self._memory.take(layouts["HEAP_ARENA"].size))
-        self._heap["poison"] = int(poison)
+        self.poison(poison)
         self._mappings: list[Mapping] = []
         create_mutex(self._heap.place("lock"))
 
@@ -72,6 +72,10 @@ class ApplicationHeap:
     def used(self) -> tuple[int, int]:
         """Blocks that are not given back, and their bytes with guards."""
         return self._heap["usedBlocks"], self._heap["usedBytes"]
+
+    def poison(self, wanted: bool) -> None:
+        """Whether memory is filled from now on when it is given back."""
+        self._heap["poison"] = int(wanted)
 
     def new_code(self) -> None:
         """What is made from now on is made by other code than before."""

@@ -1654,9 +1654,16 @@ export interface components {
         };
         /**
          * ApplicationData
-         * @description An application: how it is checked.
+         * @description An application: how it is checked, and the memory that it may take.
          */
         ApplicationData: {
+            /**
+             * @default {
+             *       "limit_kib": 65536,
+             *       "poison": false
+             *     }
+             */
+            heap?: components["schemas"]["HeapData"];
             /**
              * @default {
              *       "limits": {},
@@ -2477,6 +2484,24 @@ export interface components {
             status: string;
             /** Version */
             version: string;
+        };
+        /**
+         * HeapData
+         * @description The memory that `__NEW` of an application takes from (docs/memory.md).
+         */
+        HeapData: {
+            /**
+             * Limit Kib
+             * @description KiB that __NEW may take in all, guards included; with 0 it gives nothing.
+             * @default 65536
+             */
+            limit_kib: number;
+            /**
+             * Poison
+             * @description Memory is filled when __DELETE gives it back.
+             * @default false
+             */
+            poison: boolean;
         };
         /**
          * ImagePlace

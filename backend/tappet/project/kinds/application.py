@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt
 
+from tappet.iec.heap import DEFAULT_HEAP, KIB, LARGEST_HEAP_KIB, HeapSettings
 from tappet.project.data import Data, Line
 from tappet.project.object_kind import Child, Codesys, JsonFile, Naming, ObjectKind, Placement, Plcopen
 
@@ -31,12 +32,33 @@ class StaticAnalysisData(Data):
 NO_RULES = StaticAnalysisData()
 
 
+class HeapData(Data):
+    """The memory that `__NEW` of an application takes from (docs/memory.md)."""
+
+    limit_kib: Annotated[StrictInt, Field(ge=0, le=LARGEST_HEAP_KIB)] = Field(
+        default=DEFAULT_HEAP.limit // KIB,
+        description="KiB that __NEW may take in all, guards included; with 0 it gives nothing.",
+    )
+    poison: StrictBool = Field(
+        default=DEFAULT_HEAP.poison, description="Memory is filled when __DELETE gives it back."
+    )
+
+    @property
+    def settings(self) -> HeapSettings:
+        """As a build takes them."""
+        return HeapSettings(self.limit_kib * KIB, self.poison)
+
+
+USUAL_HEAP = HeapData()
+
+
 class ApplicationData(Data):
-    """An application: how it is checked."""
+    """An application: how it is checked, and the memory that it may take."""
 
     static_analysis: StaticAnalysisData = Field(
         default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
     )
+    heap: HeapData = Field(default=USUAL_HEAP, exclude_if=lambda chosen: chosen == USUAL_HEAP)
 
 
 APPLICATION = ObjectKind(

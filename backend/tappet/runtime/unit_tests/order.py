@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 import msgpack
 import msgspec
 
+from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
 from tappet.iec.source import Source
 from tappet.iec.task import Task
 from tappet.project.library_reference import LibraryReference
@@ -38,6 +39,7 @@ def order(
     test_filter: str = "",
     only: Sequence[str] = (),
     limits: TestLimits | None = None,
+    heap: HeapSettings = DEFAULT_HEAP,
 ) -> bytes:
     """What the process reads."""
     content = {
@@ -49,6 +51,7 @@ def order(
         "filter": test_filter,
         "only": list(only),
         "limits": asdict(limits or TestLimits()),
+        "heap": asdict(heap),
     }
     packed: bytes = msgpack.packb(content, use_bin_type=True)
     return packed

@@ -19,6 +19,7 @@ import msgpack
 import msgspec
 
 from tappet.codegen.build import BuildOptions, LibraryReference
+from tappet.iec.heap import HeapSettings
 from tappet.iec.task import Task
 from tappet.lang.source import Source
 from tappet.runtime.posix import PAGE, map_memory
@@ -59,6 +60,7 @@ def perform(content: dict[str, Any], write: Callable[[dict[str, Any]], None], pl
         defines=tuple((name, value) for name, value in content["defines"]),
         cache=cache_folder("objects"),
         once=True,
+        heap=HeapSettings(**content["heap"]),
     )
     sources = [msgspec.convert(source, Source) for source in content["sources"]]
     tasks = [Task(**{**task, "programs": tuple(task["programs"])}) for task in content["tasks"]]

@@ -16,6 +16,7 @@ from typing import Any
 import msgpack
 from msgspec import to_builtins
 
+from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
 from tappet.iec.places import Span
 from tappet.iec.source import Scope, Source
 from tappet.iec.task import Task
@@ -56,6 +57,8 @@ class Application:
     """The coding rules that are checked."""
     project: str = ""
     """Name of the project."""
+    heap: HeapSettings = DEFAULT_HEAP
+    """The memory of `__NEW`."""
 
     @classmethod
     def of(cls, project_id: str, project: Project, application_id: str) -> Application:
@@ -75,6 +78,7 @@ class Application:
             {id: project.path_of(id) for id in ids},
             texts.static_analysis(project, application_id),
             project.name,
+            texts.heap(project, application_id),
         )
 
     @classmethod
@@ -201,6 +205,7 @@ class Builder:
             previous=previous[1] if previous else None,
             cache=str(self._cache),
             static=application.static.model_dump(),
+            heap=asdict(application.heap),
             check_only=check_only,
         )
         return order, _fingerprint(order, previous[0] if previous else None)

@@ -37,7 +37,9 @@ class BuildOrder:
     cache: str
     """Folder of compiled objects."""
     static: dict[str, Any]
-    """Fields of `project.data.StaticAnalysisData`."""
+    """Fields of `project.kinds.application.StaticAnalysisData`."""
+    heap: dict[str, Any]
+    """Fields of `iec.heap.HeapSettings`."""
     check_only: bool = False
     """Make no package."""
     project: str = ""

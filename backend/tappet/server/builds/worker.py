@@ -20,6 +20,7 @@ from msgspec import convert, structs
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.codegen.package import CodePackage
+from tappet.iec.heap import HeapSettings
 from tappet.iec.task import Task
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
@@ -97,6 +98,7 @@ class Compiler:
             libraries=tuple(LibraryReference.of(fields) for fields in order["libraries"]),
             cache=Path(order["cache"]),
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
+            heap=HeapSettings(**order["heap"]),
             check_only=order["check_only"],
         )
         sources = convert(order["sources"], list[Source])

@@ -99,6 +99,7 @@ def _order(application: Application, test_filter: str, only: Sequence[str]) -> b
         application.libraries,
         test_filter=test_filter,
         only=only,
+        heap=application.heap,
     )
 
 

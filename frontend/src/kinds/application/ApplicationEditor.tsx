@@ -1,5 +1,6 @@
 import { CircleCheckBig, Hammer, LogIn } from 'lucide-react';
 import { useMemo } from 'react';
+import { ofKind } from '@/api/objects';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
 import { kindOf, objectIcon, type ContentGroup } from '@/project/kinds';
@@ -12,15 +13,18 @@ import { runCommand } from '@/workbench/run';
 import { forestOf, subtree } from '@/project/tree';
 import { Facts } from '@/ui/Facts';
 import { Button } from '@/ui/Button';
-import { Loading } from '@/ui/Empty';
-import { Section } from '@/editors/form/FormPage';
+import { FormPage, Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
+import { useDraft } from '@/editors/form/useDraft';
+import { HeapFields } from './HeapFields';
+import { canStore } from './heap';
 
 const Icon = objectIcon('application');
 
-/** What an application consists of, its last build, and the controller it is logged in to. */
-export default function ApplicationEditor({ projectId, objectId }: EditorProps) {
+/** What an application consists of, the memory it may take, its last build, and the controller it is logged in to. */
+export default function ApplicationEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
+  const draft = useDraft(panelId, projectId, objectId, ofKind('application'), canStore);
   const { data: objects } = useObjects(projectId);
   const active = useProject((state) => state.applicationId) === objectId;
   const session = useOnline((state) => state.sessions[objectId]);
@@ -40,84 +44,89 @@ export default function ApplicationEditor({ projectId, objectId }: EditorProps) 
     }
     return counted;
   }, [objects, objectId]);
-  const application = objects?.find((object) => object.id === objectId);
-  if (!application) return <Loading />;
   const messages = countOf(build?.report.diagnostics ?? []);
   return (
-    <div className={styles.page}>
-      <div className={styles.inner}>
-        <h1 className={styles.title}>
-          <Icon size={20} />
-          {application.name}
-        </h1>
-        <div className={styles.tools}>
-          {!active && (
-            <Button icon={CircleCheckBig} onClick={() => setActiveApplication(objectId)}>
-              {t('command.setActive')}
+    <FormPage draft={draft}>
+      {(application) => (
+        <>
+          <h1 className={styles.title}>
+            <Icon size={20} />
+            {draft.object?.name}
+          </h1>
+          <div className={styles.tools}>
+            {!active && (
+              <Button icon={CircleCheckBig} onClick={() => setActiveApplication(objectId)}>
+                {t('command.setActive')}
+              </Button>
+            )}
+            <Button
+              icon={Hammer}
+              disabledReason={active ? null : t('application.notActive')}
+              onClick={() => void runCommand('build.build')}
+            >
+              {t('command.build')}
             </Button>
-          )}
-          <Button
-            icon={Hammer}
-            disabledReason={active ? null : t('application.notActive')}
-            onClick={() => void runCommand('build.build')}
-          >
-            {t('command.build')}
-          </Button>
-          <Button
-            icon={LogIn}
-            disabledReason={active ? (session ? t('reason.loggedIn') : null) : t('application.notActive')}
-            onClick={() => void runCommand('online.login')}
-          >
-            {t('command.login')}
-          </Button>
-        </div>
-        <Section title={t('application.contents')}>
-          <Facts>
-            {Object.entries(counts).map(([what, count]) => (
-              <div key={what} style={{ display: 'contents' }}>
-                <dt>{t(`application.${what as keyof typeof counts}`)}</dt>
-                <dd className="digits">{count}</dd>
-              </div>
-            ))}
-          </Facts>
-        </Section>
-        <Section title={t('application.build')}>
-          {build ? (
+            <Button
+              icon={LogIn}
+              disabledReason={active ? (session ? t('reason.loggedIn') : null) : t('application.notActive')}
+              onClick={() => void runCommand('online.login')}
+            >
+              {t('command.login')}
+            </Button>
+          </div>
+          <Section title={t('application.contents')}>
             <Facts>
-              <dt>{t('application.result')}</dt>
-              <dd>{`${t('messages.error', { count: messages.error })}, ${t('messages.warning', { count: messages.warning })}`}</dd>
-              <dt>{t('application.code')}</dt>
-              <dd>{build.report.code_size === null ? '–' : bytesText(build.report.code_size)}</dd>
-              <dt>{t('application.data')}</dt>
-              <dd>{build.report.data_size === null ? '–' : bytesText(build.report.data_size)}</dd>
-              <dt>{t('application.codeId')}</dt>
-              <dd className="code">{build.report.code_id?.slice(0, 16) ?? '–'}</dd>
+              {Object.entries(counts).map(([what, count]) => (
+                <div key={what} style={{ display: 'contents' }}>
+                  <dt>{t(`application.${what as keyof typeof counts}`)}</dt>
+                  <dd className="digits">{count}</dd>
+                </div>
+              ))}
             </Facts>
-          ) : (
-            <p className={styles.note}>{t('application.notBuilt')}</p>
-          )}
-        </Section>
-        <Section title={t('application.controller')}>
-          {session?.runtime ? (
-            <Facts>
-              <dt>{t('runtime.name')}</dt>
-              <dd>{session.runtime.name}</dd>
-              <dt>{t('tasks.status')}</dt>
-              <dd>{runtimeText(session.runtime, t)}</dd>
-              <dt>{t('application.relation')}</dt>
-              <dd>{t(`relation.${session.relation}`)}</dd>
-              {session.runtime.scheduling && (
-                <>
-                  <dt>{t('application.scheduling')}</dt>
-                  <dd>{session.runtime.scheduling}</dd>
-                </>
-              )}
-            </Facts>
-          ) : (
-            <p className={styles.note}>{t('status.offline')}</p>
-          )}
-        </Section>
-      </div>
-    </div>
+          </Section>
+          <HeapFields
+            application={application}
+            disabled={draft.readOnly !== null}
+            onChange={(heap) => draft.change({ ...application, heap })}
+          />
+          <Section title={t('application.build')}>
+            {build ? (
+              <Facts>
+                <dt>{t('application.result')}</dt>
+                <dd>{`${t('messages.error', { count: messages.error })}, ${t('messages.warning', { count: messages.warning })}`}</dd>
+                <dt>{t('application.code')}</dt>
+                <dd>{build.report.code_size === null ? '–' : bytesText(build.report.code_size)}</dd>
+                <dt>{t('application.data')}</dt>
+                <dd>{build.report.data_size === null ? '–' : bytesText(build.report.data_size)}</dd>
+                <dt>{t('application.codeId')}</dt>
+                <dd className="code">{build.report.code_id?.slice(0, 16) ?? '–'}</dd>
+              </Facts>
+            ) : (
+              <p className={styles.note}>{t('application.notBuilt')}</p>
+            )}
+          </Section>
+          <Section title={t('application.controller')}>
+            {session?.runtime ? (
+              <Facts>
+                <dt>{t('runtime.name')}</dt>
+                <dd>{session.runtime.name}</dd>
+                <dt>{t('tasks.status')}</dt>
+                <dd>{runtimeText(session.runtime, t)}</dd>
+                <dt>{t('application.relation')}</dt>
+                <dd>{t(`relation.${session.relation}`)}</dd>
+                {session.runtime.scheduling && (
+                  <>
+                    <dt>{t('application.scheduling')}</dt>
+                    <dd>{session.runtime.scheduling}</dd>
+                  </>
+                )}
+              </Facts>
+            ) : (
+              <p className={styles.note}>{t('status.offline')}</p>
+            )}
+          </Section>
+        </>
+      )}
+    </FormPage>
   );
 }
