@@ -4,6 +4,7 @@ import asyncio
 import os
 import signal
 import stat
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from tappet.runtime.__main__ import read_token
 from tappet.runtime.client import RuntimeClient
 from tappet.runtime.operations.life_cycle import GetInfo, Start
 from tappet.runtime.operations.values import Read
+from tappet.runtime.owned_folder import owned
 from tappet.runtime.process import Endpoint, RuntimeProcess, StartError, describe_exit
 
 TEXT = """
@@ -110,3 +112,62 @@ def test_exit_reasons() -> None:
     assert describe_exit(1).endswith("exit code 1")
     assert describe_exit(-9).endswith("SIGKILL")
     assert describe_exit(-60).endswith("signal 60")
+
+
+ORPHAN = """
+import asyncio, os, signal, sys
+from pathlib import Path
+from tappet.runtime.owned_folder import owned
+from tappet.runtime.process import RuntimeProcess
+
+async def main():
+    process = await RuntimeProcess.start(Path(sys.argv[1]), options=("--no-realtime",))
+    print(process.endpoint.pid, process.endpoint.url, process.endpoint.token, flush=True)
+    await asyncio.sleep(600)
+
+asyncio.run(main())
+"""
+
+
+async def test_a_runtime_ends_properly_when_the_server_that_started_it_is_killed(tmp_path: Path) -> None:
+    """Nobody would look after it, and the next server starts one of its own on the same folder."""
+    folder = tmp_path / "plc"
+    parent = await asyncio.create_subprocess_exec(
+        sys.executable, "-c", ORPHAN, str(folder), stdout=asyncio.subprocess.PIPE
+    )
+    assert parent.stdout is not None
+    pid, url, token = (await parent.stdout.readline()).decode().split()
+    async with await RuntimeClient.connect(url, token) as client:
+        await client.download(build(TEXT, TASKS, gvls=LISTS).to_bytes())
+        await client.call(Start())
+        await until(lambda: counted(client, 20))
+    parent.kill()
+    await parent.wait()
+
+    left = (Path(f"/proc/{pid}"), folder / "running")
+
+    async def gone() -> bool:
+        return not any(map(os.path.exists, left))
+
+    await until(gone)
+    assert (folder / "retain.saved").exists(), "a proper end"
+
+
+async def test_two_runtimes_never_share_a_folder(tmp_path: Path) -> None:
+    with owned(tmp_path), pytest.raises(OSError, match="used by another soft PLC"), owned(tmp_path, 0.1):
+        pass
+    with owned(tmp_path):
+        pass
+    held = await asyncio.create_subprocess_exec(
+        "flock", str(tmp_path), sys.executable, "-c", "print(1, flush=True); input()",
+        stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
+    )  # fmt: skip
+    assert held.stdout is not None
+    await held.stdout.readline()
+    waiting = asyncio.create_task(RuntimeProcess.start(tmp_path, options=OPTIONS, restart=False))
+    await asyncio.sleep(0.5)
+    assert not waiting.done()
+    await held.communicate(b"\n")
+    process = await waiting
+    assert process.endpoint is not None
+    await process.stop()

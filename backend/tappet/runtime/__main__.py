@@ -15,6 +15,7 @@ from pathlib import Path
 from tappet.runtime.contexts import STUCK_LIMIT_S
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.logbook import Logbook, LogEntry
+from tappet.runtime.owned_folder import owned
 from tappet.runtime.plc import SoftPlc
 from tappet.runtime.posix import lock_memory
 from tappet.runtime.service import RuntimeService
@@ -53,6 +54,7 @@ def parser() -> argparse.ArgumentParser:
     text = "take an entry of the flight recorder every N cycles (default: %(default)s)"
     p.add_argument("--flight-divider", type=int, default=kept.divider, metavar="N", help=text)
     p.add_argument("--ready-fd", type=int, help=argparse.SUPPRESS)
+    p.add_argument("--lifeline-fd", type=int, help=argparse.SUPPRESS)
     return p
 
 
@@ -88,9 +90,9 @@ def _scheduling(arguments: argparse.Namespace, log: Logbook) -> Scheduling:
 
 
 async def serve(arguments: argparse.Namespace) -> None:
-    """Run until SIGTERM or SIGINT, then stop the application and save its remanent values."""
+    """Run until SIGTERM or SIGINT, or the process at the lifeline is gone; then stop the application and save
+    its remanent values."""
     log = Logbook(_echo)
-    arguments.data.mkdir(parents=True, exist_ok=True, mode=0o700)
     token = read_token(arguments.token_file or arguments.data / "token")
     plc = SoftPlc(
         arguments.data,
@@ -113,7 +115,11 @@ async def serve(arguments: argparse.Namespace) -> None:
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
         loop.add_signal_handler(number, ended.set)
+    if arguments.lifeline_fd is not None:
+        loop.add_reader(arguments.lifeline_fd, ended.set)  # nothing comes but its end
     await ended.wait()
+    if arguments.lifeline_fd is not None:
+        loop.remove_reader(arguments.lifeline_fd)
     log.add("info", "service", "shutting down")
     await service.close()
     await asyncio.to_thread(plc.close)
@@ -123,7 +129,9 @@ def main(argv: list[str] | None = None) -> int:
     """Entry point; 0 after a proper end, 1 when the runtime could not start."""
     arguments = parser().parse_args(argv)
     try:
-        asyncio.run(serve(arguments))
+        arguments.data.mkdir(parents=True, exist_ok=True, mode=0o700)
+        with owned(arguments.data):
+            asyncio.run(serve(arguments))
     except (OSError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

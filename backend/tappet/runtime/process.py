@@ -35,7 +35,8 @@ class Endpoint:
 
 
 class RuntimeProcess:
-    """A supervised runtime on this machine.
+    """A supervised runtime on this machine. It ends when this process does, however that happens: a pipe of
+    which this process holds the other end is its lifeline.
 
     `on_exit(reason)` is called, on the event loop, whenever the process ended by itself; `on_ready(endpoint)`
     whenever one is up, the first time included.
@@ -64,6 +65,7 @@ class RuntimeProcess:
         self._watch: asyncio.Task[None] | None = None
         self._reader: asyncio.Task[None] | None = None
         self._stopping = False
+        self._lifeline: int | None = None
 
     @classmethod
     async def start(
@@ -78,17 +80,23 @@ class RuntimeProcess:
     ) -> RuntimeProcess:
         """Start a runtime on `data_dir` and wait until it listens; StartError when it does not."""
         process = cls(data_dir, port, options=options, on_exit=on_exit, on_ready=on_ready, restart=restart)
-        await process._spawn()
+        try:
+            await process._spawn()
+        except BaseException:
+            process._cut_lifeline()
+            raise
         process._watch = asyncio.create_task(process._supervise())
         return process
 
     async def _spawn(self) -> None:
+        self._cut_lifeline()
         read_end, write_end = os.pipe()
+        held, self._lifeline = os.pipe()
         try:
             process = await asyncio.create_subprocess_exec(
                 sys.executable, "-m", "tappet.runtime", "--data", str(self.folder), "--port", str(self.port),
-                "--ready-fd", str(write_end), *self.options,
-                pass_fds=(write_end,), stdin=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
+                "--ready-fd", str(write_end), "--lifeline-fd", str(held), *self.options,
+                pass_fds=(write_end, held), stdin=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
                 stdout=asyncio.subprocess.DEVNULL,
             )  # fmt: skip
         except OSError:
@@ -96,6 +104,7 @@ class RuntimeProcess:
             raise
         finally:
             os.close(write_end)
+            os.close(held)
         self._process = process
         self._reader = asyncio.create_task(self._read_lines(process))
         try:
@@ -162,6 +171,11 @@ class RuntimeProcess:
             if self._stopping:
                 return
 
+    def _cut_lifeline(self) -> None:
+        if self._lifeline is not None:
+            os.close(self._lifeline)
+            self._lifeline = None
+
     async def stop(self) -> None:
         """End the process properly: it stops the application, saves remanent values. Killed if it hangs."""
         self._stopping = True
@@ -179,6 +193,7 @@ class RuntimeProcess:
             if task is not None:
                 task.cancel()
                 await asyncio.gather(task, return_exceptions=True)
+        self._cut_lifeline()
         self.endpoint = None
 
 
