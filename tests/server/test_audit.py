@@ -33,6 +33,7 @@ EXEMPT = {
     "build": READS,
     "run_static_analysis": READS,
     "run_tests": READS,
+    "search": READS,
     "cancel_build": "ends a question",
     "cancel_tests": "ends a question",
     "log_in": READS,
@@ -48,6 +49,8 @@ EXEMPT = {
     "copy_object": HISTORY,
     "delete_object": HISTORY,
     "revert_object": HISTORY,
+    "replace": HISTORY,
+    "undo_change": HISTORY,
 }
 """Routes with a method that may change something, and why they are in the audit log only when refused."""
 

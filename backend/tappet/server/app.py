@@ -33,6 +33,7 @@ from tappet.server.runtimes import operations
 from tappet.server.runtimes import routes as routes_runtimes
 from tappet.server.runtimes.plc_client import Connect
 from tappet.server.scenes import routes as routes_scenes
+from tappet.server.search import routes as routes_search
 from tappet.server.services import open_services
 from tappet.server.settings import ServerSettings
 from tappet.server.static import FrontEnd, find_static
@@ -61,6 +62,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_projects.router,
     routes_exchange.router,
     routes_objects.router,
+    routes_search.router,
     routes_scenes.router,
     routes_events.router,
 )

@@ -86,6 +86,7 @@ PROJECT_STATUS = {
     "unknown_project": 404,
     "unknown_revision": 404,
     "name_taken": 409,
+    "changed_since": 409,
     "stale_revision": 409,
     "store": 503,
 }

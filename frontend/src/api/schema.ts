@@ -973,6 +973,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/replace": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Replace
+         * @description Replace chosen hits of a search, all of them or none, as one change of the project.
+         *
+         *     When somebody else has changed one of the objects since, the answer is the problem `stale-revision` (409),
+         *     and nothing was written.
+         */
+        post: operations["replace"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/restore": {
         parameters: {
             query?: never;
@@ -1027,6 +1050,51 @@ export interface paths {
         get: operations["list_project_revisions"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/revisions/{revision}/undo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Undo Change
+         * @description Take back one change of the project, as a new change.
+         *
+         *     When one of its objects was changed again, the answer is the problem `changed-since` (409).
+         */
+        post: operations["undo_change"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/search": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Search
+         * @description Search names, texts and tables of the objects of a project, or the libraries that it refers to.
+         *
+         *     An answer has at most `limit` hits; `next` says where to go on. A text that is no regular expression is
+         *     the problem `invalid-pattern` (422).
+         */
+        post: operations["search"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1709,6 +1777,12 @@ export interface components {
              */
             subkind: string | null;
         };
+        /**
+         * Area
+         * @description A part of what objects consist of; every place of an object is in one of them.
+         * @enum {string}
+         */
+        Area: "declarations" | "implementations" | "comments" | "names" | "tables";
         /**
          * AuditEntry
          * @description Who did what, when and from where.
@@ -3899,6 +3973,53 @@ export interface components {
             last: number;
         };
         /**
+         * ReplaceChoice
+         * @description Hits of one object, which must be as it was when they were found.
+         */
+        ReplaceChoice: {
+            /** Base Revision */
+            base_revision: number;
+            /**
+             * Hits
+             * @description Numbers of hits.
+             */
+            hits: number[];
+            /** Object Id */
+            object_id: string;
+        };
+        /**
+         * ReplaceOrder
+         * @description What replaces the chosen hits of a search.
+         */
+        ReplaceOrder: {
+            /** Objects */
+            objects: components["schemas"]["ReplaceChoice"][];
+            query: components["schemas"]["SearchQuery"];
+            /**
+             * Replacement
+             * @description With a regular expression `$1` is a group, `$0` the hit, `$$` a dollar sign, `\n` a line break.
+             */
+            replacement: string;
+        };
+        /**
+         * ReplaceReport
+         * @description What was replaced.
+         */
+        ReplaceReport: {
+            /** Hits */
+            hits: number;
+            /**
+             * Objects
+             * @description Number of objects that are not as they were.
+             */
+            objects: number;
+            /**
+             * Revision
+             * @description The change of the project, which can be taken back; null when nothing differs.
+             */
+            revision: number | null;
+        };
+        /**
          * RequiredLibrary
          * @description A library that another one needs.
          */
@@ -4144,6 +4265,222 @@ export interface components {
              * @default local
              */
             runtime_id?: string;
+        };
+        /**
+         * SearchHit
+         * @description A place where something was found; lines and columns count from 1, columns in code points.
+         */
+        SearchHit: {
+            /**
+             * After
+             * @description The line behind the hit, cut on the right.
+             */
+            after: string;
+            area: components["schemas"]["Area"];
+            /**
+             * Before
+             * @description The line before the hit, cut on the left.
+             */
+            before: string;
+            /** Column */
+            column: number;
+            /**
+             * Element
+             * @description Id of the element in a drawn part.
+             */
+            element: string | null;
+            /** End Column */
+            end_column: number;
+            /** End Line */
+            end_line: number;
+            /**
+             * Field
+             * @description Which text of the data, such as `watchdog.time`; empty in parts.
+             */
+            field: string;
+            /** Line */
+            line: number;
+            /** Match */
+            match: string;
+            /**
+             * Number
+             * @description Of this hit in its object, from 0.
+             */
+            number: number;
+            /** @description Null for names and tables. */
+            part: components["schemas"]["Part"] | null;
+            /**
+             * Replacement
+             * @description What would replace it, if that was asked for.
+             */
+            replacement: string | null;
+            /**
+             * Writable
+             * @description Numbers and fixed names are found, but cannot be replaced.
+             */
+            writable: boolean;
+        };
+        /**
+         * SearchObject
+         * @description An object, or an item of a library, in which something was found.
+         */
+        SearchObject: {
+            /** Hits */
+            hits: components["schemas"]["SearchHit"][];
+            /** Kind */
+            kind: string;
+            /**
+             * Library
+             * @description Name of the library, else null.
+             */
+            library: string | null;
+            /** Name */
+            name: string;
+            /**
+             * Object Id
+             * @description Null for an item of a library.
+             */
+            object_id: string | null;
+            /** Path */
+            path: string;
+            /** Revision */
+            revision: number;
+            /** Subkind */
+            subkind: string | null;
+            /**
+             * Total
+             * @description More than `hits` where the limit has cut them.
+             */
+            total: number;
+        };
+        /**
+         * SearchOrder
+         * @description What is searched for, and in which objects.
+         */
+        SearchOrder: {
+            /**
+             * After
+             * @description Go on: `next` of the answer before.
+             */
+            after?: string | null;
+            /**
+             * Areas
+             * @description Which parts of objects.
+             * @default [
+             *       "declarations",
+             *       "implementations",
+             *       "comments",
+             *       "names",
+             *       "tables"
+             *     ]
+             */
+            areas?: components["schemas"]["Area"][];
+            /**
+             * Children
+             * @description Also what is below these objects.
+             * @default true
+             */
+            children?: boolean;
+            /**
+             * Libraries
+             * @description Instead of the project the texts of the libraries it refers to.
+             * @default false
+             */
+            libraries?: boolean;
+            /**
+             * Limit
+             * @description Hits in one answer.
+             * @default 2000
+             */
+            limit?: number;
+            /**
+             * Match Case
+             * @default false
+             */
+            match_case?: boolean;
+            /**
+             * Regular Expression
+             * @description RE2 syntax: no look-around, no back references.
+             * @default false
+             */
+            regular_expression?: boolean;
+            /**
+             * Replacement
+             * @description For a preview: what would replace each hit.
+             */
+            replacement?: string | null;
+            /**
+             * Text
+             * @description At most 1000 characters.
+             */
+            text: string;
+            /**
+             * Whole Words
+             * @default false
+             */
+            whole_words?: boolean;
+            /**
+             * Within
+             * @description Ids of objects; null is the whole project.
+             */
+            within?: string[] | null;
+        };
+        /**
+         * SearchQuery
+         * @description What is searched for.
+         */
+        SearchQuery: {
+            /**
+             * Areas
+             * @description Which parts of objects.
+             * @default [
+             *       "declarations",
+             *       "implementations",
+             *       "comments",
+             *       "names",
+             *       "tables"
+             *     ]
+             */
+            areas?: components["schemas"]["Area"][];
+            /**
+             * Match Case
+             * @default false
+             */
+            match_case?: boolean;
+            /**
+             * Regular Expression
+             * @description RE2 syntax: no look-around, no back references.
+             * @default false
+             */
+            regular_expression?: boolean;
+            /**
+             * Text
+             * @description At most 1000 characters.
+             */
+            text: string;
+            /**
+             * Whole Words
+             * @default false
+             */
+            whole_words?: boolean;
+        };
+        /**
+         * SearchReport
+         * @description What was found, in the order of the tree.
+         */
+        SearchReport: {
+            /**
+             * Next
+             * @description To go on with as `after`; null when everything was searched.
+             */
+            next: string | null;
+            /** Objects */
+            objects: components["schemas"]["SearchObject"][];
+            /**
+             * Searched
+             * @description Number of objects that were searched for this answer.
+             */
+            searched: number;
         };
         /**
          * Severity
@@ -4590,6 +4927,17 @@ export interface components {
             role: components["schemas"]["Role"];
             /** Used At */
             used_at: string | null;
+        };
+        /**
+         * UndoReport
+         * @description A change was taken back.
+         */
+        UndoReport: {
+            /**
+             * Revision
+             * @description The change of the project that it is.
+             */
+            revision: number;
         };
         /**
          * UnforceOrder
@@ -7165,6 +7513,50 @@ export interface operations {
             };
         };
     };
+    replace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReplaceOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReplaceReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     restore_project: {
         parameters: {
             query?: never;
@@ -7271,6 +7663,91 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Revision"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    undo_change: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                revision: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UndoReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    search: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SearchOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SearchReport"];
                 };
             };
             /** @description The request was refused */

@@ -41,6 +41,7 @@ from tappet.project.store.rows import (
 )
 from tappet.project.store.saving import check_base, read_object, save_data, with_contents, with_index
 from tappet.project.store.tables import files, projects
+from tappet.project.store.undoing import without_change
 
 Listener = Callable[[ChangeEvent], None]
 T = TypeVar("T")
@@ -351,10 +352,10 @@ class Store:
             return project, project.get(object_id)
 
         yours = {} if name is None else {"name": name}
-        base = None if base_revision is None else (object_id, base_revision, yours)
+        bases = [] if base_revision is None else [(object_id, base_revision, yours)]
         action = "rename" if name is not None else "move" if place is not None else "build"
         moved = object_id if place is not None else None
-        return self.edit(project_id, author, action, arranged, comment, base=base, moved=moved)
+        return self.edit(project_id, author, action, arranged, comment, bases=bases, moved=moved)
 
     def delete(self, project_id: str, author: str, object_id: str, *, comment: str = "") -> None:
         """Delete an object and all below it; their revisions stay. Raises UnknownObjectError."""
@@ -374,17 +375,18 @@ class Store:
         change: Callable[[Project], tuple[Project, T]],
         comment: str = "",
         *,
-        base: tuple[str, int, Mapping[str, Any]] | None = None,
+        bases: Sequence[tuple[str, int, Mapping[str, Any]]] = (),
         moved: str | None = None,
     ) -> T:
         """Make any change of a project as one revision: `change` gets it as it is and returns what shall be.
 
-        An object that `change` returns comes back with its stored revision. `base` is (object id, revision,
-        yours) to be checked first. Raises StaleRevision, UnknownProjectError, and whatever `change` raises.
+        An object that `change` returns comes back with its stored revision. Each of `bases` is (object id,
+        revision, yours) to be checked first. Raises StaleRevision, UnknownProjectError, and whatever `change`
+        raises.
         """
         with self.engine.begin() as connection:
             info = read_info(connection, project_id, lock=True)
-            if base is not None:
+            for base in bases:
                 check_base(connection, project_id, *base)
             stored = read_project(connection, info)
             wanted, outcome = change(stored.project)
@@ -459,6 +461,19 @@ class Store:
             info = read_info(connection, project_id)
         self._notify(event)
         return info
+
+    def undo_change(self, project_id: str, revision: int, author: str, *, comment: str = "") -> int:
+        """Take back one change of a project, as a new change; answers the revision that makes.
+
+        Raises UnknownProjectError, UnknownRevisionError, ChangedSinceError, NotUndoableError.
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            stored = read_project(connection, info)
+            wanted = without_change(connection, stored, revision)
+            _, event = apply_project(connection, stored, wanted, "revert", author, comment)
+        self._notify(event)
+        return info.revision if event is None else event.revision
 
     def extra_files(self, project_id: str) -> dict[str, bytes]:
         """Files of the imported folder that are no objects. Raises UnknownProjectError."""

@@ -1,0 +1,1 @@
+"""Search and replace in a project over REST."""
