@@ -18,6 +18,7 @@ const ROOMS = [
   'ui',
   'workbench',
   'text',
+  'search',
   'lsp',
   'online',
   'editors/form',

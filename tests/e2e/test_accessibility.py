@@ -42,6 +42,19 @@ def _panels(page: Page) -> Iterator[str]:
         yield name
 
 
+def _tools(page: Page) -> Iterator[str]:
+    """Panels that a command opens."""
+    page.keyboard.press("Control+Shift+H")
+    search = page.locator("[data-panel-id=search]")
+    search.get_by_label("Search for").fill("xSafe")
+    expect(search.get_by_role("treeitem").first).to_be_visible()
+    yield "Search"
+    search.get_by_role("button", name="Regular expression").click()
+    search.get_by_label("Search for").fill("(")
+    expect(search.get_by_role("alert")).to_be_visible()
+    yield "Search with a fault"
+
+
 def _dialogs(page: Page) -> Iterator[str]:
     for menu, entry in (("Project", "Add object"), ("Project", "Project information"), ("Help", "About")):
         choose_menu(page, menu, entry)
@@ -69,7 +82,7 @@ def _serious(page: Page) -> list[str]:
 
 @pytest.mark.parametrize("theme", ["dark", "light"])
 @pytest.mark.parametrize(
-    "views", [_objects, _panels, _dialogs, _online], ids=lambda views: views.__name__.strip("_")
+    "views", [_objects, _panels, _tools, _dialogs, _online], ids=lambda views: views.__name__.strip("_")
 )
 def test_nothing_serious(
     browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]

@@ -4,11 +4,13 @@
  */
 import { registerEditors } from '@/editors/register';
 import { registerOnline } from '@/online/register';
+import { registerSearch } from '@/search/register';
 import { Workbench } from '@/workbench/frame/Workbench';
 import { registerPanelCommands, registerWorkbench } from '@/workbench/register';
 
 registerWorkbench();
 registerOnline();
+registerSearch();
 registerEditors();
 registerPanelCommands();
 

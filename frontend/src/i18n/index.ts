@@ -14,6 +14,7 @@ import type exchange from './en/exchange.json';
 import type libraries from './en/libraries.json';
 import type objects from './en/objects.json';
 import type online from './en/online.json';
+import type search from './en/search.json';
 import type tests from './en/tests.json';
 import type workbench from './en/workbench.json';
 
@@ -27,6 +28,7 @@ export interface TextTables {
   libraries: typeof libraries;
   objects: typeof objects;
   online: typeof online;
+  search: typeof search;
   tests: typeof tests;
   workbench: typeof workbench;
 }

@@ -167,8 +167,11 @@ export interface Move {
   close?: string;
 }
 
+/** What keys that move the focus need to know of a row. */
+export type FocusRow = Pick<Row, 'level' | 'expandable' | 'expanded'> & { object: { id: string } };
+
 /** What an arrow key does, as the ARIA tree pattern says: right opens or goes in, left closes or goes out. */
-export function moveFocus(rows: readonly Row[], focused: string | null, motion: Motion, page = 10): Move {
+export function moveFocus(rows: readonly FocusRow[], focused: string | null, motion: Motion, page = 10): Move {
   if (rows.length === 0) return {};
   const at = rows.findIndex((row) => row.object.id === focused);
   const row = rows[at];
