@@ -123,3 +123,22 @@ def test_a_full_disk_is_said_in_a_sentence(tmp_path: Path) -> None:
     source.write_text("PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n")
     done = tappet("run", source, "--virtual", "--cycles", 2, "--trace", "/dev/full", "--print", "Main.n")
     assert done == (2, "the disk is full: /dev/full was not written")
+
+
+def test_what_becomes_of_objects_that_exist(tmp_path: Path) -> None:
+    pump = tmp_path / "Pump.st"
+    pump.write_text("FUNCTION_BLOCK FB_Pump\nVAR\n  a : INT;\nEND_VAR\nEND_FUNCTION_BLOCK\n")
+    project = tmp_path / "p"
+    assert tappet("import", pump, "--to", project)[0] == 0
+    (file,) = project.rglob("FB_Pump.st")
+    pump.write_text(pump.read_text().replace("  a : INT;\n", "  a : INT;\n  b : INT;\n"))
+    assert "FB_Pump: exists already" in tappet("import", pump, "--to", project, "--existing", "skip")[1]
+    assert "b : INT" not in file.read_text()
+    code, said = tappet("import", pump, "--to", project, "--existing", "merge")
+    assert (code, "(1 merged)" in said) == (0, True)
+    assert "b : INT" in file.read_text()
+    pump.write_text("FUNCTION_BLOCK FB_Pump\nEND_FUNCTION_BLOCK\n")
+    assert "(1 overwritten)" in tappet("import", pump, "--to", project, "--existing", "overwrite")[1]
+    assert "b : INT" not in file.read_text()
+    assert "(1 imported, 1 changed)" in tappet("import", pump, "--to", project)[1]
+    assert tappet("import", pump, "--to", project, "--existing", "destroy")[0] == 2

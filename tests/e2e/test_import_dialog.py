@@ -125,3 +125,52 @@ def test_parts_and_the_whole_go_out_and_come_in_again(page: Page, tmp_path: Path
     expect(tree_item(page, "FB_Alarm")).to_be_visible()
     expect(tree_item(page, "Library Manager")).to_be_visible()
     expect(tree_item(page, "GVL_IO")).to_have_count(0)
+
+
+def test_objects_that_exist_are_overwritten_renamed_merged_or_skipped(page: Page) -> None:
+    open_project(page)
+    tree_item(page, "Alarms").click()
+
+    def choose_files(content: bytes) -> Locator:
+        choose_menu(page, "File", "Import")
+        return read_files(page, file("Pumps.st", content))
+
+    dialog = choose_files(PUMP)
+    expect(dialog.get_by_role("region", name="Objects that exist already")).to_have_count(0)
+    dialog.get_by_role("button", name="Import", exact=True).click()
+    report = page.get_by_role("dialog", name="Import into Bottling line")
+    report.get_by_role("button", name="Close").last.click()
+    changed = PUMP.replace(b"bOn : BOOL;", b"bOn : BOOL;\n  nSpeed : INT;")
+    dialog = choose_files(changed)
+    existing = dialog.get_by_role("region", name="Objects that exist already")
+    expect(existing).to_contain_text("2 objects exist already")
+
+    def act(name: str, what: str) -> None:
+        dialog.get_by_label(f"What becomes of {name}").click()
+        page.get_by_role("option", name=what).click()
+
+    expect(dialog.get_by_label("What becomes of E_Pump")).to_contain_text("Skip")
+    new_name = dialog.get_by_label("New name of FB_Pump")
+    expect(new_name).to_have_value("FB_Pump_1")
+    new_name.fill("fb_pump")
+    expect(new_name).to_have_attribute("aria-invalid", "true")
+    expect(dialog.get_by_role("button", name="Import", exact=True)).to_have_attribute("aria-disabled", "true")
+    act("FB_Pump", "Merge")
+    expect(existing).to_contain_text("4 objects exist already")
+    row = existing.get_by_role("row").filter(has_text="Alarms / FB_Pump")
+    row.get_by_role("button", name="Compare and merge").click()
+    compare = page.get_by_role("dialog", name="FB_Pump in the project and in the file")
+    right = compare.locator(".monaco-editor .modified-in-monaco-diff-editor, .editor.modified").first
+    expect(right).to_contain_text("nSpeed")
+    right.get_by_text("nSpeed").click()
+    page.keyboard.press("End")
+    page.keyboard.type(" // by hand")
+    compare.get_by_role("button", name="Take the right side").click()
+    expect(row).to_contain_text("merged by hand")
+    dialog.get_by_role("button", name="Import", exact=True).click()
+    rows = report.get_by_role("row")
+    expect(rows.filter(has_text="FB_Pump").filter(has_text="merged").first).to_be_visible()
+    expect(rows.filter(has_text="E_Pump")).to_contain_text("skipped")
+    report.get_by_role("row").filter(has_text="as the user has joined it").dblclick()
+    expect(page.locator(".monaco-editor:visible").first).to_contain_text("by\xa0hand")
+    expect(tree_item(page, "FB_Pump_1")).to_have_count(0)

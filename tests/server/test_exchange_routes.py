@@ -142,3 +142,86 @@ def test_an_upload_without_room_for_it_says_so(admin: TestClient, monkeypatch: p
     monkeypatch.setattr(tempfile.SpooledTemporaryFile, "rollover", full)
     answer = admin.post(f"{API}/projects/preview-files", files={"files": ("x.st", b"// x\n" * 1_000_000)})
     assert (answer.status_code, answer.json()["type"]) == (507, "urn:tappet:problem:disk-full")
+
+
+def test_what_exists_is_overwritten_renamed_merged_or_skipped_as_one_change(admin: TestClient) -> None:
+    project = admin.post(f"{API}/projects", json={"name": "Known"}).json()["id"]
+    at = f"{API}/projects/{project}"
+    assert admin.post(f"{at}/import-files", files={"files": ("a.st", SOURCE)}).status_code == 200
+    pump = next(item for item in admin.get(f"{at}/objects").json() if item["name"] == "FB_Pump")
+    changed = {"files": ("a.st", SOURCE.replace(b"bOn : BOOL;", b"bOn : BOOL;\n  nMore : INT;"))}
+    nodes = admin.post(f"{API}/projects/preview-files", files=changed, data={"project_id": project}).json()[
+        "nodes"
+    ]
+    assert nodes[0]["existing"]["object_id"] == pump["id"]
+    compared = admin.post(f"{at}/compare-import", files=changed, data={"key": nodes[0]["key"]})
+    assert compared.status_code == 200, compared.text
+    assert "nMore" in compared.json()["texts"][0]["merged"]
+    assert admin.post(f"{at}/compare-import", files=changed, data={"key": "x"}).status_code == 404
+
+    def bring(**decisions: object) -> dict[str, str]:
+        done = admin.post(f"{at}/import-files", files=changed, data={"existing": json.dumps(decisions)})
+        assert done.status_code == 200, done.text
+        return {entry["object"]: entry["outcome"] for entry in done.json()["report"]["entries"]}
+
+    revision = admin.get(at).json()["revision"]
+    assert bring(all="skip") == {"FB_Pump": "skipped"}
+    assert bring(all="merge") == {"FB_Pump": "merged"}
+    merged = admin.get(f"{at}/objects/{pump['id']}").json()
+    assert "nMore" in merged["data"]["declaration"]
+    assert bring(all="overwrite") == {"FB_Pump": "overwritten"}
+    assert bring(objects={nodes[0]["key"]: {"act": "rename", "name": "FB_Other"}}) == {
+        "FB_Pump": "changed",
+        "FB_Other": "imported",
+    }
+    assert {"FB_Pump", "FB_Other"} <= {item["name"] for item in admin.get(f"{at}/objects").json()}
+    back = admin.post(f"{at}/revert", json={"revision": revision})
+    assert back.status_code == 200, back.text
+    again = admin.get(f"{at}/objects/{pump['id']}").json()
+    assert "nMore" not in again["data"]["declaration"]
+    for wrong, status in (
+        ("all", 422),
+        ('{"all": "destroy"}', 422),
+        (json.dumps({"objects": {nodes[0]["key"]: {"act": "rename", "name": "FB_Pump"}}}), 409),
+    ):
+        answer = admin.post(f"{at}/import-files", files=changed, data={"existing": wrong})
+        assert answer.status_code == status, answer.text
+
+
+def test_versions_with_a_common_past_are_joined_from_it(admin: TestClient) -> None:
+    project = admin.post(f"{API}/projects", json={"name": "Both"}).json()["id"]
+    at = f"{API}/projects/{project}"
+    program = next(item for item in admin.get(f"{at}/objects").json() if item["name"] == "PLC_PRG")
+
+    def save(text: str) -> None:
+        now = admin.get(f"{at}/objects/{program['id']}").json()
+        body = {"base_revision": now["revision"], "data": now["data"] | {"implementation": text}}
+        assert admin.put(f"{at}/objects/{program['id']}", json=body).status_code == 200
+
+    save("a();\nb();\nc();\nd();")
+    save("theirs();\nb();\nc();\nd();")
+    away = admin.get(f"{at}/export").content
+    save("a();\nb();\nc();\nd();")
+    save("a();\nb();\nc();\nours();")
+    # what went away was a state of the project: nothing was changed since on the other side
+    done = admin.post(
+        f"{at}/import-files",
+        files={"files": ("p.zip", away)},
+        data={"existing": json.dumps({"all": "merge"})},
+    )
+    assert done.status_code == 200, done.text
+    now = admin.get(f"{at}/objects/{program['id']}").json()
+    assert now["data"]["implementation"] == "a();\nb();\nc();\nours();"
+    with zipfile.ZipFile(io.BytesIO(away)) as packed:
+        files = {name: packed.read(name) for name in packed.namelist()}
+    files = {
+        name: text.replace(b"theirs();", b"a();").replace(b"b();", b"b(2);") for name, text in files.items()
+    }
+    done = admin.post(
+        f"{at}/import-files",
+        files={"files": ("p.zip", archive(*files.items()))},
+        data={"existing": json.dumps({"all": "merge"})},
+    )
+    assert done.status_code == 200, done.text
+    now = admin.get(f"{at}/objects/{program['id']}").json()
+    assert now["data"]["implementation"] == "a();\nb(2);\nc();\nours();"

@@ -12,6 +12,8 @@ from tappet.cli.output import show_json
 from tappet.libraries.missing import report_missing
 from tappet.project import folder
 from tappet.project.errors import ProjectError
+from tappet.project.exchange.deciding import Decided
+from tappet.project.exchange.existing import Decisions
 from tappet.project.exchange.importing import ARCHIVES, import_files, importable, is_importable
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.exchange.report import ImportReport
@@ -34,6 +36,13 @@ def import_project_arguments(parser: ArgumentParser) -> None:
     parser.path_option(
         "--to", metavar="DIR", help="new folder, or project folder to import into", required=True
     )
+    parser.add_argument(
+        "--existing",
+        choices=("rename", "overwrite", "merge", "skip"),
+        default="rename",
+        help="what becomes of objects whose names exist in the project: they come in under counted names, "
+        "take their place, are joined with them, or stay out (default: rename)",
+    )
     parser.format_option()
 
 
@@ -48,7 +57,9 @@ def import_project(given: Namespace) -> int:
         raise UsageError(f"{to} is not empty; import into a new folder or into a project folder")
     try:
         into = load_project(to) if existing else None
-        imported = import_files(_files(files), into, name="" if existing else _name(files))
+        name = "" if existing else _name(files)
+        decided = Decided(Decisions(all=given.existing))
+        imported = import_files(_files(files), into, name=name, decided=decided)
         project, report = imported.project, imported.report
         folder.save(project, to)
     except ProjectError as error:

@@ -696,6 +696,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/compare-import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compare Import
+         * @description An object of the files, the one of its name in the project, and both joined; nothing is changed.
+         */
+        post: operations["compare_import"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/export": {
         parameters: {
             query?: never;
@@ -767,7 +787,7 @@ export interface paths {
         put?: never;
         /**
          * Import Files Into Project
-         * @description Import files into a project, as one change; nothing in the project is overwritten.
+         * @description Import files into a project, as one change, which can be undone.
          *
          *     Without a place, the first application takes the objects.
          */
@@ -1873,6 +1893,21 @@ export interface components {
              */
             title: string;
         };
+        /** Body_compare_import */
+        Body_compare_import: {
+            /** Files */
+            files: Blob[];
+            /**
+             * Key
+             * @description Of the object, as the preview has it.
+             */
+            key: string;
+            /**
+             * Place
+             * @description The application or folder that takes the objects, `pous` for the POUs view.
+             */
+            place?: string | null;
+        };
         /** Body_import_files_as_project */
         Body_import_files_as_project: {
             /**
@@ -1895,6 +1930,11 @@ export interface components {
              * @description JSON list: keys of the objects that are wanted; null: all of them.
              */
             chosen?: string | null;
+            /**
+             * Existing
+             * @description JSON `Decisions`: `all` (overwrite, rename, merge or skip) says what becomes of objects whose names exist, `objects` the same by key; null: they come in under counted names.
+             */
+            existing?: string | null;
             /** Files */
             files: Blob[];
             /**
@@ -2041,6 +2081,46 @@ export interface components {
             when_false: string;
             /** When True */
             when_true: string;
+        };
+        /**
+         * ComparedText
+         * @description A text of an object in the project and in the file.
+         */
+        ComparedText: {
+            /**
+             * Conflicts
+             * @description Lines of `merged` where both differ, from 1.
+             */
+            conflicts: number[];
+            /** Field */
+            field: string;
+            /**
+             * Merged
+             * @description With the changes of both; where they conflict, with those of the file.
+             */
+            merged: string;
+            /** Ours */
+            ours: string;
+            /** Theirs */
+            theirs: string;
+        };
+        /**
+         * Comparison
+         * @description An object in the project beside the one of the file.
+         */
+        Comparison: {
+            /**
+             * Ancestor
+             * @description The project knows what both were made from.
+             */
+            ancestor: boolean;
+            /**
+             * Fields
+             * @description Fields that are no texts and conflict.
+             */
+            fields: string[];
+            /** Texts */
+            texts: components["schemas"]["ComparedText"][];
         };
         /**
          * CopyTarget
@@ -2342,10 +2422,10 @@ export interface components {
             object_id: string | null;
             /**
              * Outcome
-             * @description imported: as it was; changed: with a difference that the text describes; kept: stored unchanged but not compiled; refused: not in the project.
+             * @description imported: as it was; changed: with a difference that the text describes; kept: stored unchanged but not compiled; refused: not in the project; overwritten, merged, skipped: what was decided for an object that exists already.
              * @enum {string}
              */
-            outcome: "imported" | "changed" | "refused" | "kept";
+            outcome: "imported" | "changed" | "refused" | "kept" | "overwritten" | "merged" | "skipped";
             /**
              * Source
              * @description The file, by the name it was given under.
@@ -2372,6 +2452,31 @@ export interface components {
             op: "open";
         };
         EventServerMessage: components["schemas"]["ObjectChanged"] | components["schemas"]["Presence"];
+        /**
+         * Existing
+         * @description The object of the project that has the name of an imported one.
+         */
+        Existing: {
+            /**
+             * Acts
+             * @description What is possible: objects of different kinds are never joined or overwritten.
+             */
+            acts: ("overwrite" | "rename" | "merge" | "skip")[];
+            /** Object Id */
+            object_id: string;
+            /** Path */
+            path: string;
+            /**
+             * Proposal
+             * @description A free name.
+             */
+            proposal: string;
+            /**
+             * Same
+             * @description Both are equal, with all that is below them.
+             */
+            same: boolean;
+        };
         /**
          * FirstAccount
          * @description The first administrator, allowed by the one-time token on the server's console.
@@ -2618,6 +2723,8 @@ export interface components {
              * @description From the build.
              */
             excluded: boolean;
+            /** @description What has its name in the project. */
+            existing: components["schemas"]["Existing"] | null;
             /**
              * Key
              * @description To be sent back when the object is chosen.
@@ -6757,6 +6864,50 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    compare_import: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_compare_import"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
             };
             /** @description The request was refused */
             422: {

@@ -3,6 +3,7 @@ import { Waypoints } from 'lucide-react';
 import { lazy } from 'react';
 import { partUri } from '@/project/partUri';
 import { registerLanguage, type LanguageDescriptor } from '@/text/languages';
+import { setImportComparison } from '@/workbench/exchange/comparison';
 import { setQuickFixSource } from '@/workbench/messages/quickFixes';
 import { setSymbolSource } from '@/workbench/palette/symbolSource';
 import { registerPanel } from '@/workbench/panels';
@@ -36,6 +37,10 @@ export function registerEditors(): void {
     project: async (projectId, query) => (await import('@/lsp/symbols')).projectSymbols(projectId, query),
     members: async (projectId, objectId, part) =>
       (await import('@/lsp/symbols')).documentSymbols(projectId, partUri(projectId, objectId, part)),
+  });
+  setImportComparison(async (compared) => {
+    const { compareImported } = await import('./documents/compareImported');
+    return compareImported(compared);
   });
   registerTextCommands();
 }

@@ -5,19 +5,20 @@ A node is named by its place in what was read: reading the same files again give
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from tappet.project.data import Data
 from tappet.project.exchange.drafts import Batch, Draft
+from tappet.project.exchange.existing import Existing
 from tappet.project.kind_registry import kinds
 
 
 class ImportNode(BaseModel):
     """An object that an import would bring."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, json_schema_serialization_defaults_required=True)
 
     key: str = Field(description="To be sent back when the object is chosen.")
     parent: str | None
@@ -27,10 +28,17 @@ class ImportNode(BaseModel):
     source: str = Field(description="The file it is in.")
     line: int | None
     excluded: bool = Field(description="From the build.")
+    existing: Existing | None = Field(default=None, description="What has its name in the project.")
 
 
-def nodes_of(batch: Batch) -> list[ImportNode]:
-    """Everything that was read, parents before their children."""
+def name_drafts(batch: Batch) -> None:
+    """Give every draft the key that the preview calls it by."""
+    for key, _, draft in _walk(batch):
+        draft.key = key
+
+
+def nodes_of(batch: Batch, existing: Mapping[str, Existing]) -> list[ImportNode]:
+    """Everything that was read, parents before their children; `existing` by key."""
     return [
         ImportNode(
             key=key,
@@ -41,6 +49,7 @@ def nodes_of(batch: Batch) -> list[ImportNode]:
             source=draft.source,
             line=draft.line,
             excluded=bool(draft.data.get("exclude_from_build")),
+            existing=existing.get(key),
         )
         for key, parent, draft in _walk(batch)
     ]
@@ -58,7 +67,9 @@ def keep_chosen(batch: Batch, chosen: Collection[str]) -> None:
             kept.add(above[up][1])
             up = above[up][0]
     for holder in (batch.loose, batch.pous, *(draft for _, draft in above.values())):
-        holder.children = [child for child in holder.children if child in kept]
+        wanted_children = [child for child in holder.children if child in kept]
+        holder.partial = len(wanted_children) < len(holder.children)
+        holder.children = wanted_children
     batch.devices = [device for device in batch.devices if device in kept]
     batch.complete = False  # what every application has comes with it, chosen or not
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
 from tappet.project.data import CodeData
 from tappet.project.exchange.codesys23_places import Places
 from tappet.project.kind_registry import kinds
+from tappet.project.naming import normal_name
+
+_NOT_FREE = re.compile(r"[\x00-\x1f\x7f./\\]+")
 
 
 @dataclass(slots=True, eq=False)
@@ -22,6 +26,10 @@ class Draft:
     children: list[Draft] = field(default_factory=list)
     id: str | None = None
     """32 hexadecimal digits, where the file has an id."""
+    key: str = ""
+    """What a preview calls it."""
+    partial: bool = False
+    """Something that the file has below it is not wanted."""
 
     def folder(self, name: str, source: str = "") -> Draft:
         """The child folder with this name, made if it is missing."""
@@ -87,6 +95,12 @@ def is_implied(kind: str) -> bool:
     name."""
     known = kinds().get(kind)
     return known is not None and known.placement.once and known.naming.style == "fixed"
+
+
+def fit_free(name: str) -> str:
+    """A name made fit for what can be named freely."""
+    visible = "".join(c if c.isprintable() else " " for c in normal_name(name))
+    return " ".join(_NOT_FREE.sub("_", visible).split())[:200].strip() or "Folder"
 
 
 def hex_id(text: str) -> str | None:

@@ -8,13 +8,15 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from tappet.project.exchange import twincat, twincat_system
-from tappet.project.exchange.choosing import ImportNode, keep_chosen, nodes_of
+from tappet.project.exchange.choosing import ImportNode, keep_chosen, name_drafts, nodes_of
 from tappet.project.exchange.codesys23 import read_export
 from tappet.project.exchange.codesys_native import read_native
+from tappet.project.exchange.deciding import Decided
 from tappet.project.exchange.decoding import PAGE_NAMES, decode_text, decode_xml, shared_pages
 from tappet.project.exchange.drafts import Batch, Draft, has_members, task_configuration
+from tappet.project.exchange.existing import Comparison
 from tappet.project.exchange.own_folder import project_in, project_tops, read_folder
-from tappet.project.exchange.placing import Place, empty_project, place
+from tappet.project.exchange.placing import Place, empty_project, find_existing, place
 from tappet.project.exchange.plcopen_read import read_plcopen
 from tappet.project.exchange.report import ExchangeError, ImportReport
 from tappet.project.exchange.simotion import REFUSED, is_unit
@@ -57,6 +59,10 @@ class Imported:
     report: ImportReport
     nodes: list[ImportNode]
     """All that the files hold, chosen or not."""
+    comparison: Comparison | None = None
+    """Of the object that was asked for."""
+    unknown_pasts: frozenset[str] = frozenset()
+    """Objects whose states in the past would have told what both sides were made from."""
 
 
 def is_importable(path: str) -> bool:
@@ -77,12 +83,15 @@ def import_files(
     where: Place | None = None,
     chosen: Collection[str] | None = None,
     name: str = "",
+    decided: Decided | None = None,
+    preview: bool = False,
 ) -> Imported:
     """Import files, given by path (`/` between the parts), into a project or into a new one.
 
     A file that cannot be read does not hinder the others: the report says why. `where` is the place in the
     project; `chosen` are the keys of the objects that are wanted (None: all), as the tree of an earlier call
-    has them. Raises ExchangeError when nothing could be read, with the reason of the first file.
+    has them; `decided` says what becomes of those whose names exist in the project, which `preview` looks
+    for. Raises ExchangeError when nothing could be read, with the reason of the first file.
     """
     report = ImportReport()
     batch = Batch()
@@ -90,7 +99,10 @@ def import_files(
     if batch.empty:
         _raise_reason(failures, report)
     rewrite_temporaries(batch, report)
-    nodes = nodes_of(batch)
+    name_drafts(batch)
+    decided = decided or Decided()
+    existing, comparison = find_existing(batch, into, where, decided) if into and preview else ({}, None)
+    nodes = nodes_of(batch, existing)
     if chosen is not None:
         keep_chosen(batch, chosen)
     tops = project_tops(files)
@@ -98,10 +110,10 @@ def import_files(
     if into is None:
         stem = posixpath.basename(next(iter(sorted(files)), "Import")).rsplit(".", 1)[0]
         into = empty_project(name or batch.name or stem, batch.description)
-    placed = place(batch, into, report, where)
+    placed = place(batch, into, report, where, decided)
     if whole:  # our own archive as a new project: with its further files, too
         placed = replace(placed, extra_files=project_in(tops[0], files).extra_files)
-    return Imported(placed, report, nodes)
+    return Imported(placed, report, nodes, comparison, frozenset(decided.missing))
 
 
 def _raise_reason(failures: list[ExchangeError], report: ImportReport) -> None:

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from tappet.project.errors import ProjectError
 
-Outcome = Literal["imported", "changed", "refused", "kept"]
+Outcome = Literal["imported", "changed", "refused", "kept", "overwritten", "merged", "skipped"]
 
 MAX_ENTRIES = 20_000
 """Entries of one report; what comes after is counted in the last one."""
@@ -38,7 +38,8 @@ class Entry(BaseModel):
     object: str = Field(default="", description="The object, such as FB_Motor.Start; empty: none.")
     outcome: Outcome = Field(
         description="imported: as it was; changed: with a difference that the text describes; kept: stored "
-        "unchanged but not compiled; refused: not in the project."
+        "unchanged but not compiled; refused: not in the project; overwritten, merged, skipped: what was "
+        "decided for an object that exists already."
     )
     text: str = Field(default="", description="What was changed or why it could not be read.")
     object_id: str | None = Field(default=None, description="The object in the project; null: none.")
@@ -95,5 +96,13 @@ class ImportReport(BaseModel):
     def summary(self) -> str:
         """One line such as `212 imported, 3 changed, 1 refused`."""
         counts = self.counts()
-        order: tuple[Outcome, ...] = ("imported", "changed", "kept", "refused")
+        order: tuple[Outcome, ...] = (
+            "imported",
+            "changed",
+            "overwritten",
+            "merged",
+            "kept",
+            "skipped",
+            "refused",
+        )
         return ", ".join(f"{counts[key]} {key}" for key in order if key in counts) or "nothing imported"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Any
 
 from sqlalchemy import Connection, and_, func, select
 
@@ -15,6 +16,9 @@ from tappet.project.store.records import (
 )
 from tappet.project.store.rows import object_of, ranks_of, stored_project
 from tappet.project.store.tables import changes, revisions
+
+MOST_PAST = 200
+"""States of one object that are looked at for the common ancestor of two versions."""
 
 
 def object_revisions(connection: Connection, project_id: str, object_id: str) -> list[ObjectRevision]:
@@ -62,6 +66,17 @@ def object_at(
     if row is None:
         raise UnknownRevisionError(f"The object {object_id} has no revision {revision}")
     return object_of(row, object_id), row.position
+
+
+def past_data(connection: Connection, project_id: str, object_id: str) -> list[dict[str, Any]]:
+    """The data an object has had, newest first: at most its last `MOST_PAST` states."""
+    rows = connection.execute(
+        select(revisions.c.data)
+        .where(revisions.c.project_id == project_id, revisions.c.object_id == object_id)
+        .order_by(revisions.c.revision.desc())
+        .limit(MOST_PAST)
+    )
+    return [dict(row.data) for row in rows]
 
 
 def deleted_with(connection: Connection, project_id: str, change: int) -> list[ProjectObject]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import uuid
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any, TypeVar
 
@@ -408,6 +408,11 @@ class Store:
         with self._reading.begin() as connection:
             read_info(connection, project_id)
             return history.object_at(connection, project_id, object_id, revision)[0]
+
+    def past_data(self, project_id: str, object_ids: Collection[str]) -> dict[str, list[dict[str, Any]]]:
+        """The data that objects have had, newest first; at most the last 200 states of each."""
+        with self._reading.begin() as connection:
+            return {one: history.past_data(connection, project_id, one) for one in object_ids}
 
     def project_revisions(
         self, project_id: str, *, limit: int = 100, before: int | None = None

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tappet.libraries.missing import report_missing
+from tappet.project.exchange.deciding import Decided
+from tappet.project.exchange.existing import Decisions, Histories
 from tappet.project.exchange.importing import Imported, import_files
 from tappet.project.exchange.placing import Place
 from tappet.project.model import Project
@@ -20,11 +22,27 @@ class ImportOrder:
     place: str | None
     name: str
     chosen: Collection[str] | None
+    decisions: Decisions = field(default_factory=Decisions)
+    """What becomes of objects whose names exist in the project."""
+    histories: Histories = field(default_factory=dict)
+    """States of objects of the project in the past, newest first."""
+    preview: bool = False
+    """Look for objects whose names exist."""
+    compare: str = ""
+    """Key of an object to be compared with the one of its name."""
 
     def read(self) -> Imported:
         """The project with the files in it. Raises ProjectError."""
         where = None if self.place is None else Place(None if self.place == "pous" else self.place)
-        imported = import_files(self.files, self.project, where=where, name=self.name, chosen=self.chosen)
+        imported = import_files(
+            self.files,
+            self.project,
+            where=where,
+            name=self.name,
+            chosen=self.chosen,
+            decided=Decided(self.decisions, self.histories, compare=self.compare),
+            preview=self.preview,
+        )
         report_missing(imported.project, imported.report)
         return imported
 

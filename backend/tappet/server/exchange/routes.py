@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,9 +10,11 @@ from fastapi import APIRouter, Form, Query, UploadFile
 from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
+from tappet.project.exchange.existing import Comparison, Decisions
 from tappet.project.exchange.parts import part_of, st_files
 from tappet.project.folder.archive import zip_files
 from tappet.project.model import Project
+from tappet.project.objects import describe
 from tappet.project.project_file import PROJECT_FILE
 from tappet.project.store import Store
 from tappet.server.audit import Act
@@ -24,6 +27,8 @@ from tappet.server.projects.replies import project_summary
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
 
 if TYPE_CHECKING:
+    from tappet.project.exchange.importing import Imported
+    from tappet.server.exchange.import_order import ImportOrder
     from tappet.server.exchange.uploads import Upload
 
 router = APIRouter(tags=["projects"])
@@ -60,8 +65,27 @@ def preview_files(
 ) -> ImportPreview:
     """What an import of these files would bring, and what it would say; nothing is changed."""
     project = store.load(project_id) if project_id is not None else None
-    imported = _upload(files).imported(project, place=place)
-    return ImportPreview(name=imported.project.name, nodes=imported.nodes, report=imported.report)
+    found = _imported(replace(_upload(files).order(project, place=place), preview=True))
+    return ImportPreview(name=found.project.name, nodes=found.nodes, report=found.report)
+
+
+@router.post("/projects/{project_id}/compare-import", max_body_size=MAX_ARCHIVE_BYTES)
+def compare_import(
+    project_id: str,
+    files: list[UploadFile],
+    who: Engineer,
+    store: StoreDep,
+    key: Annotated[str, Form(max_length=200, description="Of the object, as the preview has it.")],
+    place: PlaceId = None,
+) -> Comparison:
+    """An object of the files, the one of its name in the project, and both joined; nothing is changed."""
+    order = replace(_upload(files).order(store.load(project_id), place=place), preview=True, compare=key)
+    found = _imported(order, store, project_id).comparison
+    if found is None:
+        raise Problem(
+            404, "nothing-to-compare", "The project has no object like this one; preview the files again."
+        )
+    return found
 
 
 @router.post("/projects/import-files", status_code=201, max_body_size=MAX_ARCHIVE_BYTES)
@@ -73,7 +97,7 @@ def import_files_as_project(
     chosen: Chosen = None,
 ) -> ImportResult:
     """Make a project from PLCopen XML, TwinCAT, CoDeSys 2.3 or ST files, archives of them, or our own one."""
-    imported = _upload(files).imported(name=name or "", chosen=_keys(chosen))
+    imported = _imported(_upload(files).order(name=name or "", chosen=_keys(chosen)))
     content = imported.project
     act.begin(Act("project-imported", name or content.name, new_value=_named(files)))
     info = store.create_project(
@@ -96,16 +120,24 @@ def import_files_into_project(
     store: StoreDep,
     place: PlaceId = None,
     chosen: Chosen = None,
+    existing: Annotated[
+        str | None,
+        Form(
+            description="JSON `Decisions`: `all` (overwrite, rename, merge or skip) says what becomes of "
+            "objects whose names exist, `objects` the same by key; null: they come in under counted names."
+        ),
+    ] = None,
 ) -> ImportResult:
-    """Import files into a project, as one change; nothing in the project is overwritten.
+    """Import files into a project, as one change, which can be undone.
 
     Without a place, the first application takes the objects.
     """
-    upload, keys = _upload(files), _keys(chosen)
+    upload, keys, decisions = _upload(files), _keys(chosen), _decisions(existing)
     info, project = store.snapshot(project_id)
     act.begin(Act("files-imported", info.name, new_value=_named(files), project_id=project_id))
     for _ in range(MOST_ATTEMPTS):  # reading takes its time, and must not hold up who writes
-        imported = upload.imported(project, place=place, chosen=keys)
+        order = upload.order(project, place=place, chosen=keys, decisions=decisions)
+        imported = _imported(order, store, project_id)
         grown = partial(_unless_changed, project, imported.project)
         if store.edit(project_id, act.who.username, "import", grown, _named(files)):
             return ImportResult(project=project_summary(store.project(project_id)), report=imported.report)
@@ -122,6 +154,19 @@ def _upload(files: list[UploadFile]) -> Upload:
     from tappet.server.exchange.uploads import Upload  # all formats: only for who imports and exports
 
     return Upload(files)
+
+
+def _imported(order: ImportOrder, store: Store | None = None, project_id: str = "") -> Imported:
+    from tappet.server.exchange.uploads import imported  # as `_upload`
+
+    return imported(order, None if store is None else partial(store.past_data, project_id))
+
+
+def _decisions(text: str | None) -> Decisions:
+    try:
+        return Decisions() if text is None else Decisions.model_validate_json(text)
+    except ValidationError as error:
+        raise Problem(422, "invalid-request", f"`existing`: {describe(error)}") from None
 
 
 def _keys(text: str | None) -> list[str] | None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from dataclasses import replace
 
 from fastapi import UploadFile
 
 from tappet.project.errors import FolderFormatError
+from tappet.project.exchange.existing import Decisions, Histories
 from tappet.project.exchange.importing import ARCHIVES, TAKEN, Imported, importable
 from tappet.project.folder.archive import DEFAULT_LIMITS, unpack
 from tappet.project.model import Project
@@ -23,19 +25,32 @@ class Upload:
     def __init__(self, files: list[UploadFile]) -> None:
         self._files = _files_of(files)
 
-    def imported(
+    def order(
         self,
         project: Project | None = None,
         *,
         place: str | None = None,
         name: str = "",
         chosen: Collection[str] | None = None,
-    ) -> Imported:
-        """The project with the files in it, without one a new project of this name; blocks.
+        decisions: Decisions | None = None,
+    ) -> ImportOrder:
+        """To read the files into a project, without one into a new one of this name.
 
-        `place` is the id of an application or folder, or `pous`. The report names libraries that are missing.
+        `place` is the id of an application or folder, or `pous`.
         """
-        return run_import(ImportOrder(self._files, project, place, name, chosen))
+        return ImportOrder(self._files, project, place, name, chosen, decisions or Decisions())
+
+
+def imported(order: ImportOrder, pasts: Callable[[Collection[str]], Histories] | None = None) -> Imported:
+    """What an order brings; blocks. The report names libraries that are missing.
+
+    `pasts` tells the states of objects that both sides have changed; the files are then read again.
+    """
+    done = run_import(order)
+    if pasts is not None and done.unknown_pasts:
+        histories = {**{key: [] for key in done.unknown_pasts}, **pasts(done.unknown_pasts)}
+        done = run_import(replace(order, histories=histories))
+    return done
 
 
 def _files_of(files: list[UploadFile]) -> dict[str, bytes]:

@@ -14,6 +14,9 @@ import { filesToSend, type NamedFile } from './dropped';
 import styles from './Exchange.module.css';
 import { FilesStep } from './FilesStep';
 import { ImportTree } from './ImportTree';
+import { compareImport } from './comparison';
+import { decisionsOf, existingRows, NOTHING_CHOSEN, withChoice, wrongNames, type ExistingRow } from './existing';
+import { ExistingTable } from './ExistingTable';
 import { nodeForest, placesOf, proposedPlace } from './model';
 import { ReportView } from './ReportView';
 
@@ -52,10 +55,19 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
   );
   const [step, setStep] = useState<Step>({ at: 'files' });
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
+  const [choices, setChoices] = useState(NOTHING_CHOSEN);
   const [search, setSearch] = useState('');
   const [abort, setAbort] = useState<AbortController | null>(null);
   const forest = useMemo(() => nodeForest(step.at === 'choose' ? step.preview.nodes : []), [step]);
   const here = into === 'here' ? target : null;
+  const existing = useMemo(() => existingRows(forest, chosen, choices), [forest, chosen, choices]);
+  const wrong = useMemo(() => {
+    const byId = new Map(target?.objects.map((object) => [object.id, object]));
+    return wrongNames(existing, ({ existing: { object_id } }, name) => {
+      const place = byId.get(object_id)?.parent_id;
+      return [...byId.values()].some((one) => one.parent_id === place && one.name.toLowerCase() === name);
+    });
+  }, [existing, target]);
 
   const run = async (act: (signal: AbortSignal) => Promise<void>) => {
     const controller = new AbortController();
@@ -74,6 +86,7 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
       const body = { files: filesToSend(files), ...target };
       const found = await api.post('/api/v1/projects/preview-files', { body, signal });
       setChosen(new Set(found.nodes.map((node) => node.key)));
+      setChoices(NOTHING_CHOSEN);
       setStep({ at: 'choose', preview: found });
     });
   const importNow = (found: Preview) =>
@@ -83,12 +96,22 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
       const result = await (here
         ? api.post('/api/v1/projects/{project_id}/import-files', {
             params: { path: { project_id: here.projectId } },
-            body: { ...order, place },
+            body: { ...order, place, existing: JSON.stringify(decisionsOf(existing, choices)) },
             signal,
           })
         : api.post('/api/v1/projects/import-files', { body: { ...order, name: name.trim() || null }, signal }));
       await queryClient.invalidateQueries({ queryKey: here ? keys.objects(here.projectId) : keys.projects });
       setStep({ at: 'report', result });
+    });
+  const compare = ({ node }: ExistingRow) =>
+    run(async (signal) => {
+      const comparison = await api.post('/api/v1/projects/{project_id}/compare-import', {
+        params: { path: { project_id: here!.projectId } },
+        body: { files: filesToSend(files), place, key: node.key },
+        signal,
+      });
+      const texts = await compareImport({ name: node.name, comparison, texts: choices.one.get(node.key)?.texts });
+      if (texts) setChoices((before) => withChoice(before, node.key, { act: 'merge', texts }));
     });
   const cancel = () => (abort ? abort.abort() : close());
   const title = t('command.import');
@@ -141,7 +164,15 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
         title={title}
         width={940}
         action={t('exchange.import')}
-        disabledReason={abort ? t('reason.busy') : chosen.size ? null : t('exchange.nothingChosen')}
+        disabledReason={
+          abort
+            ? t('reason.busy')
+            : wrong.size
+              ? t('exchange.wrongNames')
+              : chosen.size
+                ? null
+                : t('exchange.nothingChosen')
+        }
         onClose={cancel}
         onSubmit={() => void importNow(found)}
         aside={
@@ -166,6 +197,15 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
           <Button onClick={() => setChosen(new Set())}>{t('exchange.none')}</Button>
         </div>
         <ImportTree forest={forest} chosen={chosen} search={search} change={setChosen} />
+        {existing.length > 0 && (
+          <ExistingTable
+            rows={existing}
+            choices={choices}
+            wrong={wrong}
+            change={setChoices}
+            compare={(row) => void compare(row)}
+          />
+        )}
         {noteworthy.length > 0 && (
           <section className={styles.noteworthy} aria-label={t('exchange.noteworthy')}>
             <ReportView entries={noteworthy} />

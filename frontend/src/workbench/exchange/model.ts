@@ -130,7 +130,7 @@ export function proposedPlace(
   return applicationId !== null && ids.has(applicationId) ? applicationId : (places[0]?.id ?? 'pous');
 }
 
-export const OUTCOMES = ['imported', 'changed', 'kept', 'refused'] as const;
+export const OUTCOMES = ['imported', 'changed', 'overwritten', 'merged', 'kept', 'skipped', 'refused'] as const;
 export type Outcome = ImportEntry['outcome'];
 
 export function shownEntries(
@@ -147,7 +147,7 @@ export function shownEntries(
 }
 
 export function countOutcomes(entries: readonly ImportEntry[]): Record<Outcome, number> {
-  const count = { imported: 0, changed: 0, kept: 0, refused: 0 };
+  const count = { imported: 0, changed: 0, overwritten: 0, merged: 0, kept: 0, skipped: 0, refused: 0 };
   for (const entry of entries) count[entry.outcome]++;
   return count;
 }
