@@ -74,6 +74,12 @@ COMMANDS = (
         "Write a project as PLCopen XML for other systems, or as an archive for the workbench.",
     ),
     Command(
+        ("compare",),
+        "compare",
+        "compare",
+        "Compare two projects, or files of other systems; exit code 1 when they differ.",
+    ),
+    Command(
         ("library", "list"),
         "library",
         "list_libraries",

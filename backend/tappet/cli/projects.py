@@ -59,7 +59,7 @@ def import_project(given: Namespace) -> int:
         into = load_project(to) if existing else None
         name = "" if existing else _name(files)
         decided = Decided(Decisions(all=given.existing))
-        imported = import_files(_files(files), into, name=name, decided=decided)
+        imported = import_files(files_to_import(files), into, name=name, decided=decided)
         project, report = imported.project, imported.report
         folder.save(project, to)
     except ProjectError as error:
@@ -76,7 +76,7 @@ def _name(files: list[Path]) -> str:
     return files[0].resolve().parent.name
 
 
-def _files(paths: list[Path]) -> dict[str, bytes]:
+def files_to_import(paths: list[Path]) -> dict[str, bytes]:
     """The files to import by path; those beside a TwinCAT project belong to it, archives are unpacked.
 
     A file that is named by itself and lies in a folder or project of `paths` is read once.

@@ -116,6 +116,15 @@ def import_files(
     return Imported(placed, report, nodes, comparison, frozenset(decided.missing))
 
 
+def read_as_project(files: Mapping[str, bytes], name: str = "") -> Imported:
+    """Files as a project to compare with: one of our own as it is, with the ids of its objects, others
+    imported. Raises ExchangeError as `import_files`."""
+    tops = project_tops(files)
+    if len(tops) == 1 and all(path.startswith(tops[0]) for path in files):
+        return Imported(project_in(tops[0], files), ImportReport(), [])
+    return import_files(files, name=name)
+
+
 def _raise_reason(failures: list[ExchangeError], report: ImportReport) -> None:
     """Say why nothing could be read, where there is a reason."""
     if failures:

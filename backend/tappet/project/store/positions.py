@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Mapping, Sequence
+
+from tappet.project.longest_rising import longest_rising
 
 GAP = 1 << 20
 """Distance of neighbours that are appended; twenty objects fit between two before a renumbering."""
@@ -14,7 +15,7 @@ def new_positions(order: Sequence[str], current: Mapping[str, int]) -> dict[str,
 
     `current` holds the positions of the ids that have one already; an id without one always gets one.
     """
-    kept = _longest_rising(order, current)
+    kept = longest_rising(order, current)
     changed: dict[str, int] = {}
     left: int | None = None
     waiting: list[str] = []
@@ -30,26 +31,6 @@ def new_positions(order: Sequence[str], current: Mapping[str, int]) -> dict[str,
         waiting = []
         left = right
     return changed
-
-
-def _longest_rising(order: Sequence[str], current: Mapping[str, int]) -> set[str]:
-    """The longest run of ids whose present positions rise already: those that need not move."""
-    tails: list[int] = []
-    tail_ids: list[str] = []
-    before: dict[str, str | None] = {}
-    for object_id in order:
-        if object_id not in current:
-            continue
-        place = bisect_left(tails, current[object_id])
-        before[object_id] = tail_ids[place - 1] if place else None
-        tails[place : place + 1] = [current[object_id]]
-        tail_ids[place : place + 1] = [object_id]
-    kept: set[str] = set()
-    last = tail_ids[-1] if tail_ids else None
-    while last is not None:
-        kept.add(last)
-        last = before[last]
-    return kept
 
 
 def _between(left: int | None, right: int | None, count: int) -> list[int] | None:
