@@ -5,7 +5,7 @@ Adding, moving, importing and reverting all give a new Project value; here it be
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
@@ -30,6 +30,7 @@ def write_change(
     comment: str,
     *,
     autosave: bool = False,
+    undoes: int | None = None,
 ) -> int:
     """Begin a change of a locked project: its row in the history, and the project's new revision number."""
     now = datetime.now(UTC)
@@ -48,6 +49,7 @@ def write_change(
             at=now,
             comment=comment,
             autosave=autosave,
+            undoes=undoes,
         )
     )
     return number
@@ -62,14 +64,18 @@ def apply_project(
     comment: str,
     *,
     moved: str | None = None,
+    undoes: int | None = None,
+    places: Mapping[str, int] | None = None,
 ) -> tuple[Project, ChangeEvent | None]:
     """Make a locked project what `wanted` says. Returns it with its new revisions, and the event.
 
     The event is None when nothing differs; then nothing is written. `moved` is the object that was moved
-    among its siblings: of two neighbours that changed places, that one gets the revision.
+    among its siblings: of two neighbours that changed places, that one gets the revision. `undoes` is the
+    revision of the change that this one takes back, `places` the positions that objects had before it: they
+    get them again where that gives the wanted order.
     """
     old = stored.project
-    positions = _changed_positions(stored, wanted, moved)
+    positions = _changed_positions(stored, wanted, moved, places or {})
     created = [item for item in wanted.walk() if item.id not in old.objects]
     changed = [
         item
@@ -79,7 +85,7 @@ def apply_project(
     deleted = [item for item in old.objects.values() if item.id not in wanted.objects]
     if not (created or changed or deleted):
         return wanted, None
-    number = write_change(connection, stored.info, action, author, comment)
+    number = write_change(connection, stored.info, action, author, comment, undoes=undoes)
     places = {**stored.positions, **positions}
     last = _last_revisions(connection, stored.info.id, [item.id for item in created])
     created = [changed_object(item, revision=last.get(item.id, 0) + 1) for item in created]
@@ -157,16 +163,23 @@ def _action(old: ProjectObject, new: ProjectObject) -> ObjectAction:
     return "moved" if same else "updated"
 
 
-def _changed_positions(stored: StoredProject, wanted: Project, moved: str | None) -> dict[str, int]:
+def _changed_positions(
+    stored: StoredProject, wanted: Project, moved: str | None, places: Mapping[str, int]
+) -> dict[str, int]:
     """Positions that give each parent's children the wanted order."""
-    changed: dict[str, int] = {}
+    changed = {
+        key: place
+        for key, place in places.items()
+        if key in wanted.objects and stored.positions.get(key) != place
+    }
     for parent_id in {item.parent_id for item in wanted.objects.values()}:
         order = [item.id for item in wanted.children(parent_id)]
         before = [item.id for item in stored.project.children(parent_id)]
-        if order == before:
+        if order == before and changed.keys().isdisjoint(order):
             continue
-        here = set(before) - {moved}
+        here = {key for key in before if key not in (moved, *places)}
         present = {key: stored.positions[key] for key in order if key in here}
+        present |= {key: places[key] for key in order if key in places}
         changed.update(new_positions(order, present))
     return changed
 

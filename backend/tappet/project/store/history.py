@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import defaultdict
 from typing import Any
 
-from sqlalchemy import Connection, and_, func, select
+from sqlalchemy import Connection, Row, and_, func, select
 
 from tappet.project.model import Project, ProjectObject
 from tappet.project.store.records import (
+    DeletedObject,
     ObjectRevision,
     ProjectInfo,
     ProjectRevision,
@@ -90,6 +91,61 @@ def deleted_with(connection: Connection, project_id: str, change: int) -> list[P
     ).all()
     ranks = ranks_of((row.object_id, row.parent_id, row.kind, row.position, row.name) for row in rows)
     return [object_of(row, row.object_id, ranks[row.object_id]) for row in rows]
+
+
+def deleted_objects(
+    connection: Connection, project: Project, project_id: str, limit: int
+) -> list[DeletedObject]:
+    """What was deleted and is not back, latest first, without what was deleted with something above it."""
+    newest = (
+        select(revisions.c.object_id, func.max(revisions.c.revision).label("revision"))
+        .where(revisions.c.project_id == project_id)
+        .group_by(revisions.c.object_id)
+        .subquery()
+    )
+    rows = connection.execute(
+        select(revisions, changes.c.author, changes.c.at)
+        .join(
+            newest,
+            and_(newest.c.object_id == revisions.c.object_id, newest.c.revision == revisions.c.revision),
+        )
+        .join(
+            changes,
+            and_(changes.c.project_id == revisions.c.project_id, changes.c.revision == revisions.c.change),
+        )
+        .where(revisions.c.project_id == project_id, revisions.c.deleted.is_(True))
+        .order_by(revisions.c.change.desc(), revisions.c.parent_id, revisions.c.position)
+    ).all()
+    gone = {row.object_id: row for row in rows}
+    below: dict[str, int] = defaultdict(int)
+    for row in rows:
+        above = gone.get(row.parent_id)
+        while above is not None and above.change == row.change:
+            below[above.object_id] += 1
+            above = gone.get(above.parent_id)
+
+    def path(row: Row[Any]) -> str:
+        if row.parent_id in project.objects:
+            return f"{project.path_of(row.parent_id)}/{row.name}"
+        above = gone.get(row.parent_id)
+        return row.name if above is None else f"{path(above)}/{row.name}"
+
+    tops = [row for row in rows if (above := gone.get(row.parent_id)) is None or above.change != row.change]
+    return [
+        DeletedObject(
+            row.object_id,
+            row.kind,
+            object_of(row, row.object_id).subkind,
+            row.name,
+            path(row),
+            row.revision,
+            row.change,
+            row.author,
+            row.at,
+            below[row.object_id],
+        )
+        for row in tops[:limit]
+    ]
 
 
 def project_revisions(

@@ -102,6 +102,24 @@ class ProjectRevision:
     objects: tuple[tuple[str, str], ...]
 
 
+@dataclass(frozen=True, slots=True)
+class DeletedObject:
+    """An object that was deleted, with how many below it."""
+
+    id: str
+    kind: str
+    subkind: str | None
+    name: str
+    path: str
+    """Where it was; of what it was in, the present names."""
+    revision: int
+    """To go back to, to have it again."""
+    project_revision: int
+    author: str
+    at: datetime
+    below: int
+
+
 class UnknownProjectError(ProjectError):
     """No project with this id, or it has been deleted."""
 

@@ -24,6 +24,7 @@ from tappet.project.store.engine import migrate, open_engine, reading
 from tappet.project.store.library_use import read_library_references
 from tappet.project.store.records import (
     ChangeEvent,
+    DeletedObject,
     ObjectContent,
     ObjectRevision,
     ObjectSummary,
@@ -41,7 +42,7 @@ from tappet.project.store.rows import (
 )
 from tappet.project.store.saving import check_base, read_object, save_data, with_contents, with_index
 from tappet.project.store.tables import files, projects
-from tappet.project.store.undoing import without_change
+from tappet.project.store.undoing import NotUndoableError, Step, Steps, steps_of, undo_change
 
 Listener = Callable[[ChangeEvent], None]
 T = TypeVar("T")
@@ -357,15 +358,20 @@ class Store:
         moved = object_id if place is not None else None
         return self.edit(project_id, author, action, arranged, comment, bases=bases, moved=moved)
 
-    def delete(self, project_id: str, author: str, object_id: str, *, comment: str = "") -> None:
-        """Delete an object and all below it; their revisions stay. Raises UnknownObjectError."""
-        self.edit(
-            project_id,
-            author,
-            "delete",
-            lambda project: (edit.delete_object(project, object_id), None),
-            comment,
-        )
+    def delete(self, project_id: str, author: str, *object_ids: str, comment: str = "") -> None:
+        """Delete objects and all below them as one change; their revisions stay.
+
+        Raises UnknownObjectError.
+        """
+
+        def without(project: Project) -> tuple[Project, None]:
+            wanted, chosen = project, set(object_ids)
+            for object_id in object_ids:
+                if chosen.isdisjoint(owner.id for owner in project.ancestors(object_id)):
+                    wanted = edit.delete_object(wanted, object_id)
+            return wanted, None
+
+        self.edit(project_id, author, "delete", without, comment)
 
     def edit(
         self,
@@ -427,6 +433,34 @@ class Store:
         with self._reading.begin() as connection:
             return history.project_at(connection, read_info(connection, project_id), revision)
 
+    def deleted_objects(self, project_id: str, *, limit: int = 1000) -> list[DeletedObject]:
+        """What was deleted and is not back, latest first. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            stored = read_project(connection, read_info(connection, project_id))
+            return history.deleted_objects(connection, stored.project, project_id, limit)
+
+    def steps(self, project_id: str, author: str) -> Steps:
+        """What `undo` and `redo` of an author would do next. Raises UnknownProjectError."""
+        with self._reading.begin() as connection:
+            read_info(connection, project_id)
+            return steps_of(connection, project_id, author)
+
+    def undo(self, project_id: str, author: str, *, redo: bool = False) -> tuple[Step, ChangeEvent | None]:
+        """Take back the last change of the tree by this author, or with `redo` what was undone last.
+
+        The event is None when the project is so already. Raises NotUndoableError, ChangedSinceError,
+        UnknownProjectError, and what the outcome would have wrong.
+        """
+        with self.engine.begin() as connection:
+            info = read_info(connection, project_id, lock=True)
+            steps = steps_of(connection, project_id, author)
+            step = steps.redo if redo else steps.undo
+            if step is None:
+                raise NotUndoableError(f"There is nothing to {'redo' if redo else 'undo'}")
+            _, event = undo_change(connection, info, step.revision, author, redo=redo)
+        self._notify(event)
+        return step, event
+
     def revert_object(
         self, project_id: str, object_id: str, revision: int, author: str, *, comment: str = ""
     ) -> ProjectObject:
@@ -467,18 +501,16 @@ class Store:
         self._notify(event)
         return info
 
-    def undo_change(self, project_id: str, revision: int, author: str, *, comment: str = "") -> int:
+    def undo_change(self, project_id: str, revision: int, author: str) -> int:
         """Take back one change of a project, as a new change; answers the revision that makes.
 
-        Raises UnknownProjectError, UnknownRevisionError, ChangedSinceError, NotUndoableError.
+        Raises UnknownProjectError, UnknownRevisionError, ChangedSinceError.
         """
         with self.engine.begin() as connection:
             info = read_info(connection, project_id, lock=True)
-            stored = read_project(connection, info)
-            wanted = without_change(connection, stored, revision)
-            _, event = apply_project(connection, stored, wanted, "revert", author, comment)
+            number, event = undo_change(connection, info, revision, author)
         self._notify(event)
-        return info.revision if event is None else event.revision
+        return number
 
     def extra_files(self, project_id: str) -> dict[str, bytes]:
         """Files of the imported folder that are no objects. Raises UnknownProjectError."""

@@ -86,8 +86,10 @@ changes = Table(
     Column("at", UtcDateTime, nullable=False),
     Column("comment", Text, nullable=False),
     Column("autosave", Boolean, nullable=False),
+    Column("undoes", Integer, nullable=True),
 )
-"""One row a change of a project: what a transaction did, to one object or to many."""
+"""One row a change of a project: what a transaction did, to one object or to many. `undoes` is the revision
+of the change that this one takes back."""
 
 objects = Table(
     "project_objects",
