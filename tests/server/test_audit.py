@@ -48,9 +48,15 @@ EXEMPT = {
     "move_object": HISTORY,
     "copy_object": HISTORY,
     "delete_object": HISTORY,
+    "delete_objects": HISTORY,
     "revert_object": HISTORY,
     "replace": HISTORY,
     "undo_change": HISTORY,
+    "undo_step": HISTORY,
+    "redo_step": HISTORY,
+    "open_comparison": READS,
+    "open_comparison_with_files": READS,
+    "close_comparison": "ends a question",
 }
 """Routes with a method that may change something, and why they are in the audit log only when refused."""
 

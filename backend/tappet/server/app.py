@@ -16,12 +16,14 @@ from tappet.runtime.operations import registry
 from tappet.server import openapi, problems
 from tappet.server.auth import routes as routes_auth
 from tappet.server.builds import routes as routes_build
+from tappet.server.comparisons import routes as routes_comparisons
 from tappet.server.docs import routes as routes_docs
 from tappet.server.events import routes as routes_events
 from tappet.server.exchange import routes as routes_exchange
 from tappet.server.flight import routes as routes_flight
 from tappet.server.guard import RequestGuard
 from tappet.server.health import routes as routes_health
+from tappet.server.history import routes as routes_history
 from tappet.server.libraries import routes as routes_libraries
 from tappet.server.lsp import routes as routes_lsp
 from tappet.server.metrics import routes as routes_metrics
@@ -63,6 +65,8 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_exchange.router,
     routes_objects.router,
     routes_search.router,
+    routes_history.router,
+    routes_comparisons.router,
     routes_scenes.router,
     routes_events.router,
 )

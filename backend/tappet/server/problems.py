@@ -88,6 +88,8 @@ PROJECT_STATUS = {
     "name_taken": 409,
     "changed_since": 409,
     "stale_revision": 409,
+    "not_undoable": 409,
+    "unknown_difference": 409,
     "store": 503,
 }
 """HTTP status of errors of the project room by their code; all others are 422."""

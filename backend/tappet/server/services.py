@@ -18,6 +18,7 @@ from tappet.server.auth.passwords import Passwords
 from tappet.server.builds.builder import Builder
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.builds.packages import PackageStore
+from tappet.server.comparisons.service import Comparisons
 from tappet.server.database import Database
 from tappet.server.events.service import ProjectEvents
 from tappet.server.metrics.service import Metrics
@@ -50,6 +51,7 @@ class Services:
     commissioning: Commissioning
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
+    comparisons: Comparisons = field(default_factory=Comparisons)
     quotas: UserQuotas = field(default_factory=UserQuotas)
     test_runs: TestRuns = field(default_factory=TestRuns)
     metrics: Metrics = field(default_factory=Metrics)

@@ -716,6 +716,133 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/comparisons": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Open Comparison
+         * @description Compare a project, or a revision of it, with another one, with a revision, or with what runs.
+         */
+        post: operations["open_comparison"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/comparisons/files": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Open Comparison With Files
+         * @description Compare a project with a project folder or archive of our own, or with files of other systems.
+         */
+        post: operations["open_comparison_with_files"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/comparisons/{comparison_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Comparison
+         * @description What differs by now.
+         */
+        get: operations["read_comparison"];
+        put?: never;
+        post?: never;
+        /**
+         * Close Comparison
+         * @description Forget what the project was compared with.
+         */
+        delete: operations["close_comparison"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/comparisons/{comparison_id}/merge": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Merge Differences
+         * @description Take differences over into the project as it is, as one change, which can be undone.
+         *
+         *     If somebody changed one of the objects since it was compared (`base_revision`), the answer is the problem
+         *     `changed-since` (409), and nothing was changed.
+         */
+        post: operations["merge_differences"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/comparisons/{comparison_id}/objects/{key}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Difference
+         * @description The data of an object on both sides.
+         */
+        get: operations["read_difference"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/deleted-objects": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Deleted Objects
+         * @description What was deleted and is not back, latest first; what was deleted with it is counted.
+         */
+        get: operations["list_deleted_objects"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/export": {
         parameters: {
             query?: never;
@@ -847,6 +974,26 @@ export interface paths {
          *     Some kinds bring children: a device its PLC logic and application, a property its accessors.
          */
         post: operations["create_object"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/objects/delete": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Delete Objects
+         * @description Delete objects and all below them as one change of the project, which can be undone.
+         */
+        post: operations["delete_objects"];
         delete?: never;
         options?: never;
         head?: never;
@@ -993,6 +1140,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/redo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Redo Step
+         * @description Do again what was undone last, as long as nothing else was changed by who asks.
+         */
+        post: operations["redo_step"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/replace": {
         parameters: {
             query?: never;
@@ -1115,6 +1282,32 @@ export interface paths {
          *     the problem `invalid-pattern` (422).
          */
         post: operations["search"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/undo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Undo Steps
+         * @description What undo and redo of the tree would do next, for who asks; also after a restart.
+         */
+        get: operations["read_undo_steps"];
+        put?: never;
+        /**
+         * Undo Step
+         * @description Take back the last change of the tree by who asks: adding, copying, deleting, renaming, moving,
+         *     excluding from the build, importing, merging. What others did since stays: where both concern the same,
+         *     the answer is the problem `changed-since`.
+         */
+        post: operations["undo_step"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1958,6 +2151,11 @@ export interface components {
             /** File */
             file: Blob;
         };
+        /** Body_open_comparison_with_files */
+        Body_open_comparison_with_files: {
+            /** Files */
+            files: Blob[];
+        };
         /** Body_preview_files */
         Body_preview_files: {
             /** Files */
@@ -2083,6 +2281,51 @@ export interface components {
             when_true: string;
         };
         /**
+         * ComparedObject
+         * @description An object on one side.
+         */
+        ComparedObject: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Path */
+            path: string;
+            /** Revision */
+            revision: number;
+        };
+        /**
+         * ComparedProject
+         * @description A project of this server to compare with; the same one, at another revision, too.
+         */
+        ComparedProject: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "project";
+            /** Project Id */
+            project_id: string;
+            /**
+             * Revision
+             * @description As it was after this change; null: now.
+             */
+            revision?: number | null;
+        };
+        /**
+         * ComparedRuntime
+         * @description The source of the application that a runtime runs, as it was downloaded.
+         */
+        ComparedRuntime: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "runtime";
+            /** Runtime Id */
+            runtime_id: string;
+        };
+        /**
          * ComparedText
          * @description A text of an object in the project and in the file.
          */
@@ -2123,6 +2366,38 @@ export interface components {
             texts: components["schemas"]["ComparedText"][];
         };
         /**
+         * ComparisonDetail
+         * @description A comparison. It is kept for some time; ask for it again for what differs by now.
+         */
+        ComparisonDetail: {
+            /**
+             * At
+             * @description Of what time that is, where it is known.
+             */
+            at: string | null;
+            /**
+             * Can Merge
+             * @description The project is compared as it is, not an earlier revision of it.
+             */
+            can_merge: boolean;
+            /** Differences */
+            differences: components["schemas"]["DifferenceItem"][];
+            /** Id */
+            id: string;
+            /**
+             * Notes
+             * @description What reading the files had to say.
+             */
+            notes: string[];
+            /** Project Revision */
+            project_revision: number;
+            /**
+             * Title
+             * @description What the project is compared with.
+             */
+            title: string;
+        };
+        /**
          * CopyTarget
          * @description Where a copy goes.
          */
@@ -2149,6 +2424,44 @@ export interface components {
             password: string;
             /** Username */
             username: string;
+        };
+        /**
+         * DeletedObject
+         * @description An object that was deleted; `revert` to its revision brings it back with what was below it.
+         */
+        DeletedObject: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Author */
+            author: string;
+            /**
+             * Below
+             * @description How many objects were deleted with it.
+             */
+            below: number;
+            /** Id */
+            id: string;
+            /** Kind */
+            kind: string;
+            /** Name */
+            name: string;
+            /**
+             * Path
+             * @description Where it was.
+             */
+            path: string;
+            /**
+             * Project Revision
+             * @description The change that deleted it.
+             */
+            project_revision: number;
+            /** Revision */
+            revision: number;
+            /** Subkind */
+            subkind: string | null;
         };
         /**
          * DeviceData
@@ -2249,6 +2562,60 @@ export interface components {
             object_path: string;
             part: components["schemas"]["Part"] | null;
             severity: components["schemas"]["Severity"];
+        };
+        /**
+         * DifferenceDetail
+         * @description Both sides of an object; null where it is not.
+         */
+        DifferenceDetail: {
+            /** New */
+            new: {
+                [key: string]: unknown;
+            } | null;
+            /**
+             * Old
+             * @description Data.
+             */
+            old: {
+                [key: string]: unknown;
+            } | null;
+        };
+        /**
+         * DifferenceItem
+         * @description What is different in one object.
+         */
+        DifferenceItem: {
+            /**
+             * Fields
+             * @description Of the data, that differ.
+             */
+            fields: string[];
+            /** Key */
+            key: string;
+            /** Kind */
+            kind: string;
+            /**
+             * Moved
+             * @description It is below another object.
+             */
+            moved: boolean;
+            new: components["schemas"]["ComparedObject"] | null;
+            old: components["schemas"]["ComparedObject"] | null;
+            /** Renamed */
+            renamed: boolean;
+            /**
+             * Reordered
+             * @description It is elsewhere among the same siblings.
+             */
+            reordered: boolean;
+            /**
+             * State
+             * @description `added`: only in the project; `removed`: only in what it is compared with.
+             * @enum {string}
+             */
+            state: "added" | "removed" | "changed";
+            /** Subkind */
+            subkind: string | null;
         };
         /**
          * DownloadOrder
@@ -3241,6 +3608,32 @@ export interface components {
             username: string;
         };
         /**
+         * MergeOrder
+         * @description Differences to take over, as one change of the project.
+         */
+        MergeOrder: {
+            /**
+             * Comment
+             * @default
+             */
+            comment?: string;
+            /** Take */
+            take: components["schemas"]["TakenDifference"][];
+        };
+        /**
+         * MergeOutcome
+         * @description The project after it.
+         */
+        MergeOutcome: {
+            /** Project Revision */
+            project_revision: number;
+            /**
+             * Touched
+             * @description Ids of the objects that are other than before, or gone.
+             */
+            touched: string[];
+        };
+        /**
          * MethodData
          * @description METHOD of a function block, a program or an interface (POU-09).
          */
@@ -3313,6 +3706,19 @@ export interface components {
             name: string;
             /** Value */
             value: string;
+        };
+        /**
+         * NewComparison
+         * @description What to compare the project with.
+         */
+        NewComparison: {
+            /** Old */
+            old: components["schemas"]["ComparedProject"] | components["schemas"]["ComparedRuntime"];
+            /**
+             * Revision
+             * @description The project as it was after this change; null: as it is, which differences can be taken over into.
+             */
+            revision?: number | null;
         };
         /**
          * NewLibrary
@@ -3589,6 +3995,14 @@ export interface components {
             comment?: string;
             /** Objects */
             objects: components["schemas"]["ObjectContent"][];
+        };
+        /**
+         * ObjectsToDelete
+         * @description Objects that go as one change of the project.
+         */
+        ObjectsToDelete: {
+            /** Object Ids */
+            object_ids: string[];
         };
         OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"];
         /**
@@ -4735,6 +5149,48 @@ export interface components {
             type: string;
         };
         /**
+         * TakenDifference
+         * @description What to take over of one difference.
+         */
+        TakenDifference: {
+            /**
+             * Base Revision
+             * @description Of the object when it was compared; refuse if it is another one by now.
+             */
+            base_revision?: number | null;
+            /**
+             * Fields
+             * @default []
+             */
+            fields?: string[];
+            /** Key */
+            key: string;
+            /**
+             * Name
+             * @default false
+             */
+            name?: boolean;
+            /**
+             * Place
+             * @default false
+             */
+            place?: boolean;
+            /**
+             * Texts
+             * @description Texts of fields with some blocks taken over, as they shall be.
+             * @default {}
+             */
+            texts?: {
+                [key: string]: string;
+            };
+            /**
+             * Whole
+             * @description Everything; otherwise what follows.
+             * @default true
+             */
+            whole?: boolean;
+        };
+        /**
          * TaskConfigurationObject
          * @description Holds the tasks of an application.
          */
@@ -5036,6 +5492,19 @@ export interface components {
             used_at: string | null;
         };
         /**
+         * UndoOutcome
+         * @description What was undone or done again, and what can be now.
+         */
+        UndoOutcome: {
+            done: components["schemas"]["UndoStep"];
+            steps: components["schemas"]["UndoSteps"];
+            /**
+             * Touched
+             * @description Ids of the objects that are other than before, or gone.
+             */
+            touched: string[];
+        };
+        /**
          * UndoReport
          * @description A change was taken back.
          */
@@ -5045,6 +5514,37 @@ export interface components {
              * @description The change of the project that it is.
              */
             revision: number;
+        };
+        /**
+         * UndoStep
+         * @description A change of the tree that can be undone, or done again.
+         */
+        UndoStep: {
+            /**
+             * Action
+             * @description What was done at first: `add`, `delete`, `rename`, `move`, `merge` ...
+             */
+            action: string;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /**
+             * Objects
+             * @description Names of the objects that it touched.
+             */
+            objects: string[];
+            /** Revision */
+            revision: number;
+        };
+        /**
+         * UndoSteps
+         * @description What the next undo and the next redo of who asks would do.
+         */
+        UndoSteps: {
+            redo: components["schemas"]["UndoStep"] | null;
+            undo: components["schemas"]["UndoStep"] | null;
         };
         /**
          * UnforceOrder
@@ -6929,6 +7429,308 @@ export interface operations {
             };
         };
     };
+    open_comparison: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewComparison"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparisonDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    open_comparison_with_files: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_open_comparison_with_files"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparisonDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_comparison: {
+        parameters: {
+            query?: {
+                /** @description Differences in nothing else are left out. */
+                ignore_white_space?: boolean;
+                /** @description Differences in nothing else are left out. */
+                ignore_comments?: boolean;
+                /** @description Differences in nothing else are left out. */
+                ignore_pragmas?: boolean;
+            };
+            header?: never;
+            path: {
+                project_id: string;
+                comparison_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparisonDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    close_comparison: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                comparison_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    merge_differences: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                comparison_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MergeOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MergeOutcome"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_difference: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                comparison_id: string;
+                key: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DifferenceDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_deleted_objects: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeletedObject"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     export_project: {
         parameters: {
             query?: {
@@ -7255,6 +8057,48 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["ObjectDetail"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    delete_objects: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ObjectsToDelete"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {
@@ -7664,6 +8508,46 @@ export interface operations {
             };
         };
     };
+    redo_step: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UndoOutcome"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     replace: {
         parameters: {
             query?: never;
@@ -7899,6 +8783,86 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SearchReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_undo_steps: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UndoSteps"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    undo_step: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UndoOutcome"];
                 };
             };
             /** @description The request was refused */

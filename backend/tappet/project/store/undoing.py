@@ -126,7 +126,8 @@ def without_change(
 ) -> tuple[Project, dict[str, int]]:
     """A locked project as it is now, without what a change did, and the positions that objects had before.
 
-    Raises UnknownRevisionError, ChangedSinceError naming the object that was changed since, and what `check_project` finds.
+    Raises UnknownRevisionError, ChangedSinceError naming the object that was changed since, and what
+    `check_project` finds.
     """
     after = connection.execute(
         select(revisions).where(revisions.c.project_id == stored.info.id, revisions.c.change == number)

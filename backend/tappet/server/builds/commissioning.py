@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -9,6 +10,7 @@ from typing import Literal
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.kinds.application import ApplicationData
+from tappet.project.model import Project
 from tappet.project.store import Store
 from tappet.project.store.records import UnknownProjectError
 from tappet.runtime.client import RuntimeRefused
@@ -21,6 +23,7 @@ from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import LoadMode
 
+log = logging.getLogger(__name__)
 Step = Literal["download", "online_change", "start"]
 Begin = Callable[[Step, Built], Awaitable[None]]
 """Called with what is to be done next; when it raises, it is not done."""
@@ -36,9 +39,14 @@ class Commissioning:
 
     async def application(self, project_id: str, application_id: str) -> Application:
         """The application as it is stored now. Raises UnknownProjectError, UnknownObjectError."""
+        return (await self._with_source(project_id, application_id))[0]
 
-        def read() -> Application:
-            return Application.of(project_id, self.store.load(project_id), application_id)
+    async def _with_source(self, project_id: str, application_id: str) -> tuple[Application, Project]:
+        """The application as it is stored now, and the project."""
+
+        def read() -> tuple[Application, Project]:
+            project = self.store.load(project_id)
+            return Application.of(project_id, project, application_id), project
 
         return await run_in_threadpool(read)
 
@@ -116,7 +124,7 @@ class Commissioning:
 
         Raises problems: 422 errors in the project, 409 no such online change, or loaded but not started.
         """
-        application = await self.application(project_id, application_id)
+        application, project = await self._with_source(project_id, application_id)
         loaded: StoredPackage | None = None
         if link.info is not None and link.info.code_id is not None:
             loaded = await run_in_threadpool(self.packages.find, link.info.code_id)
@@ -144,6 +152,10 @@ class Commissioning:
         await begin(mode, built)
         async with link.client() as client:
             await client.download(built.package, mode)
+        try:  # what is loaded runs without it, too
+            await run_in_threadpool(self.packages.put_source, project_id, application_id, code_id, project)
+        except OSError:
+            log.exception("the source of '%s' was not kept, so nothing can be compared with it", link.name)
         if start and mode == "download":
             await begin("start", built)
             await _start(link, built)

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
 from tappet.codegen.package import CodePackage, PackageError
+from tappet.project.errors import ProjectError
+from tappet.project.folder import read_zip, write_zip
+from tappet.project.model import Project
 from tappet.whole_file import PRIVATE, replace_file
 
 KEEP = 10
 """Newest packages of one application that are kept."""
+SOURCE = ".source"
+"""Ending of the archive of the project that a package was built from, beside it."""
 _ID = re.compile(r"[0-9A-Za-z_-]{1,128}")
 
 
@@ -25,7 +32,7 @@ class StoredPackage:
 
 
 class PackageStore:
-    """Files named `<project>.<application>.<code>.package`. All methods block."""
+    """Files named `<project>.<application>.<code>.package`, with their sources. All methods block."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -37,6 +44,23 @@ class PackageStore:
         replace_file(path, data, mode=PRIVATE, to_disk=True)
         for old in self._newest_first(f"{project_id}.{application_id}.*.package")[KEEP:]:
             old.unlink(missing_ok=True)
+            old.with_suffix(SOURCE).unlink(missing_ok=True)
+
+    def put_source(self, project_id: str, application_id: str, code_id: str, project: Project) -> None:
+        """Keeps the project that a package was built from, as long as the package is kept."""
+        path = self._folder / f"{_safe(project_id)}.{_safe(application_id)}.{_safe(code_id)}{SOURCE}"
+        self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        replace_file(path, write_zip(project), mode=PRIVATE)
+
+    def source(self, code_id: str) -> tuple[Project, datetime] | None:
+        """The project that this code was built from, and when it was downloaded."""
+        if not _ID.fullmatch(code_id):
+            return None
+        for path in self._newest_first(f"*.*.{code_id}{SOURCE}"):
+            with suppress(OSError, ProjectError):  # damaged, or just gone: as good as none
+                at = datetime.fromtimestamp(path.stat().st_mtime, UTC)
+                return read_zip(path.read_bytes()), at
+        return None
 
     def find(self, code_id: str) -> StoredPackage | None:
         """The package with this code, whatever application it was built from."""

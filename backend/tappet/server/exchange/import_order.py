@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from tappet.libraries.missing import report_missing
 from tappet.project.exchange.deciding import Decided
 from tappet.project.exchange.existing import Decisions, Histories
-from tappet.project.exchange.importing import Imported, import_files
+from tappet.project.exchange.importing import Imported, import_files, read_as_project
 from tappet.project.exchange.placing import Place
 from tappet.project.model import Project
 
@@ -30,9 +30,13 @@ class ImportOrder:
     """Look for objects whose names exist."""
     compare: str = ""
     """Key of an object to be compared with the one of its name."""
+    as_project: bool = False
+    """The files are a project of their own, to be compared with."""
 
     def read(self) -> Imported:
         """The project with the files in it. Raises ProjectError."""
+        if self.as_project:
+            return read_as_project(self.files, self.name)
         where = None if self.place is None else Place(None if self.place == "pous" else self.place)
         imported = import_files(
             self.files,

@@ -40,6 +40,10 @@ class Upload:
         """
         return ImportOrder(self._files, project, place, name, chosen, decisions or Decisions())
 
+    def as_project(self, name: str) -> Imported:
+        """The files as a project to compare with; one of our own as it is. Blocks."""
+        return run_import(ImportOrder(self._files, None, None, name, None, as_project=True))
+
 
 def imported(order: ImportOrder, pasts: Callable[[Collection[str]], Histories] | None = None) -> Imported:
     """What an order brings; blocks. The report names libraries that are missing.

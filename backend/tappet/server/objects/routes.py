@@ -14,6 +14,7 @@ from tappet.server.objects.shapes import (
     ObjectMove,
     ObjectSave,
     ObjectsSave,
+    ObjectsToDelete,
     ObjectSummary,
 )
 from tappet.server.problems import Problem
@@ -62,6 +63,12 @@ def save_objects(project_id: str, body: ObjectsSave, who: Engineer, store: Store
         object_detail(saved)
         for saved in store.save_all(project_id, contents, who.username, comment=body.comment)
     ]
+
+
+@router.post("/delete", status_code=204)
+def delete_objects(project_id: str, body: ObjectsToDelete, who: Engineer, store: StoreDep) -> None:
+    """Delete objects and all below them as one change of the project, which can be undone."""
+    store.delete(project_id, who.username, *body.object_ids)
 
 
 @router.get("/{object_id}")

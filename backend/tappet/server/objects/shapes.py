@@ -117,6 +117,12 @@ class ObjectMove(Request):
     index: Number | None = None
 
 
+class ObjectsToDelete(Request):
+    """Objects that go as one change of the project."""
+
+    object_ids: list[str] = Field(min_length=1, max_length=10_000)
+
+
 class CopyTarget(Request):
     """Where a copy goes."""
 

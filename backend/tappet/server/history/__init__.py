@@ -1,0 +1,1 @@
+"""Going back: undo and redo of changes of the tree, what was deleted."""
