@@ -30,6 +30,7 @@ EXEMPT = {
     "read_values": READS,
     "read_flight": READS,
     "preview_files": READS,
+    "compare_import": READS,
     "build": READS,
     "run_static_analysis": READS,
     "run_tests": READS,
