@@ -19,6 +19,7 @@ const ROOMS = [
   'workbench',
   'text',
   'search',
+  'compare',
   'lsp',
   'online',
   'editors/form',

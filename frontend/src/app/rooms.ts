@@ -2,6 +2,7 @@
  * The workbench with everything that registers itself with it, in the order of the rooms; components load when first
  * shown. The kinds of objects are known before: the start page shows them, too.
  */
+import { registerCompare } from '@/compare/register';
 import { registerEditors } from '@/editors/register';
 import { registerOnline } from '@/online/register';
 import { registerSearch } from '@/search/register';
@@ -9,6 +10,7 @@ import { Workbench } from '@/workbench/frame/Workbench';
 import { registerPanelCommands, registerWorkbench } from '@/workbench/register';
 
 registerWorkbench();
+registerCompare();
 registerOnline();
 registerSearch();
 registerEditors();

@@ -54,8 +54,9 @@ describe('undo', () => {
   const can = (focusedPanel: string) =>
     enablementOf(findCommand('edit.undo')!, someContext({ focusedPanel, activeEditor: editor }), handlers);
 
-  it('in a tree leaves the text of the active editor alone', () => {
-    expect(can('devices')).toBe('reason.treeHistory');
+  it('in a tree is for who may change the project', () => {
+    const viewer = someContext({ focusedPanel: 'devices', activeEditor: editor, role: 'viewer' });
+    expect(enablementOf(findCommand('edit.undo')!, viewer, handlers)).not.toBe(true);
     expect(can('messages')).toBe(true);
   });
 });

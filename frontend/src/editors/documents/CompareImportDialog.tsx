@@ -1,12 +1,12 @@
 import { useState } from 'react';
+import { DiffView } from '@/compare/DiffView';
+import { PartTabs } from '@/compare/PartTabs';
 import { useText } from '@/i18n';
 import { FormDialog } from '@/ui/FormDialog';
 import type { Part } from '@/project/partUri';
 import type { Monaco } from '@/text/monacoLoader';
 import type { ComparedObject } from '@/workbench/exchange/comparison';
-import { DiffView } from './DiffView';
 import styles from './DocumentBars.module.css';
-import { PartTabs } from './PartTabs';
 
 interface CompareImportDialogProps {
   monaco: Monaco;
@@ -25,9 +25,7 @@ export function CompareImportDialog({ monaco, compared, close }: CompareImportDi
   const [part, setPart] = useState(shown[0]?.field ?? '');
   const text = shown.find(({ field }) => field === part);
   const places = text?.conflicts.length ?? 0;
-  const reason = comparison.fields.length
-    ? t('exchange.fieldsDiffer', { fields: comparison.fields.join(', ') })
-    : null;
+  const reason = comparison.fields.length ? t('exchange.fieldsDiffer', { fields: comparison.fields.join(', ') }) : null;
   return (
     <FormDialog
       title={t('exchange.compareTitle', { name })}
@@ -41,18 +39,16 @@ export function CompareImportDialog({ monaco, compared, close }: CompareImportDi
       <div className={styles.diff}>
         <PartTabs parts={shown.map(({ field }) => field as Part)} part={part as Part} onPart={setPart} />
         {reason && <div role="alert">{reason}</div>}
-        <div className={styles.sides}>
-          <span>{t('exchange.ours')}</span>
-          <span>
-            {places ? t('exchange.joinedConflicts', { count: places }) : t('exchange.joinedSide')}
-          </span>
-        </div>
         {text && (
           <DiffView
             key={part}
             monaco={monaco}
             left={text.ours}
             right={texts[part] ?? text.merged}
+            titles={[
+              t('exchange.ours'),
+              places ? t('exchange.joinedConflicts', { count: places }) : t('exchange.joinedSide'),
+            ]}
             onRight={(value) => setTexts((before) => ({ ...before, [part]: value }))}
           />
         )}

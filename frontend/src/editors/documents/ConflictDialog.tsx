@@ -3,12 +3,12 @@ import { useText } from '@/i18n';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import type { Monaco } from '@/text/monacoLoader';
-import { DiffView } from './DiffView';
+import { DiffView } from '@/compare/DiffView';
+import { PartTabs } from '@/compare/PartTabs';
 import styles from './DocumentBars.module.css';
 import type { TextDocument } from '@/text/documents';
 import type { Part } from '@/project/partUri';
 import type { Resolution, TextParts } from '@/text/documentState';
-import { PartTabs } from './PartTabs';
 
 export interface ConflictAnswer {
   resolution: Resolution;
@@ -58,15 +58,12 @@ export function ConflictDialog({ monaco, document, close }: ConflictDialogProps)
     >
       <div className={styles.diff}>
         <PartTabs parts={parts} part={part} onPart={setPart} />
-        <div className={styles.sides}>
-          <span>{t('doc.theirs', { revision: theirs?.revision ?? 0 })}</span>
-          <span>{t('doc.mine')}</span>
-        </div>
         <DiffView
           key={part}
           monaco={monaco}
           left={other[part]}
           right={merged[part]}
+          titles={[t('doc.theirs', { revision: theirs?.revision ?? 0 }), t('doc.mine')]}
           onRight={(value) => setMerged((before) => ({ ...before, [part]: value }))}
         />
       </div>

@@ -9,21 +9,17 @@ import { activeLanguageClient } from '@/lsp/session';
 import { renameSymbol, renameTarget } from '@/lsp/rename';
 import { crossReferences } from '@/lsp/symbols';
 import { addToList, useWatchLists } from '@/online/watch/lists';
-import { commandContext } from '@/workbench/context';
 import { openDialog } from '@/ui/dialogs';
 import { showPanel } from '@/workbench/docking/dock';
 import { guard, notify } from '@/ui/notices';
-import { mayEdit } from '@/workbench/rights';
-import { reasonText } from '@/workbench/run';
+import { runCommand } from '@/workbench/run';
 import { applicationOf } from '@/project/tree';
 import { InputAssistant } from '../assistant/InputAssistant';
 import { findCrossReferences } from '../crossReferences/store';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { insertRow } from '@/iec/declaration/structure';
 import { openDocument } from '@/text/documents';
-import type { Part } from '@/project/partUri';
 import type { OpenText } from '@/text/useTextDocument';
-import { RevisionsDialog } from '../documents/RevisionsDialog';
 import { monitorTarget, owningPou } from '../online/monitorScope';
 import { setEditorSettings, useEditorSettings } from '@/text/settings';
 import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
@@ -171,17 +167,9 @@ export async function showCrossReferences({ projectId }: TextPanel, editor: Text
   await findCrossReferences(projectId, { textDocument, position: toPosition(position) }, word);
 }
 
-export async function revisions({ monaco, document }: TextPanel, parts: readonly Part[]): Promise<void> {
-  const allowed = mayEdit(commandContext());
-  await openDialog((close) => (
-    <RevisionsDialog
-      monaco={monaco}
-      document={document}
-      parts={parts}
-      mayRevert={allowed === true ? null : reasonText(allowed)}
-      close={close}
-    />
-  ));
+/** The history of the object, its text with it. */
+export async function revisions({ object }: TextPanel): Promise<void> {
+  await runCommand('project.history', object);
 }
 
 /** The variable at the cursor, or those of the selection, go to the watch list shown last. */

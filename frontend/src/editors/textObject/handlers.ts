@@ -1,6 +1,5 @@
 /** What the delegated commands do in a text editor. */
 import { t } from '@/i18n';
-import { partsOf } from '@/project/kinds';
 import { notify } from '@/ui/notices';
 import type { Handler, Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
@@ -90,7 +89,7 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       },
     },
     ...bodyOf(document.language).handlers?.(panelId, document),
-    'st.revisions': { run: () => revisions(panel, partsOf(object.kind)) },
+    'st.revisions': { run: () => revisions(panel) },
     'file.save': {
       run: async () => {
         await document.save();

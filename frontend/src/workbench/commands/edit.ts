@@ -25,8 +25,8 @@ function inTree(context: CommandContext): boolean {
   return context.focusedPanel === 'devices' || context.focusedPanel === 'pous';
 }
 
-/** Undo in a tree would change the text of an editor that the user is not looking at. */
-const inEditors: Condition = (context) => (inTree(context) ? 'reason.treeHistory' : true);
+/** In a tree, undo goes back over changes of the project, never over the text of an editor. */
+const editsTree: Condition = (context) => (inTree(context) ? mayEdit(context) : true);
 
 const commands: Command[] = [
   ...menuGroup(
@@ -38,7 +38,7 @@ const commands: Command[] = [
       icon: Undo2,
       keys: ['Ctrl+Z'],
       delegated: true,
-      enabled: inEditors,
+      enabled: editsTree,
     },
     {
       id: 'edit.redo',
@@ -46,7 +46,7 @@ const commands: Command[] = [
       icon: Redo2,
       keys: ['Ctrl+Y', 'Ctrl+Shift+Z'],
       delegated: true,
-      enabled: inEditors,
+      enabled: editsTree,
     },
   ),
   ...menuGroup(
@@ -77,7 +77,7 @@ const commands: Command[] = [
       keys: ['Ctrl+V'],
       scope: 'tree',
       delegated: true,
-      enabled: (context) => (inTree(context) ? mayEdit(context) : true),
+      enabled: editsTree,
     },
     {
       id: 'edit.delete',

@@ -1,5 +1,5 @@
 import { hasRole, kindOf, opensEditor } from '@/project/kinds';
-import { Ban, CircleCheckBig, FilePlus2, FolderOpen, History, Info, ListTree, SlidersHorizontal } from 'lucide-react';
+import { Ban, CircleCheckBig, FilePlus2, FolderOpen, Info, ListTree, SlidersHorizontal } from 'lucide-react';
 import { api } from '@/api/client';
 import { keys, patchSummary, queryClient } from '@/api/queries';
 import type { ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
@@ -140,20 +140,6 @@ const commands: Command[] = [
       const { PropertiesDialog } = await import('../properties/PropertiesDialog');
       await openDialog((close) => (
         <PropertiesDialog projectId={context.projectId!} object={context.selection[0]!} close={() => close()} />
-      ));
-    },
-  },
-  {
-    id: 'project.history',
-    title: 'command.history',
-    icon: History,
-    menu: { menu: 'project', group: '3_project', order: 1 },
-    enabled: project,
-    run: async (context) => {
-      const { HistoryDialog } = await import('../history/HistoryDialog');
-      const object = context.selection.length === 1 ? context.selection[0]! : null;
-      await openDialog((close) => (
-        <HistoryDialog projectId={context.projectId!} object={object} close={() => close()} />
       ));
     },
   },

@@ -89,6 +89,19 @@ export async function copyObject(projectId: string, objectId: string, parentId: 
   return copy;
 }
 
+/** Undoes the last change of the tree by this user, or does again what was undone last. */
+export async function undoChange(projectId: string, way: 'undo' | 'redo') {
+  const params = { path: { project_id: projectId } };
+  const outcome =
+    way === 'undo'
+      ? await api.post('/api/v1/projects/{project_id}/undo', { params })
+      : await api.post('/api/v1/projects/{project_id}/redo', { params });
+  await queryClient.invalidateQueries({ queryKey: keys.project(projectId) });
+  const left = new Set((queryClient.getQueryData<Objects>(keys.objects(projectId)) ?? []).map(({ id }) => id));
+  closePanelsOf(outcome.touched.filter((id) => !left.has(id)));
+  return outcome;
+}
+
 /** Deletes objects with all that is below them and closes their editors. */
 export async function deleteObjects(projectId: string, ids: readonly string[]): Promise<void> {
   const before = queryClient.getQueryData<Objects>(keys.objects(projectId)) ?? [];
@@ -96,13 +109,10 @@ export async function deleteObjects(projectId: string, ids: readonly string[]): 
     projectId,
     (objects) => without(objects, ids),
     () =>
-      Promise.all(
-        ids.map((id) =>
-          api.delete('/api/v1/projects/{project_id}/objects/{object_id}', {
-            params: { path: { project_id: projectId, object_id: id } },
-          }),
-        ),
-      ),
+      api.post('/api/v1/projects/{project_id}/objects/delete', {
+        params: { path: { project_id: projectId } },
+        body: { object_ids: [...ids] },
+      }),
   );
   const left = new Set(without(before, ids).map((object) => object.id));
   closePanelsOf(before.filter((object) => !left.has(object.id)).map((object) => object.id));

@@ -5,10 +5,12 @@ import { t } from '@/i18n';
 import type { Enablement, Handlers } from '../commands';
 import { commandContext } from '../context';
 import { confirm } from '@/ui/dialogs';
+import { notify } from '@/ui/notices';
 import { selectObjects, useSelection } from '../selection';
-import { copyObject, deleteObjects, moveObject } from './acts';
+import { copyObject, deleteObjects, moveObject, undoChange } from './acts';
 import { childrenOf, forestOf, subtree, topMost, type Forest, type TreeView } from '@/project/tree';
 import { mayDrop } from '@/project/placement';
+import { actionText } from './actionText';
 import { revealInTree, useTree } from './state';
 
 function present(projectId: string): Forest {
@@ -24,6 +26,8 @@ function chosen(forest: Forest): string[] {
 
 export function treeHandlers(projectId: string, view: TreeView, rules: readonly PlacementRule[]): Handlers {
   return {
+    'edit.undo': { run: () => stepBack(projectId, 'undo') },
+    'edit.redo': { run: () => stepBack(projectId, 'redo') },
     'edit.cut': { run: () => useTree.setState({ clipboard: { ids: chosen(present(projectId)), cut: true } }) },
     'edit.copy': { run: () => useTree.setState({ clipboard: { ids: chosen(present(projectId)), cut: false } }) },
     'edit.paste': { run: () => pasteInto(projectId, view, rules) },
@@ -74,6 +78,16 @@ export async function pasteInto(projectId: string, view: TreeView, rules: readon
   }
   if (clipboard.cut) useTree.setState({ clipboard: null });
   if (last) revealInTree(last);
+}
+
+/** Goes back over the last change of the tree by this user, or over what was undone last. */
+async function stepBack(projectId: string, way: 'undo' | 'redo'): Promise<void> {
+  const { done, touched } = await undoChange(projectId, way);
+  const [first, ...others] = done.objects;
+  const name = others.length > 0 ? t('undo.several', { count: done.objects.length }) : (first ?? '');
+  notify({ tone: 'ok', title: t(`undo.${way}`, { action: actionText(done.action), name }) });
+  const shown = touched.find((id) => present(projectId).byId.has(id));
+  if (shown) revealInTree(shown);
 }
 
 /** Asks, then deletes the selected objects with everything below them. */

@@ -1,17 +1,16 @@
 import { useText } from '@/i18n';
-import styles from './DocumentBars.module.css';
-import type { Part } from '@/project/partUri';
+import styles from './compare.module.css';
+
+type Part = 'declaration' | 'implementation' | 'values';
+
+interface PartTabsProps<One extends Part> {
+  parts: readonly One[];
+  part: One;
+  onPart: (part: One) => void;
+}
 
 /** Chooses the part of an object that a comparison shows. */
-export function PartTabs({
-  parts,
-  part,
-  onPart,
-}: {
-  parts: readonly Part[];
-  part: Part;
-  onPart: (part: Part) => void;
-}) {
+export function PartTabs<One extends Part>({ parts, part, onPart }: PartTabsProps<One>) {
   const t = useText();
   if (parts.length < 2) return null;
   return (

@@ -1,0 +1,104 @@
+import { ArrowDown, ArrowRightToLine, ArrowUp } from 'lucide-react';
+import type { editor } from 'monaco-editor/editor/editor.api';
+import { useEffect, useRef } from 'react';
+import { useText } from '@/i18n';
+import { EDITOR_OPTIONS } from '@/text/CodePane';
+import { IEC_TEXT } from '@/text/iecText';
+import type { Monaco } from '@/text/monacoLoader';
+import { IconButton } from '@/ui/Button';
+import { changeAt, takenBlock } from './comparison';
+import styles from './DiffView.module.css';
+
+interface DiffViewProps {
+  monaco: Monaco;
+  left: string;
+  right: string;
+  /** What the two sides are. */
+  titles: readonly [string, string];
+  /** Differences in blanks at the ends of lines are not shown. */
+  ignoreWhiteSpace?: boolean;
+  /** Makes the right side editable and hears of every change. */
+  onRight?: (text: string) => void;
+}
+
+/** Two texts beside each other with their differences; blocks of the left one can be taken over into the right one. */
+export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false, onRight }: DiffViewProps) {
+  const t = useText();
+  const host = useRef<HTMLDivElement>(null);
+  const view = useRef<{ diff: editor.IStandaloneDiffEditor; models: editor.IDiffEditorModel } | null>(null);
+  const latest = useRef(onRight);
+  useEffect(() => {
+    latest.current = onRight;
+  });
+  const editable = onRight !== undefined;
+  const [leftTitle, rightTitle] = titles;
+
+  useEffect(() => {
+    if (host.current === null) return;
+    const diff = monaco.editor.createDiffEditor(host.current, {
+      ...EDITOR_OPTIONS,
+      readOnly: !editable,
+      originalEditable: false,
+      renderSideBySide: true,
+      useInlineViewWhenSpaceIsLimited: false,
+      ignoreTrimWhitespace: ignoreWhiteSpace,
+      renderOverviewRuler: false,
+      renderMarginRevertIcon: editable,
+      folding: false,
+      fixedOverflowWidgets: true,
+      originalAriaLabel: leftTitle,
+      modifiedAriaLabel: rightTitle,
+    });
+    const models = {
+      original: monaco.editor.createModel('', IEC_TEXT),
+      modified: monaco.editor.createModel('', IEC_TEXT),
+    };
+    view.current = { diff, models };
+    diff.setModel(models);
+    const listener = models.modified.onDidChangeContent(() => latest.current?.(models.modified.getValue()));
+    return () => {
+      view.current = null;
+      listener.dispose();
+      diff.dispose();
+      models.original.dispose();
+      models.modified.dispose();
+    };
+  }, [monaco, editable, ignoreWhiteSpace, leftTitle, rightTitle]);
+
+  useEffect(() => {
+    const models = view.current?.models;
+    if (models === undefined) return;
+    if (models.original.getValue() !== left) models.original.setValue(left);
+    if (models.modified.getValue() !== right) models.modified.setValue(right);
+  }, [left, right, editable, monaco, ignoreWhiteSpace, leftTitle, rightTitle]);
+
+  const go = (way: 'next' | 'previous') => view.current?.diff.goToDiff(way);
+  /** Puts the left side's lines in the place of the block that the cursor is in, or the next one. */
+  const takeBlock = () => {
+    if (view.current === null) return;
+    const { diff, models } = view.current;
+    const mine = diff.getModifiedEditor();
+    const change = changeAt(diff.getLineChanges() ?? [], mine.getPosition()?.lineNumber ?? 1);
+    if (change === undefined) return;
+    const text = takenBlock(models.original.getValue(), models.modified.getValue(), change);
+    mine.pushUndoStop();
+    mine.executeEdits('take', [{ range: models.modified.getFullModelRange(), text }]);
+    mine.pushUndoStop();
+    mine.setPosition({ lineNumber: Math.max(1, change.modifiedStartLineNumber), column: 1 });
+  };
+
+  return (
+    <div className={styles.view}>
+      <div className={styles.sides}>
+        <span className={styles.title}>{leftTitle}</span>
+        <span className={styles.title}>{rightTitle}</span>
+        <span className={styles.tools}>
+          <IconButton small icon={ArrowUp} label={t('compare.previousBlock')} onClick={() => go('previous')} />
+          <IconButton small icon={ArrowDown} label={t('compare.nextBlock')} onClick={() => go('next')} />
+          {editable && <IconButton small icon={ArrowRightToLine} label={t('compare.takeBlock')} onClick={takeBlock} />}
+        </span>
+      </div>
+      <div ref={host} className={styles.host} />
+    </div>
+  );
+}
