@@ -7,6 +7,7 @@ import { createStore, type StoreApi } from 'zustand';
 import type { editor } from 'monaco-editor/editor/editor.api';
 import { dataText } from '@/api/objects';
 import { objectQuery, queryClient, saveObject, StaleObject } from '@/api/queries';
+import { changedByOthers } from '@/project/authors';
 import type { ProjectObject } from '@/api/types';
 import { useSession } from '@/session/session';
 import { smallestChange } from '@/iec/declaration/text';
@@ -33,6 +34,7 @@ import {
   type TextParts,
 } from './documentState';
 import { Drafts } from './drafts';
+import { isStepsOfParts, KeptSteps, textBefore, UndoSteps, type StepsOfParts } from './undoSteps';
 import { partUri, type Part } from '@/project/partUri';
 
 const AUTOSAVE_MS = 1500;
@@ -53,12 +55,21 @@ function drafts(): Drafts {
   return draftStore;
 }
 
+let stepStore: KeptSteps<StepsOfParts> | null = null;
+function keptSteps(): KeptSteps<StepsOfParts> {
+  stepStore ??= new KeptSteps(localStorage, isStepsOfParts);
+  return stepStore;
+}
+
+const PARTS = ['declaration', 'implementation'] as const;
+
 /** Brings data on top of a revision to the server and answers with the object as it is stored then. */
 export type Put = (baseRevision: number, data: Record<string, unknown>) => Promise<ProjectObject>;
 
 export class TextDocument {
   readonly models: Readonly<Record<Part, editor.ITextModel>>;
   readonly store: StoreApi<DocumentState>;
+  private readonly steps: Readonly<Record<Part, UndoSteps>>;
   private holders = 0;
   private applying = false;
   private saveTimer: ReturnType<typeof setTimeout> | undefined;
@@ -67,7 +78,7 @@ export class TextDocument {
   private readonly stopFollowing: () => void;
 
   constructor(
-    monaco: Monaco,
+    private readonly monaco: Monaco,
     readonly projectId: string,
     private object: ProjectObject,
     private readonly forget: () => void,
@@ -76,17 +87,20 @@ export class TextDocument {
     const draft = drafts().read(this.user, projectId, object.id);
     const state = draft === null ? opened(base) : withDraft(opened(base), draft);
     this.store = createStore(() => state);
+    const kept = keptSteps().read(this.user, projectId, object.id);
+    const steps = (part: Part) =>
+      new UndoSteps(kept !== null && textBefore(state.text[part], kept[part]) !== null ? kept[part].steps : []);
+    this.steps = { declaration: steps('declaration'), implementation: steps('implementation') };
     const model = (part: Part) => {
       const uri = monaco.Uri.parse(partUri(projectId, object.id, part));
       const language = part === 'implementation' ? monacoLanguage(this.language) : IEC_TEXT;
       const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', language, uri);
-      made.setValue(state.text[part]);
-      made.setEOL(monaco.editor.EndOfLineSequence.LF);
+      this.fill(made, part, state.text[part]);
       made.updateOptions({
         ...indentation(useEditorSettings.getState()),
         bracketColorizationOptions: { enabled: false, independentColorPoolPerBracketType: false },
       });
-      made.onDidChangeContent(() => this.typed());
+      made.onDidChangeContent(({ isUndoing }) => this.typed(isUndoing));
       return made;
     };
     this.models = { declaration: model('declaration'), implementation: model('implementation') };
@@ -158,7 +172,7 @@ export class TextDocument {
   }
 
   resolve(resolution: Resolution, merged?: TextParts): void {
-    this.change((state) => resolved(state, resolution, merged));
+    this.change((state) => resolved(state, resolution, merged), resolution !== 'mine');
     this.scheduleSave(0);
   }
 
@@ -167,16 +181,22 @@ export class TextDocument {
     const model = this.models[part];
     const change = smallestChange(model.getValue(), text);
     if (change === null) return;
-    const from = model.getPositionAt(change.start);
-    const to = model.getPositionAt(change.end);
-    const range = {
-      startLineNumber: from.lineNumber,
-      startColumn: from.column,
-      endLineNumber: to.lineNumber,
-      endColumn: to.column,
-    };
+    const range = rangeOf(model, change.start, change.end);
     model.pushStackElement();
     model.pushEditOperations([], [{ range, text: change.text }], () => null);
+    model.pushStackElement();
+  }
+
+  /** Gives a model its text with the steps that lead to it, so that undo goes back over edits of an earlier visit. */
+  private fill(model: editor.ITextModel, part: Part, text: string): void {
+    const kept = this.steps[part].of(text);
+    model.setValue(textBefore(text, kept) ?? text);
+    model.setEOL(0 satisfies editor.EndOfLineSequence.LF);
+    for (const { at, removed, inserted } of kept.steps) {
+      model.pushStackElement();
+      const range = rangeOf(model, at, at + removed.length);
+      model.pushEditOperations([], [{ range, text: inserted }], () => null);
+    }
     model.pushStackElement();
   }
 
@@ -216,27 +236,48 @@ export class TextDocument {
     const observer = new QueryObserver(queryClient, objectQuery(this.projectId, this.objectId));
     return observer.subscribe(({ data }) => {
       if (data === undefined || data.revision <= this.object.revision) return;
+      const foreign = changedByOthers(this.objectId, this.object.revision, data.revision);
       this.object = data;
-      this.change((state) => newerVersion(state, { revision: data.revision, parts: partsOf(data) }));
+      this.change((state) => newerVersion(state, { revision: data.revision, parts: partsOf(data) }), foreign);
     });
   }
 
-  /** Applies a transition and brings the models to the text it ends with. */
-  private change(transition: (state: DocumentState) => DocumentState): void {
+  /**
+   * Applies a transition and brings the models to the text it ends with. What is `foreign`, by somebody else, is no
+   * step that undo could take back, and neither is what was before it.
+   */
+  private change(transition: (state: DocumentState) => DocumentState, foreign = false): void {
+    const before = this.store.getState().text;
     const next = transition(this.store.getState());
     this.store.setState(next, true);
     this.applying = true;
-    this.replaceText('declaration', next.text.declaration);
-    this.replaceText('implementation', next.text.implementation);
+    for (const part of PARTS) {
+      if (foreign && next.text[part] !== before[part]) this.resetText(part, next.text[part]);
+      else this.replaceText(part, next.text[part]);
+      if (!foreign) this.steps[part].edited(before[part], next.text[part], Date.now());
+    }
     this.applying = false;
+    if (next.text !== before) this.storeSteps();
   }
 
-  private typed(): void {
+  /** Gives a part its text without a way back; cursors and scrolling stay where they can. */
+  private resetText(part: Part, text: string): void {
+    const model = this.models[part];
+    this.steps[part].clear();
+    const views = this.monaco.editor.getEditors().filter((view) => view.getModel() === model);
+    const states = views.map((view) => view.saveViewState());
+    model.setValue(text);
+    views.forEach((view, at) => view.restoreViewState(states[at] ?? null));
+  }
+
+  private typed(undone: boolean): void {
     if (this.applying) return;
+    const before = this.store.getState().text;
     const text = {
       declaration: this.models.declaration.getValue(),
       implementation: this.models.implementation.getValue(),
     };
+    for (const part of PARTS) this.steps[part].edited(before[part], text[part], Date.now(), undone);
     this.store.setState(edited(this.store.getState(), text), true);
     this.scheduleSave(AUTOSAVE_MS);
     clearTimeout(this.draftTimer);
@@ -248,8 +289,19 @@ export class TextDocument {
     this.saveTimer = setTimeout(() => void this.save(true), ms);
   }
 
+  private storeSteps(): void {
+    const { text } = this.store.getState();
+    const empty = PARTS.every((part) => this.steps[part].length === 0);
+    const steps = {
+      declaration: this.steps.declaration.of(text.declaration),
+      implementation: this.steps.implementation.of(text.implementation),
+    };
+    keptSteps().write(this.user, this.projectId, this.objectId, empty ? null : steps, Date.now());
+  }
+
   private storeDraft(): void {
     clearTimeout(this.draftTimer);
+    this.storeSteps();
     const { base, text } = this.store.getState();
     if (isChanged(this.store.getState())) {
       drafts().write(this.user, this.projectId, this.objectId, { base, text, savedAt: Date.now() });
@@ -269,6 +321,17 @@ export class TextDocument {
     this.models.implementation.dispose();
     this.forget();
   }
+}
+
+function rangeOf(model: editor.ITextModel, start: number, end: number) {
+  const from = model.getPositionAt(start);
+  const to = model.getPositionAt(end);
+  return {
+    startLineNumber: from.lineNumber,
+    startColumn: from.column,
+    endLineNumber: to.lineNumber,
+    endColumn: to.column,
+  };
 }
 
 const open = new Map<string, Promise<TextDocument>>();

@@ -6,7 +6,9 @@ import { socketUrl } from '@/api/client';
 import { ReconnectingSocket } from '@/api/socket';
 import { keys, objectQuery, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
+import { revisionMade } from '@/project/authors';
 import { applyChange, type ObjectEvent } from '@/project/changes';
+import { useSession } from '@/session/session';
 
 export interface PresentUser {
   username: string;
@@ -60,6 +62,8 @@ function receive(projectId: string, message: EventMessage): void {
     usePresence.setState({ users: message.users });
     return;
   }
+  const { id, revision } = message.object;
+  revisionMade(id, revision, message.author !== useSession.getState().user?.username);
   queryClient.setQueryData<ObjectSummary[]>(
     keys.objects(projectId),
     (objects) => objects && applyChange(objects, message),

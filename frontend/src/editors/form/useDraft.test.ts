@@ -35,10 +35,12 @@ vi.mock('@/workbench/rights', () => ({ mayEdit: () => true }));
 vi.mock('@/workbench/useHandlers', () => ({
   useHandlers: (_panel: string, handlers: Record<string, { run: () => Promise<void> }>) => {
     save = handlers['file.save']!.run;
+    undo = handlers['edit.undo']!.run;
   },
 }));
 
 let save: () => Promise<void>;
+let undo: () => Promise<void>;
 let draft: Draft<Data>;
 let root: Root;
 
@@ -58,9 +60,15 @@ beforeEach(() => {
   vi.useFakeTimers();
   sent.length = 0;
   Object.assign(stored, { revision: 7, data: { description: 'stored' } });
+  localStorage.clear();
+  open();
+});
+
+/** The form as a page shows it that was just loaded. */
+function open(): void {
   root = createRoot(document.createElement('div'));
   act(() => root.render(createElement(Form)));
-});
+}
 afterEach(() => {
   act(() => root.unmount());
   vi.useRealTimers();
@@ -112,5 +120,37 @@ describe('a form', () => {
     await act(() => Promise.resolve());
     await sent[0]!.answer();
     expect(await dirtyAfterSave).toBe(false);
+  });
+
+  const saveAs = async (description: string) => {
+    act(() => draft.change(described(description)));
+    const saving = save();
+    await sent.at(-1)!.answer();
+    await saving;
+  };
+
+  it('goes back over changes made before the page was loaded again', async () => {
+    await saveAs('one');
+    await saveAs('two');
+    act(() => root.unmount());
+    open();
+    act(() => void undo());
+    expect(draft.data?.description).toBe('one');
+    act(() => void undo());
+    expect(draft.data?.description).toBe('stored');
+    act(() => void undo());
+    expect(draft.data?.description).toBe('stored');
+  });
+
+  it('does not go back over what somebody else has changed', async () => {
+    await saveAs('one');
+    Object.assign(stored, { revision: 20, data: { description: 'by somebody else' } });
+    act(() => root.render(createElement(Form)));
+    act(() => void undo());
+    expect(draft.data?.description).toBe('by somebody else');
+    act(() => root.unmount());
+    open();
+    act(() => void undo());
+    expect(draft.data?.description).toBe('by somebody else');
   });
 });

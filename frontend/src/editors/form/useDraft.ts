@@ -10,6 +10,7 @@ import { mayEdit } from '@/workbench/rights';
 import { reasonText } from '@/workbench/run';
 import { setDirty } from '@/workbench/selection';
 import { useHandlers } from '@/workbench/useHandlers';
+import { useKeptSteps, type Steps } from './keptSteps';
 
 const SAVE_AFTER_MS = 700;
 
@@ -33,7 +34,8 @@ export interface Draft<Data> {
 
 /**
  * The data of an object being edited in a form; `check` demands their shape. Changes are saved by themselves a moment later, and at once by
- * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through the changes of this visit.
+ * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through
+ * one's own changes, also after a reload.
  */
 export function useDraft<Data extends ProjectObject['data']>(
   panelId: string,
@@ -45,10 +47,11 @@ export function useDraft<Data extends ProjectObject['data']>(
   const { data: object, error } = useObject(projectId, objectId, check);
   const [draft, setDraft] = useState<Unsaved<Data> | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
-  const [history, setHistory] = useState<{ past: readonly Data[]; future: readonly Data[] }>({ past: [], future: [] });
+  const [history, setHistory] = useState<Steps<Data>>({ past: [], future: [] });
   const allowed = mayEdit(useCommandContext());
   const readOnly = allowed === true ? null : reasonText(allowed);
   const data = draft?.data ?? object?.data;
+  useKeptSteps(projectId, objectId, data, history, setHistory);
   const latest = useRef({ draft, object, valid });
   useEffect(() => {
     latest.current.object = object;
@@ -73,6 +76,9 @@ export function useDraft<Data extends ProjectObject['data']>(
       // Typed on while it was being saved: the newer draft stands on the revision just made.
       const now = latest.current.draft;
       keep(now === null || now.data === present.data ? null : { ...now, revision: saved.revision });
+      // The server may say the same in other words; it is our own step all the same.
+      if (now === null || now.data === present.data)
+        setHistory((steps) => (steps.of === undefined ? steps : { ...steps, of: saved.data as Data }));
     } catch (failure) {
       if (failure instanceof StaleObject) {
         const mine = await confirm({
@@ -116,7 +122,7 @@ export function useDraft<Data extends ProjectObject['data']>(
     (next: Data) => {
       const before = latest.current.draft?.data ?? latest.current.object?.data;
       if (before === undefined) return;
-      setHistory((steps) => ({ past: [...steps.past, before].slice(-100), future: [] }));
+      setHistory((steps) => ({ past: [...steps.past, before].slice(-100), future: [], of: next }));
       set(next);
     },
     [set],
@@ -128,7 +134,7 @@ export function useDraft<Data extends ProjectObject['data']>(
       if (target === undefined || data === undefined) return;
       const rest = take === 0 ? history[from].slice(1) : history[from].slice(0, -1);
       const kept = to === 'future' ? [data, ...history[to]] : [...history[to], data];
-      setHistory({ ...history, [from]: rest, [to]: kept });
+      setHistory({ ...history, [from]: rest, [to]: kept, of: target });
       set(target);
     };
     const blocked = allowed !== true ? allowed : null;
