@@ -9,7 +9,15 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from .conftest import Server, new_profile, start_page
-from .workbench import choose_menu, implementation, log_in, open_object, open_panel, open_project
+from .workbench import (
+    choose_menu,
+    implementation,
+    log_in,
+    open_object,
+    open_panel,
+    open_project,
+    tree_item,
+)
 
 pytestmark = pytest.mark.e2e
 
@@ -63,6 +71,27 @@ def _dialogs(page: Page) -> Iterator[str]:
         page.keyboard.press("Escape")
 
 
+def _comparisons(page: Page) -> Iterator[str]:
+    """The project beside its first revision, after one object went."""
+    tree_item(page, "GVL_IO").click()
+    page.keyboard.press("Delete")
+    page.get_by_role("dialog").get_by_role("button", name="Delete").click()
+    expect(tree_item(page, "GVL_IO")).to_have_count(0)
+    choose_menu(page, "Project", "History")
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("tree").get_by_role("treeitem").last).to_be_visible()
+    page.wait_for_timeout(500)
+    yield "history"
+    dialog.get_by_role("tab", name="Deleted objects").click()
+    expect(dialog.get_by_role("row").filter(has_text="GVL_IO")).to_be_visible()
+    yield "deleted objects"
+    page.keyboard.press("Escape")
+    choose_menu(page, "Project", "Compare")
+    page.wait_for_timeout(300)
+    yield "compare"
+    page.keyboard.press("Escape")
+
+
 def _online(page: Page) -> Iterator[str]:
     open_object(page, "PLC_PRG")
     log_in(page)
@@ -82,7 +111,9 @@ def _serious(page: Page) -> list[str]:
 
 @pytest.mark.parametrize("theme", ["dark", "light"])
 @pytest.mark.parametrize(
-    "views", [_objects, _panels, _tools, _dialogs, _online], ids=lambda views: views.__name__.strip("_")
+    "views",
+    [_objects, _panels, _tools, _dialogs, _comparisons, _online],
+    ids=lambda views: views.__name__.strip("_"),
 )
 def test_nothing_serious(
     browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]
