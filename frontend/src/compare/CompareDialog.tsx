@@ -46,9 +46,10 @@ function SourceDialog({ projectId, runtimeId, open, close }: CompareDialogProps 
   const [busy, setBusy] = useState(false);
   const [files, setFiles] = useState<readonly NamedFile[]>([]);
   const [other, setOther] = useState<string | null>(null);
-  const [runtime, setRuntime] = useState(runtimeId);
+  const [chosenRuntime, setRuntime] = useState(runtimeId);
   const projects = (useQuery(projectsQuery).data ?? []).filter((one) => one.id !== projectId);
   const runtimes = useQuery(runtimesQuery).data ?? [];
+  const runtime = chosenRuntime ?? runtimes[0]?.id ?? null;
   const missing = { project: !other, files: files.length === 0, runtime: !runtime }[source];
   const path = { project_id: projectId };
   const ask = async () => {

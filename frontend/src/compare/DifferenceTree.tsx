@@ -1,17 +1,17 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { Check, Minus } from 'lucide-react';
 import { useId, useMemo, useRef, type KeyboardEvent } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
 import { useToggleSet } from '@/ui/toggleSet';
+import { ARIA_CHECKED, ChoiceBox } from '@/ui/ChoiceBox';
+import { treeKey } from '@/ui/treeKeys';
 import { Twist } from '@/ui/Twist';
-import { checkedOf, diffRows, toggled, type Checked, type Choices, type Difference, type DiffRow } from './comparison';
+import { checkedOf, diffRows, toggled, type Choices, type Difference, type DiffRow } from './comparison';
 import styles from './compare.module.css';
 import { StateMark } from './StateMark';
 
 const ROW_HEIGHT = 24;
-const ARIA: Record<Checked, boolean | 'mixed'> = { all: true, some: 'mixed', none: false };
 
 interface DifferenceTreeProps {
   differences: readonly Difference[];
@@ -44,24 +44,12 @@ export function DifferenceTree({ differences, known, selected, select, choices, 
     overscan: 10,
   });
   const goTo = (index: number) => {
-    const next = Math.max(0, Math.min(rows.length - 1, index));
-    select(rows[next]!);
-    virtual.scrollToIndex(next);
+    select(rows[index]!);
+    virtual.scrollToIndex(index);
   };
   const toggle = (row: DiffRow) => choose?.(toggled(row.keys, choices));
-  const onKeyDown = (event: KeyboardEvent) => {
-    const row = rows[at];
-    if (!row) return;
-    if (event.key === 'ArrowDown') goTo(at + 1);
-    else if (event.key === 'ArrowUp') goTo(at - 1);
-    else if (event.key === 'Home') goTo(0);
-    else if (event.key === 'End') goTo(rows.length - 1);
-    else if (event.key === ' ') toggle(row);
-    else if (event.key === 'ArrowRight' && row.expandable && !row.expanded) toggleClosed(row.path);
-    else if (event.key === 'ArrowLeft' && row.expanded) toggleClosed(row.path);
-    else return;
-    event.preventDefault();
-  };
+  const twist = (row: DiffRow) => toggleClosed(row.path);
+  const onKeyDown = (event: KeyboardEvent) => treeKey(event, rows, at, { goTo, twist, toggle });
   return (
     <div
       ref={scroll}
@@ -84,7 +72,7 @@ export function DifferenceTree({ differences, known, selected, select, choices, 
               role="treeitem"
               aria-level={row.level}
               aria-expanded={row.expandable ? row.expanded : undefined}
-              aria-checked={choose ? ARIA[checked] : undefined}
+              aria-checked={choose ? ARIA_CHECKED[checked] : undefined}
               aria-selected={index === at}
               className={styles.node}
               style={{ transform: `translateY(${start}px)`, paddingLeft: 4 + (row.level - 1) * 14 }}
@@ -93,17 +81,7 @@ export function DifferenceTree({ differences, known, selected, select, choices, 
               onDoubleClick={() => row.expandable && toggleClosed(row.path)}
             >
               <Twist open={row.expanded} expandable={row.expandable} onClick={() => toggleClosed(row.path)} />
-              {choose && (
-                <span
-                  className={styles.box}
-                  data-state={checked}
-                  onClick={() => toggle(row)}
-                  onDoubleClick={(event) => event.stopPropagation()}
-                >
-                  {checked === 'all' && <Check size={12} strokeWidth={3} />}
-                  {checked === 'some' && <Minus size={12} strokeWidth={3} />}
-                </span>
-              )}
+              {choose && <ChoiceBox state={checked} toggle={() => toggle(row)} />}
               {row.kind && <ObjectIcon kind={row.kind} subkind={row.subkind} name={row.name} />}
               <span className={row.difference ? styles.name : styles.context}>
                 {was ? `${row.name} ← ${was}` : row.name}

@@ -1,5 +1,6 @@
 /** Comparisons as data: the tree of what differs, and what of it is to be taken over. Pure functions. */
 import type { ObjectSummary, Schemas } from '@/api/types';
+import type { Checked } from '@/ui/ChoiceBox';
 
 export type Comparison = Schemas['ComparisonDetail'];
 export type Difference = Schemas['DifferenceItem'];
@@ -222,8 +223,6 @@ export function filtered(
       (sideOf(one).path.toLowerCase().includes(text) || one.old?.name.toLowerCase().includes(text)),
   );
 }
-
-export type Checked = 'all' | 'some' | 'none';
 
 /** How the box of a row looks. */
 export function checkedOf(keys: readonly string[], choices: Choices): Checked {

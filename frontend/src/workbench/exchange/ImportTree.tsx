@@ -1,16 +1,16 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { Check, Minus } from 'lucide-react';
 import { useId, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
 import { useToggleSet } from '@/ui/toggleSet';
+import { ARIA_CHECKED, ChoiceBox } from '@/ui/ChoiceBox';
+import { treeKey } from '@/ui/treeKeys';
 import { Twist } from '@/ui/Twist';
-import { checkedOf, nodeRows, toggled, type Checked, type NodeForest, type NodeRow } from './model';
+import { checkedOf, nodeRows, toggled, type NodeForest, type NodeRow } from './model';
 import styles from './Exchange.module.css';
 
 const ROW_HEIGHT = 24;
-const ARIA: Record<Checked, boolean | 'mixed'> = { all: true, some: 'mixed', none: false };
 
 interface ImportTreeProps {
   forest: NodeForest;
@@ -36,26 +36,14 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
     overscan: 10,
   });
   const goTo = (index: number) => {
-    const next = Math.max(0, Math.min(rows.length - 1, index));
-    setFocused(next);
-    virtual.scrollToIndex(next);
+    setFocused(index);
+    virtual.scrollToIndex(index);
   };
   const twist = (row: NodeRow) => {
     if (row.expandable) toggleClosed(row.node.key);
   };
-  const onKeyDown = (event: KeyboardEvent) => {
-    const row = rows[at];
-    if (!row) return;
-    if (event.key === 'ArrowDown') goTo(at + 1);
-    else if (event.key === 'ArrowUp') goTo(at - 1);
-    else if (event.key === 'Home') goTo(0);
-    else if (event.key === 'End') goTo(rows.length - 1);
-    else if (event.key === ' ') change(toggled(forest, chosen, row.node.key));
-    else if (event.key === 'ArrowRight' && row.expandable && !row.expanded) twist(row);
-    else if (event.key === 'ArrowLeft' && row.expanded) twist(row);
-    else return;
-    event.preventDefault();
-  };
+  const toggle = (row: NodeRow) => change(toggled(forest, chosen, row.node.key));
+  const onKeyDown = (event: KeyboardEvent) => treeKey(event, rows, at, { goTo, twist, toggle });
   return (
     <div
       ref={scroll}
@@ -77,7 +65,7 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
               role="treeitem"
               aria-level={row.level}
               aria-expanded={row.expandable ? row.expanded : undefined}
-              aria-checked={ARIA[state]}
+              aria-checked={ARIA_CHECKED[state]}
               aria-selected={index === at}
               className={styles.node}
               style={{ transform: `translateY(${start}px)`, paddingLeft: 6 + (row.level - 1) * 16 }}
@@ -86,15 +74,7 @@ export function ImportTree({ forest, chosen, search, change }: ImportTreeProps) 
               onDoubleClick={() => twist(row)}
             >
               <Twist open={row.expanded} expandable={row.expandable} onClick={() => twist(row)} />
-              <span
-                className={styles.box}
-                data-state={state}
-                onClick={() => change(toggled(forest, chosen, row.node.key))}
-                onDoubleClick={(event) => event.stopPropagation()}
-              >
-                {state === 'all' && <Check size={12} strokeWidth={3} />}
-                {state === 'some' && <Minus size={12} strokeWidth={3} />}
-              </span>
+              <ChoiceBox state={state} toggle={() => toggle(row)} />
               <ObjectIcon kind={row.node.kind} subkind={row.node.subkind} name={row.node.name} />
               <span data-excluded={row.node.excluded ? '' : undefined} className={styles.nodeName}>
                 {row.node.name}

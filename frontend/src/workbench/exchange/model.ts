@@ -1,6 +1,7 @@
 /** Imports and exports as data: the tree to choose from, places, the report. Pure functions. */
 import { hasRole } from '@/project/kinds';
 import type { ImportEntry, ImportFormats, ImportNode, ObjectSummary } from '@/api/types';
+import type { Checked } from '@/ui/ChoiceBox';
 import { childrenOf, forestOf, lineage, type Forest } from '@/project/tree';
 
 export interface NodeForest {
@@ -39,8 +40,6 @@ export function toggled(forest: NodeForest, chosen: ReadonlySet<string>, key: st
   }
   return next;
 }
-
-export type Checked = 'all' | 'some' | 'none';
 
 /** How the box of each node looks: itself with all below it, something of it, nothing. */
 export function checkedOf(forest: NodeForest, chosen: ReadonlySet<string>): ReadonlyMap<string, Checked> {
