@@ -10,6 +10,8 @@ from pathlib import Path
 PRIVATE = 0o600
 SHARED = 0o666
 """As the user's mask has it."""
+UNFINISHED = ".part"
+"""How the names of files end that are being written."""
 
 
 def replace_file(path: Path, data: bytes, *, mode: int = SHARED, to_disk: bool = False) -> None:
@@ -24,7 +26,7 @@ def replace_file(path: Path, data: bytes, *, mode: int = SHARED, to_disk: bool =
 @contextmanager
 def replacing_file(path: Path, data: bytes, *, mode: int = SHARED, to_disk: bool = False) -> Iterator[None]:
     """Has `data` on the disk before the block, and in `path` after it; `path` stays when the block raises."""
-    temporary = path.with_name(f".{path.name[:100]}.{os.urandom(6).hex()}.part")
+    temporary = path.with_name(f".{path.name[:100]}.{os.urandom(6).hex()}{UNFINISHED}")
     fd = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, mode)
     try:
         with os.fdopen(fd, "wb") as file:
@@ -40,6 +42,13 @@ def replacing_file(path: Path, data: bytes, *, mode: int = SHARED, to_disk: bool
         raise
     if to_disk:
         sync_folder(path.parent)
+
+
+def remove_unfinished(folder: Path) -> None:
+    """Removes what a killed process has left half-written in `folder`; only while nobody writes there."""
+    for path in folder.glob(f".*{UNFINISHED}"):
+        with suppress(OSError):
+            path.unlink()
 
 
 def write_output(path: Path, data: bytes) -> None:

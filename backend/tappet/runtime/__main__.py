@@ -20,7 +20,7 @@ from tappet.runtime.plc import SoftPlc
 from tappet.runtime.posix import lock_memory
 from tappet.runtime.service import RuntimeService
 from tappet.runtime.threads import NORMAL, Scheduling, real_time_scheduling
-from tappet.whole_file import PRIVATE, replace_file
+from tappet.whole_file import PRIVATE, remove_unfinished, replace_file
 
 DEFAULT_PORT = 11740
 
@@ -131,6 +131,7 @@ def main(argv: list[str] | None = None) -> int:
     try:
         arguments.data.mkdir(parents=True, exist_ok=True, mode=0o700)
         with owned(arguments.data):
+            remove_unfinished(arguments.data)
             asyncio.run(serve(arguments))
     except (OSError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)

@@ -32,6 +32,7 @@ from tappet.server.sockets import EndedSessions
 from tappet.server.tables import runtimes as runtimes_table
 from tappet.server.unit_tests.service import TestRuns
 from tappet.server.views.service import ViewRegistry
+from tappet.whole_file import remove_unfinished
 
 HOUSEKEEPING_S = 3600.0
 """How often expired sessions are deleted; expired ones are never accepted anyway."""
@@ -143,7 +144,9 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
     database = Database(store.engine)
     passwords = Passwords(settings.password_cost)
     one_time = OneTimeSecrets()
-    packages = PackageStore(settings.data_dir / "packages")
+    packages, objects = settings.data_dir / "packages", settings.data_dir / "objects"
+    for folder in (packages, *objects.glob("??")):
+        remove_unfinished(folder)
     services = Services(
         settings=settings,
         store=store,
@@ -154,8 +157,8 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         runtimes=RuntimeRegistry(connect, settings.reconnect_seconds),
         commissioning=Commissioning(
             store,
-            Builder(settings.build_workers, settings.data_dir / "objects"),
-            packages,
+            Builder(settings.build_workers, objects),
+            PackageStore(packages),
         ),
     )
     if database.read(accounts.count) == 0:
