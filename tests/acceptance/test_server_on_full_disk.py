@@ -1,4 +1,8 @@
-"""The disk of the server fills up: nothing is done that is not recorded, and the machine runs on."""
+"""The disk of the server fills up: nothing is done unrecorded, the machine runs on, and can be stopped.
+
+What begins or changes something is refused; what stops something is done, and recorded in a reserve that
+needs no room.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +18,7 @@ from live_server import RUNTIME, Script, Station, station
 
 MOUNT = ["unshare", "-rm", "sh", "-c", 'mount -t tmpfs -o size=32m tmpfs "$0" && exec "$@"']
 """Runs a command with a small file system of its own."""
+PASSWORD = "an old horse eats hay"
 
 
 @pytest.fixture(scope="module")
@@ -91,15 +96,20 @@ def test_nobody_else_reads_what_the_server_keeps(plant: Station) -> None:
     assert [path for path in kept if path.stat().st_mode & 0o077] == []
 
 
-def test_without_room_everything_is_refused_and_the_machine_runs(plant: Station) -> None:
+def test_without_room_nothing_is_changed_and_the_machine_runs_until_it_is_stopped(plant: Station) -> None:
     boss = plant.admin
     data = _data(plant)
+    boss.force("PLC_PRG.k", 5)
+    boss.post("/users", {"username": "ann", "password": PASSWORD, "role": "operator"}, 201)
+    page = plant.browser()
+    page.post("/auth/login", {"username": "ann", "password": PASSWORD})
     before = boss.read_object("PLC_PRG")
     filler = fill(data)
     until_full(boss)
     value = {"values": [{"expression": "PLC_PRG.k", "value": 7}]}
     refused = [
-        boss.post(f"{RUNTIME}/stop", None, 507),
+        boss.post(f"{RUNTIME}/start", None, 507),
+        boss.post(f"{RUNTIME}/reset", {"kind": "cold"}, 507),
         boss.post(f"{RUNTIME}/values/write", value, 507),
         boss.post(f"{RUNTIME}/values/force", value, 507),
         boss.post(
@@ -122,16 +132,29 @@ def test_without_room_everything_is_refused_and_the_machine_runs(plant: Station)
 
     state = boss.state()
     assert (state["connected"], state["state"], state["exception"]) == (True, "run", None)
-    assert boss.value("PLC_PRG.k") == 0
+    assert boss.value("PLC_PRG.k") == 5
     first = boss.value("PLC_PRG.n")
     assert boss.value("PLC_PRG.n") >= first
-    assert boss.get(f"{RUNTIME}/forces")["values"] == []
+    assert [v["expression"] for v in boss.get(f"{RUNTIME}/forces")["values"]] == ["PLC_PRG.k"]
     assert boss.read_object("PLC_PRG")["revision"] == before["revision"]
     assert boss.http.get(f"{boss.project}/export").status_code == 200
     assert [p["name"] for p in boss.get("/projects")] == ["Team"]
 
-    filler.unlink()
+    assert boss.build()["ok"] is True, "its objects are not kept"
+    assert boss.get(f"{RUNTIME}/log")
+    assert boss.get("/audit?action=force")[0]["subject"] == "PLC_PRG.k"
+
+    assert boss.post(f"{RUNTIME}/values/unforce", {"expressions": None})["values"] == []
     assert boss.post(f"{RUNTIME}/stop")["state"] == "stop"
-    (entry, *_) = boss.get("/audit?action=stop")
+    page.post("/auth/logout", None, 204)
+    assert boss.get("/audit?action=stop") == []
+
+    filler.unlink()
+    (entry,) = boss.get("/audit?action=stop")
     assert (entry["result"], entry["subject"]) == ("ok", state["name"])
+    newest = [(e["action"], e["username"], e["result"]) for e in boss.get("/audit")[:3]]
+    assert newest == [("logout", "ann", "ok"), ("stop", "local", "ok"), ("unforce", "local", "ok")]
+    assert boss.post(f"{RUNTIME}/start")["state"] == "run"
+    assert boss.save("PLC_PRG", implementation="n := n + 2;")["revision"] > before["revision"]
+    assert boss.download("online_change")["state"] == "run"
     assert [path.name for path in data.rglob("*.part")] == []

@@ -76,14 +76,14 @@ def write(db: Connection, username: str, address: str, *acts: Act, result: Resul
     """Writes acts, also of somebody who only claims a name; returns the ids of their rows."""
     if not acts:
         return []
-    rows = [{**_columns(username, address, act), "result": result.value} for act in acts]
+    rows = [{**columns(username, address, act), "result": result.value} for act in acts]
     query = insert(audit).returning(audit.c.id, sort_by_parameter_order=True)
     return list(db.scalars(query, rows))
 
 
 def refuse(db: Connection, username: str, address: str, act: Act, reason: str) -> None:
     """Writes an act that was refused, or counts it on the row of an equal one shortly before."""
-    row = {**_columns(username, address, act), "result": Result.REFUSED.value}
+    row = {**columns(username, address, act), "result": Result.REFUSED.value}
     now = row.pop("at")
     equal = [audit.c[name].is_not_distinct_from(value) for name, value in row.items()]
     last = select(func.max(audit.alias().c.id)).scalar_subquery()
@@ -108,7 +108,8 @@ def note_refusal(database: Database, who: Identity, act: Act, reason: str) -> No
         log.exception("%s of %s was refused, which could not be stored: %s", act.action, who.username, reason)
 
 
-def _columns(username: str, address: str, act: Act) -> dict[str, Any]:
+def columns(username: str, address: str, act: Act) -> dict[str, Any]:
+    """The columns of a row of now, but for its result."""
     return {
         "at": datetime.now(UTC),
         "username": username[:64],

@@ -17,7 +17,7 @@ from tappet.server import audit
 from tappet.server.audit import Act
 from tappet.server.auth import identity as identities
 from tappet.server.auth import origin
-from tappet.server.auth.identity import Identity
+from tappet.server.auth.identity import Credential, Identity
 from tappet.server.auth.roles import Role
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.database import Database
@@ -51,9 +51,18 @@ async def optional_identity(connection: HTTPConnection) -> Identity | None:
     if credential is None:
         return None
     address = identities.client_address(connection)
-    return await run_in_threadpool(
-        identities.resolve, services.database, credential, address, services.settings, touch=True
+    return await _resolved(services, credential, address, touch=True)
+
+
+async def _resolved(
+    services: Services, credential: Credential, address: str, *, touch: bool = False
+) -> Identity | None:
+    found = await run_in_threadpool(
+        identities.resolve, services.database, credential, address, services.settings, touch=touch
     )
+    if found is not None and services.audit_reserve.has_ended(found.session_id):
+        return None  # logged out, which the database could not be told yet
+    return found
 
 
 async def session_watch(connection: HTTPConnection) -> SessionWatch:
@@ -65,10 +74,7 @@ async def session_watch(connection: HTTPConnection) -> SessionWatch:
     async def still_allowed() -> bool:
         if credential is None:
             return False
-        found = await run_in_threadpool(
-            identities.resolve, services.database, credential, address, services.settings
-        )
-        return found is not None
+        return await _resolved(services, credential, address) is not None
 
     return SessionWatch(still_allowed, services.ended_sessions)
 

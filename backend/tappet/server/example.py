@@ -67,7 +67,9 @@ async def run_example(services: Services, project_id: str) -> None:
         return
     project = await run_in_threadpool(services.store.load, project_id)
     for application in project.applications()[:1]:
-        act = ActRecord(services.database, Identity("", AUTHOR, Role.ADMIN, "console"))
+        act = ActRecord(
+            services.database, services.audit_reserve, Identity("", AUTHOR, Role.ADMIN, "console")
+        )
         begin = recording(act, project_id, link)
         try:
             await services.commissioning.download(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
@@ -11,6 +12,7 @@ from sqlalchemy import Connection, select
 from tappet.project.store import Store
 from tappet.server.analysis.project import Limits
 from tappet.server.analysis.service import AnalysisService
+from tappet.server.audit_reserve import AuditReserve
 from tappet.server.auth import accounts, sessions
 from tappet.server.auth.login import FIRST_ACCOUNT, Login
 from tappet.server.auth.one_time import OneTimeSecrets
@@ -34,6 +36,7 @@ from tappet.server.unit_tests.service import TestRuns
 from tappet.server.views.service import ViewRegistry
 from tappet.whole_file import remove_unfinished
 
+log = logging.getLogger(__name__)
 HOUSEKEEPING_S = 3600.0
 """How often expired sessions are deleted; expired ones are never accepted anyway."""
 
@@ -45,6 +48,7 @@ class Services:
     settings: ServerSettings
     store: Store
     database: Database
+    audit_reserve: AuditReserve
     passwords: Passwords
     one_time: OneTimeSecrets
     login: Login
@@ -101,10 +105,16 @@ class Services:
     async def _keep_house(self) -> None:
         """Forgets what has expired."""
         while True:
-            await self.database.write_async(
-                lambda db: sessions.remove_expired(db, self.settings, datetime.now(UTC))
-            )
+            try:
+                await asyncio.to_thread(self._tidy)
+            except Exception:  # of a full disk, say: there is a next time
+                log.exception("housekeeping failed; it is tried again in %g s", HOUSEKEEPING_S)
             await asyncio.sleep(HOUSEKEEPING_S)
+
+    def _tidy(self) -> None:
+        self.audit_reserve.prepare()
+        self.audit_reserve.move(self.database)
+        self.database.write(lambda db: sessions.remove_expired(db, self.settings, datetime.now(UTC)))
 
     async def close(self) -> None:
         """Ends everything."""
@@ -151,6 +161,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         settings=settings,
         store=store,
         database=database,
+        audit_reserve=AuditReserve(settings.data_dir),
         passwords=passwords,
         one_time=one_time,
         login=Login(database, passwords, one_time),
@@ -161,6 +172,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
             PackageStore(packages),
         ),
     )
+    services.audit_reserve.try_move(database)
     if database.read(accounts.count) == 0:
         services.first_account_token = one_time.issue(FIRST_ACCOUNT)
     return services

@@ -84,6 +84,8 @@ class Rest:
     reply."""
     tag: str = "runtimes"
     """Chapter of the API document."""
+    always: bool = False
+    """It stops something: it is done even when the audit log takes no row, and recorded later."""
 
 
 class Session(Protocol):

@@ -47,7 +47,9 @@ class Stop(Operation[None], frozen=True):
     """Stop the application; its outputs go to their safe values."""
 
     op: ClassVar[str] = "stop"
-    rest: ClassVar[Rest | None] = Rest("POST", "/stop", "operator", lambda _: Fact("stop"), "state")
+    rest: ClassVar[Rest | None] = Rest(
+        "POST", "/stop", "operator", lambda _: Fact("stop"), "state", always=True
+    )
 
     def run(self, plc: SoftPlc) -> None:
         """At the end of the cycles."""

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 from sqlalchemy import Connection
+from sqlalchemy.exc import DBAPIError
 from starlette.responses import RedirectResponse
 
 from tappet.server.audit import Act
@@ -133,7 +134,7 @@ def follow_link(
 
 @router.post("/logout", status_code=204)
 def logout(
-    act: Annotated[ActRecord, audited("logout", Role.VIEWER)],
+    act: Annotated[ActRecord, audited("logout", Role.VIEWER, always=True)],
     request: Request,
     response: Response,
     services: ServicesDep,
@@ -143,7 +144,10 @@ def logout(
     act.begin(Act("logout", act.who.username))
     secret = request.cookies.get(sessions.COOKIE)
     if secret and act.who.session_id:
-        services.database.write(lambda db: sessions.end(db, secret))
+        try:
+            services.database.write(lambda db: sessions.end(db, secret))
+        except DBAPIError:
+            services.audit_reserve.end_session(act.who.session_id)
         services.ended_sessions.tell()
     sessions.clear_cookie(response, settings)
 

@@ -88,6 +88,11 @@ def end(db: Connection, secret: str) -> None:
     db.execute(delete(sessions).where(sessions.c.secret_digest == digest(secret)))
 
 
+def end_by_id(db: Connection, session_id: str) -> None:
+    """Ends a session whose cookie is not known any more."""
+    db.execute(delete(sessions).where(sessions.c.id == session_id))
+
+
 def remove_expired(db: Connection, settings: ServerSettings, now: datetime) -> None:
     """Deletes sessions that can no longer be used."""
     db.execute(

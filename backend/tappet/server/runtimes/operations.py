@@ -87,7 +87,11 @@ def _leave_out(schema: dict[str, Any], names: Iterable[str]) -> None:
 def _endpoint(kind: type[WireOperation[Any]], rest: Rest) -> Callable[..., Awaitable[Any]]:
     role, facts = Role(rest.role), rest.audit
     action = kind.op.replace("_", "-")
-    guard = Depends(RequireRole(role)) if facts is None else audited(action, role, quoted=True)
+    guard = (
+        Depends(RequireRole(role))
+        if facts is None
+        else audited(action, role, quoted=True, always=rest.always)
+    )
     shape = rest.answer if callable(rest.answer) else None
 
     async def endpoint(

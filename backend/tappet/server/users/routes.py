@@ -113,7 +113,7 @@ def delete_user(
 @router.get("/audit")
 def read_audit(
     who: Engineer,
-    database: DatabaseDep,
+    services: ServicesDep,
     limit: Annotated[int, Query(ge=1, le=1000)] = 100,
     before: Annotated[
         Number | None, Query(description="Only entries older than the one with this id.")
@@ -121,7 +121,8 @@ def read_audit(
     action: Annotated[str | None, Query(max_length=40)] = None,
 ) -> list[AuditEntry]:
     """What was done by whom, newest first."""
-    rows = database.read(lambda db: audit.read(db, limit, before, action))
+    services.audit_reserve.try_move(services.database)
+    rows = services.database.read(lambda db: audit.read(db, limit, before, action))
     return [AuditEntry.model_validate(row) for row in rows]
 
 

@@ -58,7 +58,7 @@ async def force_values(
 
 @router.post("/values/unforce")
 async def unforce_values(
-    act: Annotated[ActRecord, audited("unforce", Role.OPERATOR, quoted=True)],
+    act: Annotated[ActRecord, audited("unforce", Role.OPERATOR, quoted=True, always=True)],
     body: UnforceOrder,
     link: LinkDep,
 ) -> Forces:
