@@ -14,7 +14,14 @@ import pytest
 ROOT = Path(__file__).parents[2]
 BACKEND = ROOT / "backend" / "tappet"
 PACKAGES = sorted(BACKEND.rglob("__init__.py"))
-TEXTS = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")])
+TEXTS = sorted(
+    [
+        ROOT / "README.md",
+        ROOT / "CONTRIBUTING.md",
+        *(ROOT / "docs").glob("*.md"),
+        *(ROOT / "docs/security").glob("*.md"),
+    ]
+)
 
 _SPAN = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
 _DOTTED = re.compile(r"[a-z_]\w*(?:\.\w+)*\Z")
