@@ -177,7 +177,7 @@ def test_the_layout_in_the_architecture_lists_the_packages() -> None:
 
 LOADED_BY_NAME = {"psycopg": "SQLAlchemy, from the address", "python_multipart": "FastAPI, for uploads"}
 """Dependencies without an import, and what loads them."""
-IMPORTED_AS = {"argon2_cffi": "argon2", "pyelftools": "elftools"}
+IMPORTED_AS = {"argon2_cffi": "argon2", "google_re2": "re2", "pyelftools": "elftools"}
 
 
 @pytest.mark.parametrize("entry", PROJECT["project"]["dependencies"])
