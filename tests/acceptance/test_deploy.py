@@ -17,6 +17,8 @@ from pathlib import Path
 import pytest
 from live_server import FIRST_START_S, process, until
 
+from tappet.project import folder
+from tappet.project.new_project import new_project
 from tappet.runtime.client import RuntimeClient
 from tappet.runtime.operations.values import Read
 
@@ -129,6 +131,40 @@ def test_whoever_has_no_token_deploys_nothing(plc: SoftPlc, file: Path, tmp_path
         assert done.returncode == 2, done.stdout
         assert says in done.stderr
         assert "Traceback" not in done.stderr
+
+
+def test_the_source_goes_to_another_process_and_comes_back(plc: SoftPlc, tmp_path: Path) -> None:
+    def tappet(*arguments: object) -> subprocess.CompletedProcess[str]:
+        runtime = ("--runtime", plc.url, "--token-file", plc.token_file)
+        return subprocess.run(
+            [sys.executable, "-m", "tappet", *map(str, (*arguments, *runtime))],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+
+    project = tmp_path / "press"
+    folder.save(new_project("Press"), project)
+    assert tappet("source", "show").returncode == 1
+    missing = tappet("source", "upload", "--to", tmp_path / "none")
+    assert (missing.returncode, "there is no source" in missing.stderr) == (2, True)
+    stored = tappet("source", "download", project)
+    assert stored.returncode == 0, stored.stderr
+    assert "source of 'Press'" in stored.stdout
+    assert "from another version" in stored.stdout
+    deployed = tappet("deploy", project, "--source")
+    assert deployed.returncode == 0, deployed.stderr
+    shown = json.loads(tappet("source", "show", "--format", "json").stdout)
+    assert (shown["project"], shown["current"]) == ("Press", True)
+    back = tappet("source", "upload", "--to", tmp_path / "back")
+    assert back.returncode == 0, back.stderr
+    left, right = (
+        {path.relative_to(top): path.read_bytes() for path in top.rglob("*") if path.is_file()}
+        for top in (project, tmp_path / "back")
+    )
+    assert left == right
+    assert "is not empty" in tappet("source", "upload", "--to", project).stderr
 
 
 def test_a_soft_plc_that_stops_takes_its_program_up_again(plc: SoftPlc, file: Path) -> None:

@@ -6,7 +6,7 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import Root, SymbolMap
@@ -25,10 +25,13 @@ from tappet.runtime.operations.symbols import GetSymbols
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.recorder import Frame
 from tappet.runtime.service import refusal_code
+from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
+from tappet.runtime.source_transfer import send_source
 from tappet.runtime.state import RuntimeInfo
 from tappet.runtime.tasks import TaskStatistics
 
 IMAGE_SIZE = 256
+T = TypeVar("T")
 
 
 def symbol_map() -> SymbolMap:
@@ -91,6 +94,7 @@ class FakePlc:
     cycle: int = 0
     past: dict[int, bytes] = field(default_factory=dict)
     frozen: bool = False
+    source: SourceStore = field(default_factory=lambda: SourceStore(None))
 
     async def connect(self, url: str, token: str) -> FakeClient:
         if self.down:
@@ -141,6 +145,15 @@ class FakePlc:
     def symbols_with_code(self) -> tuple[str, SymbolMap]:
         symbols = self._need()
         return str(self.code_id), symbols
+
+    def keep_source(self, note: SourceNote, data: bytes) -> None:
+        self.source.put(note, data)
+
+    def source_info(self) -> SourceInfo | None:
+        return self.source.info(self.code_id)
+
+    def remove_source(self) -> None:
+        self.source.remove()
 
     def start(self) -> None:
         self._need()
@@ -273,6 +286,17 @@ class FakeClient:
 
     plc: FakePlc
     callbacks: list[Callable[[RuntimeEvent], None]] = field(default_factory=list)
+
+    kept: dict[type[Any], Any] = field(default_factory=dict)
+
+    def own(self, kind: type[T]) -> T:
+        state: T = self.kept.setdefault(kind, kind())
+        return state
+
+    async def store_source(
+        self, archive: bytes, *, project: str, stored_by: str, code_id: str
+    ) -> SourceInfo | None:
+        return await send_source(self, archive, project=project, stored_by=stored_by, code_id=code_id)
 
     def _alive(self) -> None:
         if self.plc.down:

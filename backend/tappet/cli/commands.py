@@ -106,6 +106,21 @@ COMMANDS = (
     Command(("library", "remove"), "library", "remove", "Uninstall one version of a library."),
     Command(("deploy",), "deploy", "deploy", "Build an application, download it to a runtime and start it."),
     Command(
+        ("source", "show"),
+        "source",
+        "show_source",
+        "What source a runtime keeps: of which project, by whom, when.",
+    ),
+    Command(
+        ("source", "download"), "source", "download_source", "Store the source of a project in a runtime."
+    ),
+    Command(
+        ("source", "upload"),
+        "source",
+        "upload_source",
+        "Read the source that a runtime keeps into a new project folder.",
+    ),
+    Command(
         ("lsp",),
         "lsp",
         "lsp",

@@ -30,6 +30,8 @@ from tappet.runtime.operations.recording import EndRecord, Record
 from tappet.runtime.operations.symbols import GetSymbols, LoadedSymbols
 from tappet.runtime.protocol import ProtocolError
 from tappet.runtime.recorder import Frame
+from tappet.runtime.source_archive import SourceInfo
+from tappet.runtime.source_transfer import send_source
 from tappet.runtime.state import RuntimeInfo
 
 _LARGEST_REPLY = 1 << 30
@@ -280,6 +282,13 @@ class RuntimeClient:
             for at in range(0, len(package), CHUNK):
                 await self.call(DownloadChunk(package[at : at + CHUNK]))
             return await self.call(CommitDownload(mode))
+
+    async def store_source(
+        self, archive: bytes, *, project: str, stored_by: str, code_id: str
+    ) -> SourceInfo | None:
+        """Keep the archive of a project in the controller. Raises SourceError when it is too large."""
+        async with self._upload:
+            return await send_source(self, archive, project=project, stored_by=stored_by, code_id=code_id)
 
     async def symbols(self) -> SymbolMap:
         """Symbol map of the loaded application; fetched once per application."""

@@ -34,6 +34,7 @@ from tappet.runtime.places import Place, path_at
 from tappet.runtime.reports import build_report
 from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
 from tappet.runtime.retain_groups import check_room
+from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
 from tappet.runtime.state import ResetKind, RuntimeInfo, State
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.threads import NORMAL, Scheduling
@@ -81,6 +82,7 @@ class SoftPlc(ApplicationAccess):
         """Why the application waits to be started by somebody."""
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        self.source = SourceStore(folder)
         for note in scheduling.notes:
             self.log.add("info", "scheduler", note)
 
@@ -239,6 +241,7 @@ class SoftPlc(ApplicationAccess):
         if self.folder is not None:
             remove_boot(self.folder)
             remove_retain(self.folder)
+        self.source.remove()
         self.log.add("info", "application", f"{application.package.application} reset origin: removed")
         self._notify("application")
 
@@ -246,6 +249,23 @@ class SoftPlc(ApplicationAccess):
         if fault is not None:
             self.poll()
         self._notify("exception" if self.state == "exception" else "state")
+
+    # -- source ------------------------------------------------------------------------------------------
+
+    def keep_source(self, note: SourceNote, data: bytes) -> None:
+        """Keep the archive of a project. Raises DiskFullError, PlcError."""
+        self.source.put(note, data)
+        self.log.add("info", "source", f"{note.stored_by} stored the source of '{note.project}'")
+
+    def source_info(self) -> SourceInfo | None:
+        """The source that is kept; None for none."""
+        application = self.application
+        return self.source.info(application.package.code_id if application is not None else None)
+
+    def remove_source(self) -> None:
+        """Delete the source."""
+        self.source.remove()
+        self.log.add("info", "source", "the source was deleted")
 
     # -- download ----------------------------------------------------------------------------------------
 

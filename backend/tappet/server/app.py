@@ -38,6 +38,7 @@ from tappet.server.scenes import routes as routes_scenes
 from tappet.server.search import routes as routes_search
 from tappet.server.services import open_services
 from tappet.server.settings import ServerSettings
+from tappet.server.source import routes as routes_source
 from tappet.server.static import FrontEnd, find_static
 from tappet.server.static_analysis import routes as routes_static_analysis
 from tappet.server.unit_tests import routes as routes_tests
@@ -57,6 +58,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_flight.router,
     routes_online.router,
     routes_build.router,
+    routes_source.router,
     routes_static_analysis.router,
     routes_tests.router,
     routes_libraries.router,

@@ -73,7 +73,7 @@ async def run_example(services: Services, project_id: str) -> None:
         begin = recording(act, project_id, link)
         try:
             await services.commissioning.download(
-                project_id, application.id, link, "download", start=True, begin=begin
+                project_id, application.id, link, "download", start=True, begin=begin, project=project
             )
         except Exception as error:
             refused = Act("download", application.name, project_id=project_id, runtime_id=link.id)

@@ -652,6 +652,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/applications/{application_id}/source-download": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Download Source
+         * @description Keep the source of the project as it is now in the controller, in place of the one that is there.
+         */
+        post: operations["download_source"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/applications/{application_id}/static-analysis": {
         parameters: {
             query?: never;
@@ -1542,6 +1562,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/source": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Source Info
+         * @description The source that is kept in the controller; null when there is none.
+         */
+        get: operations["source_info"];
+        put?: never;
+        post?: never;
+        /**
+         * Source Remove
+         * @description Delete the source in the controller.
+         */
+        delete: operations["source_remove"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/source-upload": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Upload Source
+         * @description Make a project of the source in the controller. A name that is taken is counted on.
+         */
+        post: operations["upload_source"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/start": {
         parameters: {
             query?: never;
@@ -1945,6 +2009,13 @@ export interface components {
              *     }
              */
             heap?: components["schemas"]["HeapData"];
+            /**
+             * Source Download
+             * @description When the source of the project goes into the controller: never, by a command only, when the user agrees at a download, or with each download and online change.
+             * @default on_demand
+             * @enum {string}
+             */
+            source_download?: "never" | "on_demand" | "prompt" | "download";
             /**
              * @default {
              *       "limits": {},
@@ -2630,6 +2701,11 @@ export interface components {
             /** Runtime Id */
             runtime_id: string;
             /**
+             * Source
+             * @description Store the source of the project in the controller, too; null: as the application says.
+             */
+            source?: boolean | null;
+            /**
              * Start
              * @description Start after a download; an online change never stops.
              * @default true
@@ -2647,6 +2723,13 @@ export interface components {
             code_id: string;
             /** Data Id */
             data_id: string;
+            /** @description The source, where it was stored. */
+            source: components["schemas"]["StoredSource"] | null;
+            /**
+             * Source Problem
+             * @description Why the source was not stored; the application was loaded all the same.
+             */
+            source_problem: string | null;
             /** State */
             state: string;
         };
@@ -5010,6 +5093,38 @@ export interface components {
          */
         Severity: "error" | "warning" | "info";
         /**
+         * SourceInfo
+         * @description The archive in a controller.
+         */
+        SourceInfo: {
+            code_id: string;
+            current: boolean;
+            digest: string;
+            project: string;
+            size: number;
+            stored_at_ms: number;
+            stored_by: string;
+        };
+        /**
+         * SourceOrder
+         * @description The project that the source becomes.
+         */
+        SourceOrder: {
+            /**
+             * Name
+             * @description Another name than the one in the source.
+             */
+            name?: string | null;
+        };
+        /**
+         * SourceTarget
+         * @description The runtime that gets the source.
+         */
+        SourceTarget: {
+            /** Runtime Id */
+            runtime_id: string;
+        };
+        /**
          * StateChanged
          * @description The runtime's state; the first message after opening, then at every change.
          */
@@ -5085,6 +5200,24 @@ export interface components {
              * @default true
              */
             with_build: boolean;
+        };
+        /**
+         * StoredSource
+         * @description The source that a controller has now.
+         */
+        StoredSource: {
+            /**
+             * Current
+             * @description The application that is loaded was built from it.
+             */
+            current: boolean;
+            /** Project */
+            project: string;
+            /**
+             * Size
+             * @description Bytes of the archive.
+             */
+            size: number;
         };
         /**
          * Subscribe
@@ -7258,6 +7391,51 @@ export interface operations {
             };
         };
     };
+    download_source: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SourceTarget"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StoredSource"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     run_static_analysis: {
         parameters: {
             query?: {
@@ -9395,6 +9573,128 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RuntimeState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    source_info: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SourceInfo"] | null;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    source_remove: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    upload_source: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SourceOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectSummary"];
                 };
             };
             /** @description The request was refused */

@@ -8,6 +8,7 @@ import { registerHelpCommands } from './commands/help';
 import { registerLibraryCommands } from './commands/libraries';
 import { registerOnlineCommands } from './commands/online';
 import { registerProjectCommands } from './commands/project';
+import { registerSourceCommands } from './commands/source';
 import { registerStaticAnalysisCommands } from './commands/staticAnalysis';
 import { registerToolsCommands } from './commands/tools';
 import { registerViewCommands } from './commands/view';
@@ -99,6 +100,7 @@ export function registerWorkbench(): void {
   registerEditCommands();
   registerProjectCommands();
   registerOnlineCommands();
+  registerSourceCommands();
   registerLibraryCommands();
   registerStaticAnalysisCommands();
   registerToolsCommands();

@@ -52,6 +52,9 @@ class HeapData(Data):
 USUAL_HEAP = HeapData()
 
 
+SourceDownload = Literal["never", "on_demand", "prompt", "download"]
+
+
 class ApplicationData(Data):
     """An application: how it is checked, and the memory that it may take."""
 
@@ -59,6 +62,12 @@ class ApplicationData(Data):
         default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
     )
     heap: HeapData = Field(default=USUAL_HEAP, exclude_if=lambda chosen: chosen == USUAL_HEAP)
+    source_download: SourceDownload = Field(
+        default="on_demand",
+        description="When the source of the project goes into the controller: never, by a command only, when "
+        "the user agrees at a download, or with each download and online change.",
+        exclude_if=lambda when: when == "on_demand",
+    )
 
 
 APPLICATION = ObjectKind(

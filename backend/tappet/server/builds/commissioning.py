@@ -39,21 +39,23 @@ class Commissioning:
 
     async def application(self, project_id: str, application_id: str) -> Application:
         """The application as it is stored now. Raises UnknownProjectError, UnknownObjectError."""
-        return (await self._with_source(project_id, application_id))[0]
 
-    async def _with_source(self, project_id: str, application_id: str) -> tuple[Application, Project]:
-        """The application as it is stored now, and the project."""
-
-        def read() -> tuple[Application, Project]:
-            project = self.store.load(project_id)
-            return Application.of(project_id, project, application_id), project
+        def read() -> Application:
+            return Application.of(project_id, self.store.load(project_id), application_id)
 
         return await run_in_threadpool(read)
 
     async def build(self, project_id: str, application_id: str) -> Built:
         """Builds on top of what was downloaded last, so that data keep their places."""
-        application = await self.application(project_id, application_id)
-        last = await run_in_threadpool(self.packages.latest, project_id, application_id)
+        return await self._build(await self.application(project_id, application_id))
+
+    async def build_of(self, project_id: str, project: Project, application_id: str) -> Built:
+        """The same for a project that has been read. Raises UnknownObjectError."""
+        return await self._build(await run_in_threadpool(Application.of, project_id, project, application_id))
+
+    async def _build(self, application: Application) -> Built:
+        place = application.project_id, application.application_id
+        last = await run_in_threadpool(self.packages.latest, *place)
         return await self.builder.build(application, _base(last))
 
     async def analyse(self, project_id: str, application_id: str) -> BuildReport:
@@ -119,12 +121,14 @@ class Commissioning:
         mode: LoadMode,
         start: bool,
         begin: Begin,
+        project: Project,
     ) -> Built:
-        """Builds and loads; `begin` is called right before what changes the runtime.
+        """Builds and loads; `begin` is called right before what changes the runtime. `project` is what is
+        built, with its further files.
 
         Raises problems: 422 errors in the project, 409 no such online change, or loaded but not started.
         """
-        application, project = await self._with_source(project_id, application_id)
+        application = await run_in_threadpool(Application.of, project_id, project, application_id)
         loaded: StoredPackage | None = None
         if link.info is not None and link.info.code_id is not None:
             loaded = await run_in_threadpool(self.packages.find, link.info.code_id)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter
+from starlette.concurrency import run_in_threadpool
 
 from tappet.lang.diagnostic_translations import Language
+from tappet.server.audit import Act, Result
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
 from tappet.server.builds.commissioning import Commissioning
@@ -23,10 +25,12 @@ from tappet.server.dependencies import (
     Engineer,
     RuntimesDep,
     ServicesDep,
+    StoreDep,
     Viewer,
 )
 from tappet.server.metrics.service import Metrics
 from tappet.server.problems import Problem
+from tappet.server.source.service import check_wanted, source_setting, store_source
 
 router = APIRouter(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
 
@@ -94,15 +98,36 @@ async def download(
     body: DownloadOrder,
     commissioning: CommissioningDep,
     runtimes: RuntimesDep,
+    store: StoreDep,
 ) -> DownloadReport:
     """Build and load the application, by download (which stops) or online change (which does not)."""
     link = runtimes.get(body.runtime_id)
     begin = recording(act, project_id, link)
-    built = await commissioning.download(project_id, application_id, link, body.mode, body.start, begin)
+    project = await run_in_threadpool(store.load, project_id, with_files=True)
+    with_source = (
+        source_setting(project, application_id) == "download" if body.source is None else body.source
+    )
+    if with_source:
+        check_wanted(project, application_id)
+    built = await commissioning.download(
+        project_id, application_id, link, body.mode, body.start, begin, project
+    )
+    source, problem = None, None
+    if with_source:
+        await act.begin_async(
+            Act("source-download", built.application.name, None, project.name, project_id, link.id)
+        )
+        try:
+            source = await store_source(link, project, act.who.username, built.report.code_id or "")
+        except Problem as refused:
+            problem = refused.detail
+            await run_in_threadpool(act.end, Result.FAILED, problem)
     info = link.info
     return DownloadReport(
         application=built.application.name,
         code_id=built.report.code_id or "",
         data_id=built.report.data_id or "",
         state=info.state if info is not None else "unknown",
+        source=source,
+        source_problem=problem,
     )

@@ -9,6 +9,7 @@ from pydantic import Field, PrivateAttr
 
 from tappet.lang.diagnostic_translations import Language, Texts, said
 from tappet.server.shapes import Reply, Request
+from tappet.server.source.shapes import StoredSource
 
 
 class Part(StrEnum):
@@ -101,6 +102,10 @@ class DownloadOrder(Request):
     runtime_id: str
     mode: Literal["download", "online_change"]
     start: bool = Field(default=True, description="Start after a download; an online change never stops.")
+    source: bool | None = Field(
+        default=None,
+        description="Store the source of the project in the controller, too; null: as the application says.",
+    )
 
 
 class DownloadReport(Reply):
@@ -110,3 +115,7 @@ class DownloadReport(Reply):
     code_id: str
     data_id: str
     state: str
+    source: StoredSource | None = Field(default=None, description="The source, where it was stored.")
+    source_problem: str | None = Field(
+        default=None, description="Why the source was not stored; the application was loaded all the same."
+    )

@@ -9,6 +9,7 @@ from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent
 from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.recorder import Frame
+from tappet.runtime.source_archive import SourceInfo
 from tappet.runtime.state import RuntimeInfo
 
 LoadMode = Literal["download", "online_change"]
@@ -35,6 +36,11 @@ class PlcClient(Protocol):
 
     async def download(self, package: bytes, mode: LoadMode) -> RuntimeInfo:
         """Loads a code package."""
+
+    async def store_source(
+        self, archive: bytes, *, project: str, stored_by: str, code_id: str
+    ) -> SourceInfo | None:
+        """Keeps the archive of a project in the controller."""
 
     async def record(
         self, items: Sequence[tuple[int, int]], task: str | None, divider: int, min_interval_ns: int

@@ -17,6 +17,7 @@ import { FormPage, Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { useDraft } from '@/editors/form/useDraft';
 import { HeapFields } from './HeapFields';
+import { SourceFields } from './SourceFields';
 import { canStore } from './heap';
 
 const Icon = objectIcon('application');
@@ -88,6 +89,11 @@ export default function ApplicationEditor({ panelId, projectId, objectId }: Edit
             application={application}
             disabled={draft.readOnly !== null}
             onChange={(heap) => draft.change({ ...application, heap })}
+          />
+          <SourceFields
+            value={application.source_download}
+            disabled={draft.readOnly !== null}
+            onChange={(source_download) => draft.change({ ...application, source_download })}
           />
           <Section title={t('application.build')}>
             {build ? (

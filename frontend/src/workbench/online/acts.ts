@@ -16,6 +16,7 @@ import { useProject } from '@/project/openProject';
 import { atLeast } from '../rights';
 import { askDownload, askLogin, askLoginWithErrors, askRuntime } from './dialogs';
 import { compareLogin } from './relation';
+import { sourceWanted, tellSourceProblem } from './source';
 
 /** The runtime on the server's own machine; devices in simulation run there. */
 export const LOCAL_RUNTIME = 'local';
@@ -172,16 +173,18 @@ async function load(
   start: boolean,
 ): Promise<void> {
   const name = nameOf(context);
-  await busy(t(mode === 'download' ? 'busy.download' : 'busy.onlineChange', { name }), () =>
+  const source = await sourceWanted(context);
+  const done = await busy(t(mode === 'download' ? 'busy.download' : 'busy.onlineChange', { name }), () =>
     api.post('/api/v1/projects/{project_id}/applications/{application_id}/download', {
       params: { path: applicationPath(context) },
-      body: { runtime_id: runtimeId, mode, start },
+      body: { runtime_id: runtimeId, mode, start, source },
     }),
   );
   if (commandContext().online?.runtimeId === runtimeId) relationChanged(context.applicationId!, 'same');
   else loggedIn(context.applicationId!, runtimeId, 'same');
   runtimePolled(runtimeId, await api.get('/api/v1/runtimes/{runtime_id}', runtimeAt(runtimeId)));
   notify({ tone: 'ok', title: t(mode === 'download' ? 'login.downloaded' : 'login.changed', { name }) });
+  tellSourceProblem(done.source_problem);
 }
 
 /** Ends showing values; the controller keeps running. */
