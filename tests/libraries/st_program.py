@@ -22,6 +22,10 @@ class Program:
     def literal(self, expression: str) -> str:
         return self._application.literal(expression)
 
+    def cycle(self) -> None:
+        """One cycle more."""
+        self._application.cycle()
+
     def numbers(self, expression: str) -> list[float]:
         return [float(number) for number in self.literal(expression).strip("[]").split(",")]
 

@@ -1,0 +1,221 @@
+"""Trajectories of SM3_Trajectory: against Ruckig, and against what their segments say of themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+import ruckig
+from tests.libraries.st_program import run
+from tests.libraries.trajectories import PLANNED, Numbers, Plans, planner
+
+Plan = Callable[[Numbers], Plans]
+RUCKIGS_INPUTS = (
+    *("current_position", "current_velocity", "current_acceleration"),
+    *("target_position", "target_velocity", "target_acceleration"),
+    *("max_velocity", "min_velocity", "max_acceleration", "min_acceleration", "max_jerk"),
+)
+
+
+@pytest.fixture(scope="module")
+def plan() -> Iterator[Plan]:
+    with planner() as function:
+        yield function
+
+
+def _one_of(random: np.random.Generator, *columns: Numbers | float) -> Numbers:
+    """Each row takes one of the columns."""
+    table = np.stack(np.broadcast_arrays(*columns))
+    return table[random.integers(len(columns), size=table.shape[1]), np.arange(table.shape[1])]
+
+
+def _cases(seed: int, count: int, start: str) -> Numbers:
+    """Random plans with jerk 1, starts within the limits, at them, or up to three times beyond them."""
+    random = np.random.default_rng(seed)
+
+    def size(low: float, high: float) -> Numbers:
+        return 10 ** random.uniform(low, high, count)
+
+    a_max, v_max = size(-1, 1), size(-1.5, 1.5)
+    a_min, v_min = -a_max * size(-0.5, 0.5), -v_max * size(-0.5, 0.5)
+    equal = random.random(count) < 0.2
+    a_min, v_min = np.where(equal, -a_max, a_min), np.where(equal, -v_max, v_min)
+    beyond = 3.0 if start == "beyond" else 1.0
+    zeros = np.zeros(count)
+    v0 = _one_of(random, zeros, beyond * random.uniform(v_min, v_max))
+    a0 = _one_of(random, zeros, beyond * random.uniform(a_min, a_max))
+    if start == "at":
+        v0, a0 = _one_of(random, v0, v_max, v_min), _one_of(random, a0, a_max, a_min)
+    v1 = _one_of(random, zeros, v_max, v_min, random.uniform(v_min, v_max))
+    a1 = _one_of(random, zeros, zeros, 0.7 * random.uniform(a_min, a_max))
+    lead = 0.5 * a1 * a1
+    a1 = np.where((v1 + lead <= v_max) & (v1 - lead >= v_min), a1, 0.0)
+    distance = random.normal(size=count) * size(-2, 2)
+    return np.stack(
+        (zeros, v0, a0, distance, v1, a1, v_max, v_min, a_max, a_min, np.ones(count)), axis=1
+    ).astype(np.float64)
+
+
+def _shortest(case: Numbers) -> float:
+    """Duration as Ruckig finds it, NaN where it finds none."""
+    problem = ruckig.InputParameter(1)
+    for at, name in enumerate(RUCKIGS_INPUTS):
+        setattr(problem, name, [float(case[at])])
+    trajectory = ruckig.Trajectory(1)
+    try:
+        result = ruckig.Ruckig(1).calculate(problem, trajectory)
+    except ruckig.RuckigError:
+        return float("nan")
+    return float(trajectory.duration) if result == ruckig.Result.Working else float("nan")
+
+
+def _check_against_ruckig(plan: Plan, cases: Numbers) -> Plans:
+    plans = plan(cases)
+    expected = np.array([_shortest(case) for case in cases])
+    known = ~np.isnan(expected)
+    assert np.count_nonzero(known) > 0.99 * len(cases)
+    assert np.all(plans.result[known] == PLANNED), cases[known][plans.result[known] != PLANNED][:3]
+    late = plans.duration - expected > 1e-6 * expected + 1e-9
+    assert not np.any(late & known), cases[late & known][:3]
+    return plans
+
+
+def _check_segments(plans: Plans, within: bool) -> None:
+    """One segment leads to the next, the last one to the target, and no limit is passed."""
+    good = plans.result == PLANNED
+    s, c = plans.segments, plans.cases
+    t = s["duration"]
+    ends = (
+        s["position"] + t * (s["velocity"] + t * (s["acceleration"] / 2 + t * s["jerk"] / 6)),
+        s["velocity"] + t * (s["acceleration"] + t * s["jerk"] / 2),
+        s["acceleration"] + t * s["jerk"],
+    )
+    names = ("position", "velocity", "acceleration")
+    targets = (c["p1"] - c["p0"], c["v1"], c["a1"])
+    last = np.arange(s["start"].shape[1]) == (plans.count - 1)[:, None]
+    a_unit = np.maximum(c["a_max"], -c["a_min"])
+    v_unit = np.maximum(np.maximum(c["v_max"], -c["v_min"]), np.abs(c["v0"]))
+    p_unit = np.maximum(np.abs(c["p1"] - c["p0"]), v_unit * np.maximum(plans.duration, a_unit / c["jerk"]))
+    for name, end, target, unit in zip(names, ends, targets, (p_unit, v_unit, a_unit), strict=True):
+        following = np.where(last, target[:, None], np.roll(s[name], -1, axis=1))
+        gap = np.where(plans.used, np.abs(end - following), 0.0).max(axis=1) / unit
+        assert gap[good].max() < 1e-9, (name, gap[good].max())
+    if within:
+        peaks = np.where(
+            s["jerk"] != 0, s["velocity"] - s["acceleration"] ** 2 / (2 * s["jerk"] + (s["jerk"] == 0)), 0
+        )
+        inside = (s["acceleration"] * ends[2] < 0) & plans.used
+        for values in (np.where(plans.used, ends[1], 0), np.where(inside, peaks, 0)):
+            assert np.all((values <= c["v_max"][:, None] + 1e-9 * v_unit[:, None])[good])
+            assert np.all((values >= c["v_min"][:, None] - 1e-9 * v_unit[:, None])[good])
+        values = np.where(plans.used, ends[2], 0)
+        assert np.all((values <= c["a_max"][:, None] + 1e-9 * a_unit[:, None])[good])
+        assert np.all((values >= c["a_min"][:, None] - 1e-9 * a_unit[:, None])[good])
+    assert np.all(np.abs(s["jerk"]) <= c["jerk"][:, None])
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+def test_as_short_as_ruckigs(plan: Plan, start: str) -> None:
+    _check_segments(_check_against_ruckig(plan, _cases(1, 5000, start)), within=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+@pytest.mark.parametrize("seed", range(2, 8))
+def test_as_short_as_ruckigs_a_hundred_thousand_times(plan: Plan, start: str, seed: int) -> None:
+    _check_segments(_check_against_ruckig(plan, _cases(seed, 7000, start)), within=False)
+
+
+def test_limits_are_kept_from_starts_that_keep_them(plan: Plan) -> None:
+    cases = _cases(9, 20000, "within")
+    v0, a0, v_max, v_min = cases[:, 1], cases[:, 2], cases[:, 6], cases[:, 7]
+    kept = (v0 + a0 * a0 / 2 <= v_max) & (v0 - a0 * a0 / 2 >= v_min)
+    _check_segments(plan(cases[kept]), within=True)
+
+
+def test_units_do_not_matter(plan: Plan) -> None:
+    """Lengths from 1e-9 to 1e9, times from 1e-4 to 1e4: durations scale with the time."""
+    cases = _cases(10, 5000, "at")
+    random = np.random.default_rng(11)
+    length, time = 10 ** random.uniform(-9, 9, len(cases)), 10 ** random.uniform(-4, 4, len(cases))
+    powers = np.array([0, 1, 2, 0, 1, 2, 1, 1, 2, 2, 3])
+    scaled = plan(cases * length[:, None] / time[:, None] ** powers)
+    plain = plan(cases)
+    both = (scaled.result == PLANNED) & (plain.result == PLANNED)
+    assert np.count_nonzero(both) > 0.95 * len(cases)  # targets at a limit may round to beyond it
+    np.testing.assert_allclose(scaled.duration[both] / time[both], plain.duration[both], rtol=1e-6, atol=1e-6)
+    _check_segments(scaled, within=False)
+
+
+def test_nothing_to_do_takes_no_time(plan: Plan) -> None:
+    cases = _cases(12, 2000, "within")
+    cases[:, 3] = 0.0
+    cases[:, 4] = cases[:, 1]
+    cases[:, 2] = cases[:, 5] = 0.0
+    plans = plan(cases)
+    assert np.all(plans.result == PLANNED)
+    assert np.all(plans.duration == 0.0)
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "result"),
+    [
+        (1, np.nan, 1),
+        (3, np.inf, 1),
+        (6, 0.0, 2),
+        (7, 1.0, 2),
+        (8, -1.0, 2),
+        (9, np.nan, 2),
+        (10, 0.0, 2),
+        (10, np.inf, 2),
+        (4, 1e6, 3),
+        (5, 1e6, 4),
+    ],
+)
+def test_what_cannot_be_planned_is_said(plan: Plan, column: int, value: float, result: int) -> None:
+    cases = _cases(13, 1, "within")
+    cases[0, column] = value
+    assert plan(cases).result.tolist() == [result]
+
+
+STATES = """
+PROGRAM Main
+VAR
+    st0 : SM3_Trajectory.MotionState := (fPosition := 5.0, fVelocity := -2.0, fAcceleration := 1.0);
+    st1 : SM3_Trajectory.MotionState := (fPosition := 90.0, fVelocity := 3.0);
+    stLimits : SM3_Trajectory.Limits := (fVelocityMax := 20.0, fVelocityMin := -20.0,
+        fAccelerationMax := 50.0, fAccelerationMin := -30.0, fJerk := 200.0);
+    stTrajectory : SM3_Trajectory.Trajectory;
+    stState : SM3_Trajectory.MotionState;
+    afTimes : ARRAY [0..59] OF LREAL := {times};
+    afStates : ARRAY [0..179] OF LREAL;
+    i : INT;
+END_VAR
+SM3_Trajectory.PlanPosition(st0, st1, stLimits, stTrajectory);
+FOR i := 0 TO 59 DO
+    stState := SM3_Trajectory.StateAt(stTrajectory, afTimes[i]);
+    afStates[3 * i] := stState.fPosition;
+    afStates[3 * i + 1] := stState.fVelocity;
+    afStates[3 * i + 2] := stState.fAcceleration;
+END_FOR
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("order", ["rising", "any"])
+def test_states_are_ruckigs(order: str) -> None:
+    problem = ruckig.InputParameter(1)
+    values = (5.0, -2.0, 1.0, 90.0, 3.0, 0.0, 20.0, -20.0, 50.0, -30.0, 200.0)
+    for name, value in zip(RUCKIGS_INPUTS, values, strict=True):
+        setattr(problem, name, [value])
+    trajectory = ruckig.Trajectory(1)
+    ruckig.Ruckig(1).calculate(problem, trajectory)
+    times = np.linspace(0.0, trajectory.duration + 0.5, 60)  # the target's velocity goes on behind the end
+    if order == "any":
+        times = np.random.default_rng(1).permutation(times)
+    text = STATES.replace("{times}", "[" + ", ".join(repr(float(time)) for time in times) + "]")
+    with run(text, 1) as program:
+        states = np.array(program.numbers("Main.afStates")).reshape(60, 3)
+    expected = [[column[0] for column in trajectory.at_time(float(time))[:3]] for time in times]
+    np.testing.assert_allclose(states, expected, rtol=1e-9, atol=1e-9)
