@@ -64,7 +64,9 @@ if what == "kill":
     os.kill(os.getpid(), signal.SIGKILL)
 if what == "abort":
     os.abort()
-time.sleep(60)
+end = time.monotonic() + 60
+while plc.state != "exception" and time.monotonic() < end:
+    time.sleep(0.01)
 """
 
 
@@ -107,6 +109,38 @@ def test_the_next_process_tells_the_place_and_waits(folder: Path, whats: tuple[s
         entry = next(e for e in plc.log.since() if e.severity == "exception")
         assert "SIGSEGV" in entry.message
         assert "Destroy" in entry.message
+    finally:
+        plc.close()
+
+
+ABOVE = """PROGRAM PLC_PRG
+VAR n : DINT; END_VAR
+n := n + 1;
+IF n = 5 THEN Above(); END_IF
+END_PROGRAM
+FUNCTION Above : BOOL
+VAR here : ARRAY[0..9] OF BYTE; p : POINTER TO BYTE; i : DINT; END_VAR
+p := ADR(here);
+FOR i := 0 TO {count} DO p[i] := {value}; END_FOR
+Above := here[0] = 1;
+END_FUNCTION
+"""
+
+
+@pytest.mark.parametrize("count", [6_000, 3_000_000])
+@pytest.mark.parametrize("value", [0, 65, 255])
+def test_what_it_overwrites_above_its_stack_hides_no_reason(folder: Path, count: int, value: int) -> None:
+    """There lies what the C library and the kernel know of the thread; in the end there is no memory."""
+    package = build(ABOVE.format(count=count, value=value))
+    (folder / "package").write_bytes(package.to_bytes())
+    if process("download", folder) == 0:
+        return  # an exception of the application: the process lives
+    plc = booted(folder)
+    try:
+        report = plc.exception()
+        assert report is not None
+        assert report.name == "PROCESS_ENDED"
+        assert report.values["signal"] in ("SIGSEGV", "SIGBUS", "SIGILL", "SIGABRT")
     finally:
         plc.close()
 

@@ -31,6 +31,9 @@ ABORT_SIGNAL = 6
 _SA_SIGINFO, _SA_ONSTACK, _SA_NODEFER = 0x4, 0x08000000, 0x40000000
 SIGACTION_SIZE = 152
 _PRIO_INHERIT = 1
+_RSEQ_SIZE = 32
+"""Bytes that are registered at least; newer libraries say how many of them are in use."""
+_WORD = (1 << 64) - 1
 _MCL_CURRENT, _MCL_FUTURE, _MCL_ONFAULT = 1, 2, 4
 
 
@@ -283,6 +286,21 @@ def install_handler(signal: int, handler: int, previous: int, *, unmasked: bool)
         ctypes.c_int.from_buffer(action, 136).value |= _SA_NODEFER
     if libc.sigaction(signal, action, c_void_p(previous)):
         raise _error(f"sigaction({signal})")
+
+
+def restartable_sequences() -> tuple[int, int]:
+    """What the C library registers of each thread with rseq(2): offset from pthread_self, and size.
+
+    (0, 0) where it registers nothing, or pthread_self is not what the offset counts from.
+    """
+    if platform.machine() != "x86_64":
+        return 0, 0
+    try:
+        size = ctypes.c_uint.in_dll(libc, "__rseq_size").value
+        offset = ctypes.c_ssize_t.in_dll(libc, "__rseq_offset").value
+    except ValueError:
+        return 0, 0
+    return (offset & _WORD, max(size, _RSEQ_SIZE)) if size else (0, 0)
 
 
 def symbol_address(name: str) -> int:

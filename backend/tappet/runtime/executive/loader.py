@@ -58,6 +58,7 @@ HOST_FUNCTIONS = (
     "clock_gettime", "clock_nanosleep", "gettid", "getpid", "tgkill", "pthread_self",
     "pthread_getspecific", "pthread_setspecific", "pthread_sigmask",
     "pthread_mutex_lock", "pthread_mutex_trylock", "pthread_mutex_unlock", "sigaltstack", "signal", "prctl",
+    "syscall",
     "sem_post", "sem_wait", "abort", "calloc", "free", "_setjmp", "longjmp", "_longjmp",
     "__errno_location", "openat", "close", "read", "write", "lseek", "ftruncate", "fsync", "statx",
     "unlinkat", "renameat", "mkdirat", "fdopendir", "readdir", "closedir",
@@ -165,6 +166,7 @@ class Executive:
         registry["offsetFp"] = places.frame
         registry["offsetSp"] = places.stack
         registry["offsetAddress"] = posix.SIGNAL_ADDRESS_OFFSET
+        registry["rseqOffset"], registry["rseqSize"] = posix.restartable_sequences()
         mask = (1 << 64) - 1
         for signal in (*posix.FAULT_SIGNALS, posix.ABORT_SIGNAL, posix.WATCHDOG_SIGNAL):
             mask &= ~(1 << signal - 1)
