@@ -64,7 +64,12 @@ def _tools(page: Page) -> Iterator[str]:
 
 
 def _dialogs(page: Page) -> Iterator[str]:
-    for menu, entry in (("Project", "Add object"), ("Project", "Project information"), ("Help", "About")):
+    for menu, entry in (
+        ("Project", "Add object"),
+        ("Project", "Project information"),
+        ("File", "Print"),
+        ("Help", "About"),
+    ):
         choose_menu(page, menu, entry)
         page.wait_for_timeout(300)
         yield entry

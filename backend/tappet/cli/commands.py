@@ -80,6 +80,12 @@ COMMANDS = (
         "Compare two projects, or files of other systems; exit code 1 when they differ.",
     ),
     Command(
+        ("document",),
+        "document",
+        "document",
+        "Print a project as PDF or HTML: title page, contents, texts, tables.",
+    ),
+    Command(
         ("library", "list"),
         "library",
         "list_libraries",

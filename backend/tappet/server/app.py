@@ -18,6 +18,7 @@ from tappet.server.auth import routes as routes_auth
 from tappet.server.builds import routes as routes_build
 from tappet.server.comparisons import routes as routes_comparisons
 from tappet.server.docs import routes as routes_docs
+from tappet.server.documentation import routes as routes_documentation
 from tappet.server.events import routes as routes_events
 from tappet.server.exchange import routes as routes_exchange
 from tappet.server.flight import routes as routes_flight
@@ -65,6 +66,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_lsp.router,
     routes_projects.router,
     routes_exchange.router,
+    routes_documentation.router,
     routes_objects.router,
     routes_search.router,
     routes_history.router,

@@ -863,6 +863,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/documentation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Document Project
+         * @description The project, or objects of it, to be printed: title page, contents, texts with line numbers, tables.
+         *
+         *     A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them.
+         */
+        get: operations["document_project"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/export": {
         parameters: {
             query?: never;
@@ -7887,6 +7909,60 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DeletedObject"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    document_project: {
+        parameters: {
+            query?: {
+                format?: "pdf" | "html";
+                language?: "en" | "zh";
+                paper?: "a4" | "us-letter";
+                /** @description Only these objects with all below them; none: everything. */
+                object?: string[];
+                /** @description With a table of contents. */
+                contents?: boolean;
+                /** @description With tables of the variables. */
+                variables?: boolean;
+                /** @description With the places of all names, by name. */
+                cross_references?: boolean;
+                footer?: string;
+            };
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": Blob;
+                    "text/html": Blob;
                 };
             };
             /** @description The request was refused */

@@ -1,4 +1,4 @@
-import { FileDown, FileUp } from 'lucide-react';
+import { FileDown, FileUp, Printer } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { go } from '@/session/route';
@@ -58,6 +58,27 @@ const commands: Command[] = [
           projectId={context.projectId!}
           projectName={useProject.getState().projectName}
           selection={context.selection}
+          close={() => close()}
+        />
+      ));
+    },
+  },
+  {
+    id: 'file.print',
+    title: 'command.print',
+    icon: Printer,
+    menu: { menu: 'file', group: '2_exchange', order: 3 },
+    enabled: project,
+    run: async (context) => {
+      if (!(await saveEditors(context.dirtyPanels))) return;
+      const { PrintDialog } = await import('../documentation/PrintDialog');
+      const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(context.projectId!)) ?? [];
+      await openDialog((close) => (
+        <PrintDialog
+          projectId={context.projectId!}
+          projectName={useProject.getState().projectName}
+          selection={context.selection}
+          current={objects.find(({ id }) => id === context.activeEditor?.objectId) ?? null}
           close={() => close()}
         />
       ));

@@ -1,0 +1,107 @@
+"""A documentation as PDF, by typst: one wheel without libraries of the system, loaded when it is needed.
+
+The texts of the project are strings of a JSON file that the page reads; none of them is markup. The page sees
+its own folder only, and there is no network.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tempfile
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from tappet.documentation.document import Document, Listing, Table
+from tappet.project.errors import ProjectError
+
+_MISSING = re.compile(r"the text `\"(?P<text>(?:[^\"\\]|\\.)*)\"` could not be displayed")
+_BREAKABLE = 48
+"""Characters without a blank after which a line may break."""
+_NARROW = re.compile(rf"\S{{{_BREAKABLE}}}(?=\S)")
+_BLANKS = re.compile(r"^ +| {2,}")
+
+
+class PdfError(ProjectError):
+    """The PDF could not be made; HTML always can."""
+
+    code = "pdf"
+
+
+class MissingGlyphsError(PdfError):
+    """No font of this machine has some characters of the texts."""
+
+    code = "missing_glyphs"
+
+    def __init__(self, characters: str) -> None:
+        shown = characters[:20] + ("..." if len(characters) > 20 else "")
+        super().__init__(
+            f"No font of this machine can print {shown} ({len(characters)} different characters). Install "
+            "one that can, such as Noto Sans CJK SC (fonts-noto-cjk) for Chinese, or choose HTML, which is "
+            "shown with the fonts of the reader"
+        )
+        self.characters = characters
+
+
+def write_pdf(document: Document) -> bytes:
+    """The file. Raises MissingGlyphsError, which names the characters, and PdfError."""
+    import typst
+
+    page = files("tappet.documentation").joinpath("page.typ").read_bytes()
+    with tempfile.TemporaryDirectory(prefix="tappet-document-") as name:
+        folder = Path(name)
+        (folder / "data.json").write_text(json.dumps(_data(document)), encoding="utf-8")
+        (folder / "page.typ").write_bytes(page)
+        try:
+            # the archive standard PDF/A-2u refuses characters without a glyph instead of drawing boxes
+            made = typst.compile(folder / "page.typ", root=folder, pdf_standards=["a-2u"], pdf_tags=False)
+        except typst.TypstError as error:
+            lost = "".join(json.loads(f'"{match}"') for match in _MISSING.findall(error.diagnostic))
+            if lost:
+                raise MissingGlyphsError("".join(sorted(set(lost)))) from error
+            raise PdfError(f"The PDF could not be made: {error.message}; HTML always can") from error
+    assert isinstance(made, bytes), "one document is one file"
+    return made
+
+
+def _data(document: Document) -> dict[str, Any]:
+    """What the page reads."""
+    return {
+        "title": document.title,
+        "description": document.description,
+        "facts": document.facts,
+        "language": document.language,
+        "paper": document.paper,
+        "footer": document.footer,
+        "contents": document.contents,
+        "page": document.page,
+        "sections": [
+            {
+                "level": section.level,
+                "title": _wrapping(section.title),
+                "about": section.about,
+                "blocks": [_block(block) for block in section.blocks],
+            }
+            for section in document.sections
+        ],
+    }
+
+
+def _block(block: Any) -> tuple[str, str, tuple[str, ...], Any]:
+    if isinstance(block, Listing):
+        lines = [[(run.style, _kept(_wrapping(run.text))) for run in line] for line in block.lines]
+        return "listing", block.title, (), lines
+    if isinstance(block, Table):
+        return "table", block.title, block.heads, [[_wrapping(cell) for cell in row] for row in block.rows]
+    return "note", "", (), [block.text]
+
+
+def _wrapping(text: str) -> str:
+    """The text with places where a word may break that no line of the page holds."""
+    return _NARROW.sub(lambda match: match[0] + "\u200b", text) if len(text) > _BREAKABLE else text
+
+
+def _kept(text: str) -> str:
+    """A part of a line whose blanks stay as they are."""
+    return _BLANKS.sub(lambda match: "\u00a0" * len(match[0]), text)
