@@ -65,4 +65,5 @@ def test_docs_describe_every_operation(app: FastAPI, admin: TestClient) -> None:
     assert "<script" not in page
     document = admin.get("/api/v1/openapi.json").json()
     assert document["openapi"].startswith("3.1")
+    assert page.count("<td><code>role</code></td><td>admin</td>") > 3
     assert bare(app).get("/api/docs").status_code == 401

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 import pytest
 from fastapi import FastAPI
-from fastapi.dependencies.models import Dependant
 from fastapi.routing import RouteContext, iter_route_contexts
 from fastapi.testclient import TestClient
 from server_clients import PAGE, SOCKETS, bare, browser
 from starlette.testclient import WebSocketDenialResponse
 
-from tappet.server.audited import Audited
-from tappet.server.dependencies import RequireRole
+from tappet.server import openapi
+from tappet.server.auth.roles import Role
+from tappet.server.routing import least_role
 
 OPEN = {
     "/api/v1/health",
@@ -25,18 +24,6 @@ OPEN = {
     "/api/v1/openapi.json",
 }
 """Routes that anybody may ask."""
-
-
-def _dependants(dependant: Dependant) -> Iterator[Dependant]:
-    yield dependant
-    for inner in dependant.dependencies:
-        yield from _dependants(inner)
-
-
-def _minimum_role(context: RouteContext) -> str | None:
-    guards = (d.call for d in _dependants(context.dependant))
-    roles = [guard.role for guard in guards if isinstance(guard, RequireRole | Audited)]
-    return max(roles, key=lambda role: role.rank).value if roles else None
 
 
 def _guarded(app: FastAPI) -> list[RouteContext]:
@@ -50,8 +37,43 @@ def _url(path: str) -> str:
 
 
 def test_every_route_states_a_role(app: FastAPI) -> None:
-    silent = [c.path for c in _guarded(app) if _minimum_role(c) is None]
+    silent = [c.path for c in _guarded(app) if least_role(c.dependant) is None]
     assert silent == []
+
+
+OF_VIEWERS = {
+    "/api/v1/auth/logout",
+    "/api/v1/auth/password",
+    "/api/v1/auth/tokens",
+    "/api/v1/auth/tokens/{token_id}",
+    "/api/v1/me/settings/{key}",
+    "/api/v1/projects/{project_id}/applications/{application_id}/login",
+    "/api/v1/projects/{project_id}/applications/{application_id}/logout",
+    "/api/v1/projects/{project_id}/objects/{object_id}/view",
+    "/api/v1/runtimes/{runtime_id}/flight/read",
+    "/api/v1/runtimes/{runtime_id}/values/read",
+}
+"""Who only looks may do these, too: read with a body, look after what is their own."""
+
+
+def test_the_document_says_which_role_each_operation_needs(app: FastAPI) -> None:
+    open_to_all, by_viewers = set(), set()
+    for path, operations in openapi.document(app)["paths"].items():
+        for method, operation in operations.items():
+            roles = {role for way in operation["security"] for names in way.values() for role in names}
+            if not roles:
+                open_to_all.add(path)
+                continue
+            (role,) = roles
+            assert [list(way) for way in operation["security"]] == [["session"], ["token"]]
+            if method != "get" and role == "viewer":
+                by_viewers.add(path)
+            if path.startswith("/api/v1/users"):
+                assert role == "admin", path
+            if role == "operator":
+                assert path.startswith("/api/v1/runtimes/{runtime_id}/"), "operators run machines"
+    assert open_to_all == OPEN - {"/api/v1/openapi.json"}
+    assert by_viewers == OF_VIEWERS
 
 
 def test_every_route_refuses_strangers(app: FastAPI) -> None:
@@ -73,11 +95,27 @@ def test_every_route_refuses_strangers(app: FastAPI) -> None:
                 assert answer.json()["type"] == "urn:tappet:problem:unauthenticated"
 
 
-def test_every_route_refuses_the_role_below(app: FastAPI, as_role: dict[str, TestClient]) -> None:
-    below = {"operator": "viewer", "engineer": "operator", "admin": "engineer"}
+@pytest.mark.parametrize(
+    "kind", ["application/json", "multipart/form-data; boundary=b", "x-www-form-urlencoded"]
+)
+def test_nothing_is_read_of_what_strangers_send(app: FastAPI, kind: str) -> None:
+    client = bare(app)
     checked = 0
     for context in _guarded(app):
-        role = _minimum_role(context)
+        for method in set(context.methods or ()) & {"POST", "PUT", "PATCH"}:
+            answer = client.request(
+                method, _url(context.path or ""), content=b"{no \xff", headers={"Content-Type": kind}
+            )
+            assert answer.status_code == 401, (method, context.path, answer.text)
+            checked += 1
+    assert checked > 20
+
+
+def test_every_route_refuses_the_role_below(app: FastAPI, as_role: dict[str, TestClient]) -> None:
+    below = {Role.OPERATOR: "viewer", Role.ENGINEER: "operator", Role.ADMIN: "engineer"}
+    checked = 0
+    for context in _guarded(app):
+        role = least_role(context.dependant)
         if role not in below or not context.methods:
             continue
         for method in context.methods - {"HEAD"}:

@@ -6,7 +6,7 @@ Every route names its minimum role by taking `Viewer`, `Operator`, `Engineer` or
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, cast
 
 from fastapi import Depends
 from starlette.concurrency import run_in_threadpool
@@ -26,6 +26,9 @@ from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 from tappet.server.sockets import SessionWatch
+
+_IDENTITY = "tappet.identity"
+"""Where a request keeps who sent it, once that is known."""
 
 
 async def services_of(connection: HTTPConnection) -> Services:
@@ -81,11 +84,14 @@ async def session_watch(connection: HTTPConnection) -> SessionWatch:
 
 async def identify(connection: HTTPConnection) -> Identity | None:
     """Who asks, or None. Raises 401 problems for what is no credential, 403 for cookies of foreign pages."""
+    if (known := connection.scope.get(_IDENTITY)) is not None:
+        return cast(Identity, known)
     services: Services = connection.app.state.services
     credential = identities.credential_of(connection)
     if credential is not None:
         identities.check_request(connection, credential, services.settings)
-    return await optional_identity(connection)
+    who = connection.scope[_IDENTITY] = await optional_identity(connection)
+    return who
 
 
 class RequireRole:

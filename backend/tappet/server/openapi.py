@@ -6,11 +6,13 @@ from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from fastapi.routing import iter_route_contexts
 from pydantic import TypeAdapter
 
 from tappet.server.events.shapes import EventMessage, OpenObject
 from tappet.server.online.shapes import ClientMessage, ServerMessage
 from tappet.server.problems import MEDIA_TYPE
+from tappet.server.routing import least_role
 from tappet.server.runtimes import operations
 from tappet.server.shapes import ProblemDetails
 
@@ -21,6 +23,10 @@ _PROBLEM = {
 }
 PROBLEM_RESPONSES: dict[int | str, dict[str, Any]] = {"default": _PROBLEM, 422: _PROBLEM}
 """Responses of all routes."""
+WAYS_IN = {
+    "session": {"type": "apiKey", "in": "cookie", "name": "tappet_session"},
+    "token": {"type": "http", "scheme": "bearer"},
+}
 SOCKET_SHAPES: dict[str, Any] = {
     "ProblemDetails": ProblemDetails,
     "OnlineClientMessage": ClientMessage,
@@ -42,6 +48,16 @@ def _extra_schemas() -> dict[str, Any]:
     return schemas
 
 
+def _state_roles(app: FastAPI, paths: dict[str, Any]) -> None:
+    """Each operation says which role it needs, by its cookie or token; or that it needs none."""
+    for route in iter_route_contexts(app.routes):
+        for method in route.methods or ():
+            operation = paths.get(route.path, {}).get(method.lower())
+            if operation is not None:
+                role = least_role(route.dependant)
+                operation["security"] = [] if role is None else [{way: [role.value]} for way in WAYS_IN]
+
+
 def document(app: FastAPI) -> dict[str, Any]:
     """The whole document."""
     result = get_openapi(
@@ -55,11 +71,8 @@ def document(app: FastAPI) -> dict[str, Any]:
     for unused in ("HTTPValidationError", "ValidationError"):
         schemas.pop(unused, None)
     components["schemas"] = dict(sorted(schemas.items()))
-    components["securitySchemes"] = {
-        "session": {"type": "apiKey", "in": "cookie", "name": "tappet_session"},
-        "token": {"type": "http", "scheme": "bearer"},
-    }
-    result["security"] = [{"session": []}, {"token": []}]
+    components["securitySchemes"] = WAYS_IN
+    _state_roles(app, result["paths"])
     return result
 
 

@@ -6,7 +6,7 @@ import ipaddress
 from datetime import UTC, datetime, timedelta
 from typing import Annotated
 
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import Query, Request, Response
 from sqlalchemy import Connection
 from sqlalchemy.exc import DBAPIError
 from starlette.responses import RedirectResponse
@@ -36,10 +36,11 @@ from tappet.server.dependencies import (
 )
 from tappet.server.personal_settings import service as personal_settings
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 
-router = APIRouter(prefix="/auth", tags=["auth"])
+router = Router(prefix="/auth", tags=["auth"])
 
 
 def _client(request: Request) -> Client:

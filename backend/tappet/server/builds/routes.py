@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter
 from starlette.concurrency import run_in_threadpool
 
 from tappet.lang.diagnostic_translations import Language
@@ -30,9 +29,10 @@ from tappet.server.dependencies import (
 )
 from tappet.server.metrics.service import Metrics
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.source.service import check_wanted, source_setting, store_source
 
-router = APIRouter(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
+router = Router(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
 
 
 async def _build(

@@ -51,6 +51,8 @@ def _operation(method: str, path: str, operation: dict[str, Any]) -> str:
             content = response.get("content", {})
             shape = next((_type(c.get("schema", {})) for c in content.values()), "nothing")
             rows.append((f"answer {status}", shape, {}))
+    ways_in = [roles for way in operation.get("security", ()) for roles in way.values()]
+    rows.append(("role", escape(ways_in[0][0]) if ways_in else "none: open to all", {}))
     table = "".join(
         f"<tr><td><code>{escape(name)}</code></td><td>{shape}</td>"
         f"<td>{escape(facts.get('description') or '')}</td></tr>"

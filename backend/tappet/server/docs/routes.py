@@ -5,13 +5,14 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from fastapi import APIRouter, FastAPI, Request
+from fastapi import FastAPI, Request
 from starlette.responses import HTMLResponse, JSONResponse
 
 from tappet.server.dependencies import Viewer
 from tappet.server.docs import page as docs_page
+from tappet.server.routing import Router
 
-router = APIRouter(prefix="/api", include_in_schema=False)
+router = Router(prefix="/api", include_in_schema=False)
 
 
 @cache

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Query, WebSocket
+from fastapi import Query, WebSocket
 from starlette.concurrency import run_in_threadpool
 
 from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
+from tappet.server.routing import Router
 
-router = APIRouter(tags=["projects"])
+router = Router(tags=["projects"])
 
 
 @router.websocket("/events")

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
-from fastapi import APIRouter, Form, Query, UploadFile
+from fastapi import Form, Query, UploadFile
 from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
@@ -25,13 +25,14 @@ from tappet.server.exchange.shapes import ImportFormats, ImportPreview, ImportRe
 from tappet.server.problems import Problem
 from tappet.server.projects.replies import project_summary
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
+from tappet.server.routing import Router
 
 if TYPE_CHECKING:
     from tappet.project.exchange.importing import Imported
     from tappet.server.exchange.import_order import ImportOrder
     from tappet.server.exchange.uploads import Upload
 
-router = APIRouter(tags=["projects"])
+router = Router(tags=["projects"])
 MOST_ATTEMPTS = 5
 _KEYS = TypeAdapter(list[str])
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
 from tappet.server.dependencies import LinkDep, Viewer
 from tappet.server.flight.shapes import FlightReadOrder, PastValues
+from tappet.server.routing import Router
 from tappet.server.values import service as values
 
-router = APIRouter(prefix="/runtimes/{runtime_id}/flight", tags=["flight recorder"])
+router = Router(prefix="/runtimes/{runtime_id}/flight", tags=["flight recorder"])
 
 
 @router.post("/read")

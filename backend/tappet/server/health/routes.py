@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
 from sqlalchemy import select
 
 from tappet import __version__
 from tappet.server.dependencies import DatabaseDep
+from tappet.server.routing import Router
 from tappet.server.shapes import Reply
 
-router = APIRouter(tags=["health"])
+router = Router(tags=["health"])
 
 
 class Health(Reply):

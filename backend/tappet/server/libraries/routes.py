@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Annotated
 
-from fastapi import APIRouter, Query, UploadFile
+from fastapi import Query, UploadFile
 from fastapi.responses import Response
 from pydantic import TypeAdapter
 from starlette.concurrency import run_in_threadpool
@@ -32,9 +32,10 @@ from tappet.server.libraries.shapes import (
 )
 from tappet.server.problems import Problem, not_found
 from tappet.server.projects.routes import download
+from tappet.server.routing import Router
 from tappet.server.services import Services
 
-router = APIRouter(tags=["libraries"])
+router = Router(tags=["libraries"])
 _ITEMS = TypeAdapter(list[LibraryItem])
 Version = Annotated[str, Query(description="A version, or * for the newest one.")]
 

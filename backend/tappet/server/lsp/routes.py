@@ -5,16 +5,17 @@ from __future__ import annotations
 from functools import partial
 from typing import Annotated
 
-from fastapi import APIRouter, Query, WebSocket
+from fastapi import Query, WebSocket
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.store.records import UnknownProjectError
 from tappet.server.analysis.project import PROJECT_GONE
 from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
 from tappet.server.lsp import rpc
+from tappet.server.routing import Router
 from tappet.server.sockets import close_with_session, until_one_ends
 
-router = APIRouter(tags=["language"])
+router = Router(tags=["language"])
 
 NOT_TEXT = 1003
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 
-from fastapi import APIRouter
 from starlette.responses import PlainTextResponse
 
 from tappet.runtime.operations.tasks import ListTasks
@@ -12,9 +11,10 @@ from tappet.runtime.tasks import TaskStatistics
 from tappet.server.dependencies import ServicesDep, Viewer
 from tappet.server.metrics.service import CONTENT_TYPE
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 
-router = APIRouter(tags=["health"])
+router = Router(tags=["health"])
 PATIENCE_S = 2.0
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
 from tappet.project.store.records import ObjectContent
 from tappet.server.dependencies import Engineer, StoreDep, Viewer
 from tappet.server.objects.replies import object_detail, object_summary
@@ -20,9 +18,10 @@ from tappet.server.objects.shapes import (
 from tappet.server.problems import Problem
 from tappet.server.projects.replies import object_revision
 from tappet.server.projects.shapes import RevertTarget, Revision
+from tappet.server.routing import Router
 from tappet.server.shapes import Number
 
-router = APIRouter(prefix="/projects/{project_id}/objects", tags=["objects"])
+router = Router(prefix="/projects/{project_id}/objects", tags=["objects"])
 
 
 @router.get("")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Query, WebSocket
+from fastapi import Query, WebSocket
 
 from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
 from tappet.server.online.channel import OnlineChannel
+from tappet.server.routing import Router
 
-router = APIRouter(tags=["online"])
+router = Router(tags=["online"])
 
 
 @router.websocket("/online")

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path
+from fastapi import Body, Path
 from pydantic import JsonValue
 
 from tappet.server.dependencies import DatabaseDep, Viewer
 from tappet.server.personal_settings import service as personal_settings
+from tappet.server.routing import Router
 
-router = APIRouter(prefix="/me/settings", tags=["settings"])
+router = Router(prefix="/me/settings", tags=["settings"])
 Key = Annotated[
     str, Path(pattern=r"^[A-Za-z0-9._:-]{1,120}$", description="For example `layout.<project id>`.")
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 from urllib.parse import quote
 
-from fastapi import APIRouter, Form, Query, UploadFile
+from fastapi import Form, Query, UploadFile
 from fastapi.responses import Response
 
 from tappet.iec.languages import languages
@@ -26,9 +26,10 @@ from tappet.server.projects.shapes import (
     RevertTarget,
     Revision,
 )
+from tappet.server.routing import Router
 from tappet.server.shapes import Number
 
-router = APIRouter(tags=["projects"])
+router = Router(tags=["projects"])
 
 MAX_ARCHIVE_BYTES = 64 << 20
 """Largest archive that is taken; what it may unpack to is limited by `folder.archive`."""

@@ -11,7 +11,7 @@ from collections.abc import Awaitable, Callable, Iterable
 from typing import Any, TypeVar, get_type_hints
 
 import msgspec
-from fastapi import APIRouter, Depends, Request
+from fastapi import Depends, Request
 from starlette.responses import Response
 
 from tappet.runtime.operations import registry
@@ -23,6 +23,7 @@ from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import RequireRole, link_of
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.shapes import RuntimeState
 
@@ -31,9 +32,9 @@ REF = "#/components/schemas/{name}"
 _BRACES = re.compile(r"\{(\w+)\}")
 
 
-def router(kinds: Iterable[type[WireOperation[Any]]]) -> APIRouter:
+def router(kinds: Iterable[type[WireOperation[Any]]]) -> Router:
     """The routes of those operations that have one."""
-    routes = APIRouter(prefix="/runtimes/{runtime_id}")
+    routes = Router(prefix="/runtimes/{runtime_id}")
     for kind in kinds:
         rest = kind.rest
         if rest is None:

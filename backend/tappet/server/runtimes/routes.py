@@ -6,7 +6,7 @@ import uuid
 from datetime import UTC, datetime
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 from sqlalchemy import delete, insert
 
 from tappet.codegen.symbol_map import SymbolError
@@ -20,6 +20,7 @@ from tappet.server.dependencies import (
     Viewer,
 )
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.runtimes.shapes import (
     NewRuntime,
     RuntimeState,
@@ -29,7 +30,7 @@ from tappet.server.settings import LOCAL_RUNTIME
 from tappet.server.tables import runtimes as table
 from tappet.server.values import service as values
 
-router = APIRouter(prefix="/runtimes", tags=["runtimes"])
+router = Router(prefix="/runtimes", tags=["runtimes"])
 
 
 @router.get("")

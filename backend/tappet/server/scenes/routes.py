@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
 from pydantic import BaseModel, Field
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.scene import Scene
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.scenes.service import open_scene
 from tappet.server.settings import LOCAL_RUNTIME
 
-router = APIRouter(prefix="/projects/{project_id}/objects/{object_id}/view", tags=["objects"])
+router = Router(prefix="/projects/{project_id}/objects/{object_id}/view", tags=["objects"])
 
 
 class SceneOrder(BaseModel):

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
 from tappet.lang.coding_settings import LIMITS, OF_RULE, PREFIXES
 from tappet.lang.diagnostic_translations import Language, texts
 from tappet.lang.diagnostics import CODING_RULES, TABLE
 from tappet.server.builds.shapes import BuildReport
 from tappet.server.dependencies import CommissioningDep, Engineer, Viewer
+from tappet.server.routing import Router
 from tappet.server.static_analysis.shapes import CodingRule
 
-router = APIRouter(tags=["build"])
+router = Router(tags=["build"])
 
 
 @router.get("/static-analysis/rules")

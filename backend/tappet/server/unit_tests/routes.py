@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
 from tappet.server.dependencies import CommissioningDep, Engineer, ServicesDep
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.unit_tests.shapes import TestOrder, TestReport
 
-router = APIRouter(prefix="/projects/{project_id}/applications/{application_id}/tests", tags=["tests"])
+router = Router(prefix="/projects/{project_id}/applications/{application_id}/tests", tags=["tests"])
 
 
 @router.post("")

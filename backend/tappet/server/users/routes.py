@@ -6,7 +6,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 from sqlalchemy import Connection
 
 from tappet.server import audit
@@ -17,10 +17,11 @@ from tappet.server.auth.accounts import Account
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import Admin, DatabaseDep, Engineer, ServicesDep
 from tappet.server.problems import Problem
+from tappet.server.routing import Router
 from tappet.server.shapes import Number
 from tappet.server.users.shapes import AuditEntry, NewUser, User, UserChange
 
-router = APIRouter(tags=["users"])
+router = Router(tags=["users"])
 
 
 @router.get("/users")

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter
-
 from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import LinkDep, Viewer
+from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.values import service as values
 from tappet.server.values.service import Written
 from tappet.server.values.shapes import Forces, ReadOrder, UnforceOrder, Values, WriteOrder
 
-router = APIRouter(prefix="/runtimes/{runtime_id}", tags=["values"])
+router = Router(prefix="/runtimes/{runtime_id}", tags=["values"])
 
 
 def _recording(act: ActRecord, action: str, link: RuntimeLink) -> values.Begin:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Request, Response, WebSocket
+from fastapi import Request, Response, WebSocket
 from starlette.responses import RedirectResponse
 
 from tappet.server.dependencies import ServicesDep, SessionDep, Viewer
+from tappet.server.routing import Router
 from tappet.server.views.service import VIEW_POLICY
 
-router = APIRouter(prefix="/views", include_in_schema=False)
+router = Router(prefix="/views", include_in_schema=False)
 
 
 @router.get("/{view_id}")
