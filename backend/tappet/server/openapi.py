@@ -52,7 +52,7 @@ def _state_roles(app: FastAPI, paths: dict[str, Any]) -> None:
     """Each operation says which role it needs, by its cookie or token; or that it needs none."""
     for route in iter_route_contexts(app.routes):
         for method in route.methods or ():
-            operation = paths.get(route.path, {}).get(method.lower())
+            operation = paths.get(route.path or "", {}).get(method.lower())
             if operation is not None:
                 role = least_role(route.dependant)
                 operation["security"] = [] if role is None else [{way: [role.value]} for way in WAYS_IN]
