@@ -50,6 +50,7 @@ OF_VIEWERS = {
     "/api/v1/projects/{project_id}/applications/{application_id}/login",
     "/api/v1/projects/{project_id}/applications/{application_id}/logout",
     "/api/v1/projects/{project_id}/objects/{object_id}/view",
+    "/api/v1/projects/{project_id}/search",
     "/api/v1/runtimes/{runtime_id}/flight/read",
     "/api/v1/runtimes/{runtime_id}/values/read",
 }

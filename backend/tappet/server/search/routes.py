@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fastapi import APIRouter
-
 from tappet.project.model import Project
 from tappet.project.search.finding import find_in_project
 from tappet.project.search.pattern import Pattern, replacement
 from tappet.project.search.replacing import replace_in_project
 from tappet.project.store import Store
 from tappet.server.dependencies import Engineer, StoreDep, Viewer
+from tappet.server.routing import Router
 from tappet.server.search.library_search import find_in_libraries
 from tappet.server.search.replies import search_report
 from tappet.server.search.shapes import (
@@ -23,7 +22,7 @@ from tappet.server.search.shapes import (
 )
 from tappet.server.shapes import Number
 
-router = APIRouter(prefix="/projects/{project_id}", tags=["search"])
+router = Router(prefix="/projects/{project_id}", tags=["search"])
 
 
 @router.post("/search")
