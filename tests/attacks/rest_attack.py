@@ -26,6 +26,8 @@ NOBODY = "anybody"
 PHASES = ("coverage", "fuzzing", "stateful")
 AWAY = "urn:tappet:problem:runtime-not-connected"
 """Some make runtimes of addresses where none is."""
+SHADED = [f"/api/v1/projects/{name}" for name in ("import", "import-files", "preview-files")]
+"""Addresses that would be projects to other methods."""
 KNOWN = 0.8
 """How often a parameter of an address names what is there."""
 PLACES = {
@@ -198,6 +200,9 @@ def _schema(team: Team, *, seed: int, examples: int, phases: Sequence[str], oper
                 "ignored_auth": {"enabled": False},  # asked below for each answer, with the role
                 "positive_data_acceptance": {"enabled": False},  # names that are taken, files that are none
             },
+            "operations": [
+                {"include-path": SHADED, "checks": {"allow_header_conformance": {"enabled": False}}}
+            ],
             "phases": {name: {"enabled": name in phases} for name in ("examples", *PHASES)},
         }
     )

@@ -50,6 +50,7 @@ def by_words(name: str, seconds: float, folder: Path, start: int) -> int:
                 print(f"{name} {number - 1}: {error!r} at {place.filename}:{place.lineno}", flush=True)
         finally:
             signal.alarm(0)
+    target.finish()
     print(f"{name}: {number - start} inputs, {found} finds")
     return found
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from random import Random
 from typing import Any
 
@@ -171,7 +172,7 @@ def mutated_values(r: Random, seeds: list[bytes]) -> bytes:
         return mutated_bytes(r, seeds)
     value = msgpack.unpackb(seed[head:], raw=False, strict_map_key=False)
     for _ in range(r.choice((1, 1, 2, 5))):
-        _change(r, value)
+        change(r, value)
     return seed[:head] + bytes(msgpack.packb(value, use_bin_type=True))
 
 
@@ -182,20 +183,21 @@ def _holds_map(data: bytes) -> bool:
         return False
 
 
-def _change(r: Random, value: Any) -> None:
-    """Changes one part of a map or list in place."""
+def change(r: Random, value: Any, spice: Sequence[Any] | None = None) -> None:
+    """Changes one part of a map or list in place, sometimes to one of `spice`."""
+    values = _VALUES if spice is None else spice
     keys = list(value) if isinstance(value, dict) else list(range(len(value)))
     if not keys:
         return
     key = r.choice(keys)
     inner = value[key]
     if isinstance(inner, dict | list) and inner and r.randrange(5):
-        _change(r, inner)
+        change(r, inner, spice)
     elif r.randrange(6) == 0:
         del value[key]
     elif r.randrange(6) == 0 and isinstance(value, dict):
-        value[r.choice(("v", "id", "op", "x", 5))] = r.choice(_VALUES)
+        value[r.choice(("v", "id", "op", "x") if spice else ("v", "id", "op", "x", 5))] = r.choice(values)
     elif r.randrange(4) == 0:
         value[key] = value[r.choice(keys)]
     else:
-        value[key] = r.choice(_VALUES)
+        value[key] = r.choice(values)

@@ -8,11 +8,14 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from random import Random
 
 import byte_targets
+import door_targets
 import editor_targets
+from conversations import spoilt
 from mutations import mutated, mutated_bytes, mutated_values
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
@@ -109,6 +112,8 @@ class Target:
     run: Callable[[bytes], None]
     seeds: Callable[[], list[bytes]]
     mutate: Callable[[Random, list[bytes]], bytes] = mutated
+    finish: Callable[[], None] = lambda: None
+    """Behind the last input: what only shows then."""
 
 
 TARGETS = {
@@ -132,4 +137,8 @@ TARGETS = {
     "literal": Target(byte_targets.literal, byte_targets.literals),
     "editor": Target(editor_targets.editor, _programs),
     "messages": Target(editor_targets.messages, editor_targets.conversations),
+    **{
+        name: Target(run, door_targets.DOORS[name][1], spoilt, partial(door_targets.finish, name))
+        for name, run in door_targets.TALKS.items()
+    },
 }

@@ -5,9 +5,11 @@ from __future__ import annotations
 from random import Random
 
 import pytest
+from door_targets import DOORS
 from targets import TARGETS
 
 RUNS = {"compiler": 60, "checker": 120, "il": 120, "editor": 30, "messages": 30, "archive": 100}
+RUNS |= dict.fromkeys(DOORS, 50)
 
 
 def fuzz(name: str, start: int, count: int) -> None:
@@ -20,6 +22,7 @@ def fuzz(name: str, start: int, count: int) -> None:
             target.run(data)
         except Exception as error:
             raise AssertionError(f"{name} {number}: {error!r}\n{data.decode('utf-8', 'replace')}") from error
+    target.finish()
 
 
 @pytest.mark.parametrize("name", TARGETS)

@@ -190,10 +190,11 @@ class Station:
         """Somebody without login."""
         return Script(httpx.Client(base_url=self.base, timeout=60))
 
-    def browser(self) -> Script:
+    def browser(self, address: str = "127.0.0.1") -> Script:
         """A client that sends what the pages of the server send, and keeps cookies."""
         headers = {"X-Tappet-Client": "1", "Origin": self.origin}
-        return Script(httpx.Client(base_url=self.base, headers=headers, timeout=60))
+        transport = httpx.HTTPTransport(local_address=address)
+        return Script(httpx.Client(base_url=self.base, headers=headers, timeout=60, transport=transport))
 
     def script(self, secret: str) -> Script:
         """A program with a token."""

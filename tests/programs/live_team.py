@@ -10,6 +10,8 @@ from pathlib import Path
 from live_server import RUNTIME, Script, Station, station, until
 
 PASSWORD = "correct horse battery"
+OFFICE = "127.0.0.9"
+"""Where people log in: attacks from elsewhere lock nobody out there."""
 ROLES = ("viewer", "operator", "engineer", "admin")
 
 
@@ -35,7 +37,7 @@ class Team:
         self._made += 1
         name = {"username": f"{role}.{self._made}", "password": PASSWORD}
         self.boss.post("/users", {**name, "role": role}, 201)
-        page = self.plant.browser()
+        page = self.plant.browser(OFFICE)
         page.post("/auth/login", name)
         self.tokens[role] = page.post("/auth/tokens", {"name": role, "role": role}, 201)["secret"]
 
