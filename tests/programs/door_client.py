@@ -58,8 +58,14 @@ class Connection:
         self.ended = False
         self._socket = socket.create_connection((door.host, door.port), PAUSE_S, (door.source, 0))
         self._socket.setblocking(False)
+        self._poll = select.poll()
+        self._poll.register(self._socket)
         if asks:
-            self._ask(door)
+            try:
+                self._ask(door)
+            except DoorError:
+                self.close()
+                raise
 
     def _ask(self, door: Door) -> None:
         lines = {
@@ -82,9 +88,9 @@ class Connection:
         while rest and not self.ended:
             if time.monotonic() > end:
                 raise DoorError("what is sent is not taken")
-            _, ready, _ = select.select([self._socket], [self._socket], [], 1)
+            self._wait(select.POLLIN | select.POLLOUT)
             self._hear()
-            if ready and not self.ended:
+            if not self.ended:
                 try:
                     rest = rest[self._socket.send(rest[: 1 << 16]) :]
                 except BlockingIOError:
@@ -92,13 +98,20 @@ class Connection:
                 except OSError:
                     self.ended = True
 
+    def push(self, data: bytes) -> bool:
+        """Sends and never reads; False when the other side takes no more."""
+        try:
+            return self._socket.send(data) == len(data)
+        except OSError:
+            return False
+
     def until(self, sign: bytes) -> bool:
         """Waits for some bytes; whether they came before the end."""
         end = time.monotonic() + PAUSE_S
         while sign not in self.heard and not self.ended:
             if time.monotonic() > end:
                 raise DoorError(f"no answer; heard {len(self.heard)} bytes")
-            select.select([self._socket], [], [], 1)
+            self._wait(select.POLLIN)
             self._hear()
         return sign in self.heard
 
@@ -110,6 +123,10 @@ class Connection:
 
     def close(self) -> None:
         self._socket.close()
+
+    def _wait(self, events: int) -> None:
+        self._poll.modify(self._socket, events)
+        self._poll.poll(1000)
 
     def _hear(self) -> None:
         while not self.ended:

@@ -56,10 +56,10 @@ class Team:
         if self.boss.http.get(RUNTIME).status_code == 404:
             raise AssertionError("the local runtime was removed")
         until(lambda: self.boss.state()["connected"], "the local runtime is there")
-        self.boss.post(f"{RUNTIME}/values/unforce", {"expressions": None})
         if self.boss.state()["state"] != "run":
             self.boss.download()
             self.boss.wait_for_state("run")
+        self.boss.post(f"{RUNTIME}/values/unforce", {"expressions": None})
 
     def check_running(self) -> None:
         """The process of the server lives, and tasks of the application run their cycles."""
