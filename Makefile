@@ -36,7 +36,7 @@ test-all:
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
 FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \
-           editor messages
+           editor messages door-online door-events door-lsp door-view door-wire
 SECONDS ?= 300
 fuzz: $(VENV)/.ready
 	for name in $(FUZZ); do $(BIN)/python -m tests.fuzz $$name --seconds $(SECONDS) --to build/fuzz || exit 1; done

@@ -133,8 +133,8 @@ def _judge(result: Result, role: str, case: Case, answer: Any, failures: list[tu
         if role == NOBODY:
             refused = status == 401
         elif ROLES.index(needed) > ROLES.index(role):
-            # 401: the request before it ended the login; 400, 422: the body is no JSON, no form
-            refused = status in (401, 403) or (status in (400, 422) and not _readable(case))
+            # 401: the request before it ended the login; 400, 422: the body is no form, no JSON
+            refused = status in (400, 401, 403) or (status == 422 and not _readable(case))
         else:
             refused = True
         if not refused:

@@ -112,6 +112,8 @@ class Target:
     run: Callable[[bytes], None]
     seeds: Callable[[], list[bytes]]
     mutate: Callable[[Random, list[bytes]], bytes] = mutated
+    limit_s: int = 20
+    """An input that takes longer is a find."""
     finish: Callable[[], None] = lambda: None
     """Behind the last input: what only shows then."""
 
@@ -138,7 +140,7 @@ TARGETS = {
     "editor": Target(editor_targets.editor, _programs),
     "messages": Target(editor_targets.messages, editor_targets.conversations),
     **{
-        name: Target(run, door_targets.DOORS[name][1], spoilt, partial(door_targets.finish, name))
+        name: Target(run, door_targets.DOORS[name][1], spoilt, 300, partial(door_targets.finish, name))
         for name, run in door_targets.TALKS.items()
     },
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.scene import Scene
@@ -11,18 +11,19 @@ from tappet.server.problems import Problem
 from tappet.server.routing import Router
 from tappet.server.scenes.service import open_scene
 from tappet.server.settings import LOCAL_RUNTIME
+from tappet.server.shapes import Reply, Request
 
 router = Router(prefix="/projects/{project_id}/objects/{object_id}/view", tags=["objects"])
 
 
-class SceneOrder(BaseModel):
+class SceneOrder(Request):
     """How to show a scene."""
 
     runtime_id: str = Field(default=LOCAL_RUNTIME, description="Runtime whose values move the scene.")
     dark: bool = False
 
 
-class SceneAddress(BaseModel):
+class SceneAddress(Reply):
     """Where a view is shown; put it into a frame of a logged-in page."""
 
     path: str
