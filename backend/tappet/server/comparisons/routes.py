@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, UploadFile
+from fastapi import Query, UploadFile
 
 from tappet.project.compare.differences import Comparison, Difference
 from tappet.project.compare.ignoring import EVERYTHING_COUNTS, Ignoring
@@ -30,9 +30,10 @@ from tappet.server.comparisons.shapes import (
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES
+from tappet.server.routing import Router
 from tappet.server.services import Services
 
-router = APIRouter(prefix="/projects/{project_id}/comparisons", tags=["comparisons"])
+router = Router(prefix="/projects/{project_id}/comparisons", tags=["comparisons"])
 Flag = Annotated[bool, Query(description="Differences in nothing else are left out.")]
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
 from tappet.project.store import Store
 from tappet.server.dependencies import Engineer, StoreDep, Viewer
 from tappet.server.history.shapes import DeletedObject, UndoOutcome, UndoStep, UndoSteps
+from tappet.server.routing import Router
 
-router = APIRouter(prefix="/projects/{project_id}", tags=["objects"])
+router = Router(prefix="/projects/{project_id}", tags=["objects"])
 
 
 @router.get("/undo")
