@@ -9,7 +9,7 @@ from door_targets import DOORS
 from targets import TARGETS
 
 RUNS = {"compiler": 60, "checker": 120, "il": 120, "editor": 30, "messages": 30, "archive": 100}
-RUNS |= dict.fromkeys(DOORS, 50)
+RUNS |= dict.fromkeys(DOORS, 30)
 
 
 def fuzz(name: str, start: int, count: int) -> None:

@@ -56,10 +56,15 @@ class Team:
         if self.boss.http.get(RUNTIME).status_code == 404:
             raise AssertionError("the local runtime was removed")
         until(lambda: self.boss.state()["connected"], "the local runtime is there")
+        until(self._runs_unforced, "the application runs again", 120)
+
+    def _runs_unforced(self) -> bool:
+        """What the server knows of the state may be older than the last reset: then the PLC refuses."""
         if self.boss.state()["state"] != "run":
             self.boss.download()
             self.boss.wait_for_state("run")
-        self.boss.post(f"{RUNTIME}/values/unforce", {"expressions": None})
+        everything = {"expressions": None}
+        return self.boss.http.post(f"{RUNTIME}/values/unforce", json=everything).status_code == 200
 
     def check_running(self) -> None:
         """The process of the server lives, and tasks of the application run their cycles."""
