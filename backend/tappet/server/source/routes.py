@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter
 from starlette.concurrency import run_in_threadpool
 
 from tappet.server.audit import Act
@@ -13,10 +12,11 @@ from tappet.server.auth.roles import Role
 from tappet.server.dependencies import CommissioningDep, LinkDep, RuntimesDep, StoreDep
 from tappet.server.projects.replies import project_summary
 from tappet.server.projects.shapes import ProjectSummary
+from tappet.server.routing import Router
 from tappet.server.source.service import check_wanted, fetch_source, project_of, store_source
 from tappet.server.source.shapes import SourceOrder, SourceTarget, StoredSource
 
-router = APIRouter(tags=["runtimes"])
+router = Router(tags=["runtimes"])
 
 
 @router.post("/projects/{project_id}/applications/{application_id}/source-download")
