@@ -156,6 +156,26 @@ async def test_recorders_end_with_their_application() -> None:
         await asyncio.wait_for(drain(recorder), 20)
 
 
+async def test_a_recorder_that_nobody_waits_for_any_more_is_ended() -> None:
+    """A browser that goes on to other values before the answer has come; the PLC has 256 a connection."""
+    async with running() as (client, plc, _):
+        for number in range(subscriptions.MOST_RECORDERS + 50):
+            asked = asyncio.create_task(client.record([(0, 8)]))
+            for _ in range(number % 6):
+                await asyncio.sleep(0)
+            asked.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await (await asked).close()
+
+        async def ended() -> bool:
+            application = plc.application
+            assert application is not None
+            return not any(application.recorders.values()) and not client._endings and not client._orphans
+
+        await until(ended)
+        await (await client.record([(0, 8)])).close()
+
+
 async def test_wrong_token_is_refused_and_logged() -> None:
     async with serving() as (url, plc):
         for token in ("", "wrong", TOKEN[:-1]):

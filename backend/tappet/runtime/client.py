@@ -13,6 +13,7 @@ import asyncio
 import itertools
 from collections import deque
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Literal
@@ -26,7 +27,7 @@ from tappet.runtime import protocol
 from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.download import CHUNK, BeginDownload, CommitDownload, DownloadChunk
 from tappet.runtime.operations.life_cycle import GetInfo, Hello
-from tappet.runtime.operations.recording import EndRecord, Record
+from tappet.runtime.operations.recording import EndRecord, Record, Recording
 from tappet.runtime.operations.symbols import GetSymbols, LoadedSymbols
 from tappet.runtime.protocol import ProtocolError
 from tappet.runtime.recorder import Frame
@@ -133,6 +134,7 @@ class RuntimeClient:
         self._waiting: dict[int, asyncio.Future[Raw]] = {}
         self._recorders: dict[int, Recorder] = {}
         self._orphans: dict[int, list[protocol.FrameBatch]] = {}
+        self._endings: set[asyncio.Task[None]] = set()
         self._callbacks: list[Callable[[RuntimeEvent], None]] = []
         self._symbols: LoadedSymbols | None = None
         self._receiver: asyncio.Task[None] | None = None
@@ -306,12 +308,27 @@ class RuntimeClient:
         frames: int = 0,
     ) -> Recorder:
         """Frames of (offset, size) items (see the operation `Record`)."""
-        reply = await self.call(Record(list(items), task, divider, min_interval_ns, frames))
+        order = Record(list(items), task, divider, min_interval_ns, frames)
+        asked = asyncio.ensure_future(self.call(order))
+        try:
+            reply = await asyncio.shield(asked)
+        except asyncio.CancelledError:  # the runtime makes it all the same
+            ending = asyncio.create_task(self._end_unwanted(asked))
+            self._endings.add(ending)
+            ending.add_done_callback(self._endings.discard)
+            raise
         recorder = Recorder(self, reply.recorder, reply.data_size)
         self._recorders[recorder.number] = recorder
         for batch in self._orphans.pop(recorder.number, []):
             recorder.receive(batch)
         return recorder
+
+    async def _end_unwanted(self, asked: asyncio.Future[Recording]) -> None:
+        """Ends a recorder that nobody waits for any more."""
+        with suppress(ConnectionLost, RuntimeRefused):
+            number = (await asked).recorder
+            await self.call(EndRecord(number))
+            self._orphans.pop(number, None)
 
     async def end_record(self, recorder: Recorder) -> None:
         """Stop a recorder."""
