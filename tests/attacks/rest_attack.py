@@ -27,7 +27,7 @@ PHASES = ("coverage", "fuzzing", "stateful")
 AWAY = "urn:tappet:problem:runtime-not-connected"
 """Some make runtimes of addresses where none is."""
 SHADED = [f"/api/v1/projects/{name}" for name in ("import", "import-files", "preview-files")]
-"""Addresses that would be projects to other methods."""
+"""Addresses that would be projects to other methods. A revert names a revision, which a new project lacks."""
 KNOWN = 0.8
 """How often a parameter of an address names what is there."""
 PLACES = {
@@ -203,7 +203,11 @@ def _schema(team: Team, *, seed: int, examples: int, phases: Sequence[str], oper
                 "positive_data_acceptance": {"enabled": False},  # names that are taken, files that are none
             },
             "operations": [
-                {"include-path": SHADED, "checks": {"allow_header_conformance": {"enabled": False}}}
+                {"include-path": SHADED, "checks": {"allow_header_conformance": {"enabled": False}}},
+                {
+                    "include-path-regex": "/revert$",
+                    "checks": {"ensure_resource_availability": {"enabled": False}},
+                },
             ],
             "phases": {name: {"enabled": name in phases} for name in ("examples", *PHASES)},
         }

@@ -8094,6 +8094,7 @@ export interface operations {
                 };
                 content: {
                     "application/zip": Blob;
+                    "text/plain": string;
                 };
             };
             /** @description The request was refused */

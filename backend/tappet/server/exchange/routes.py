@@ -198,7 +198,14 @@ def export_plcopen(project_id: str, who: Viewer, store: StoreDep, objects: Objec
 @router.get(
     "/projects/{project_id}/export/st",
     response_class=Response,
-    responses={200: {"content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}}}},
+    responses={
+        200: {
+            "content": {
+                "application/zip": {"schema": {"type": "string", "format": "binary"}},
+                "text/plain": {"schema": {"type": "string"}},
+            }
+        }
+    },
 )
 def export_st(project_id: str, who: Viewer, store: StoreDep, objects: Objects = []) -> Response:  # noqa: B006
     """POUs, types and variable lists as ST: the text of a single one, else an archive of texts."""
