@@ -6,15 +6,16 @@ import threading
 from datetime import datetime
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 from fastapi.responses import Response
 
 from tappet.server.dependencies import StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.projects.routes import download
+from tappet.server.routing import Router
 from tappet.server.shapes import Line
 
-router = APIRouter(tags=["projects"])
+router = Router(tags=["projects"])
 MOST_AT_ONCE = 2
 PATIENCE_S = 60.0
 _PLACES = threading.BoundedSemaphore(MOST_AT_ONCE)
