@@ -15,7 +15,15 @@ import styles from './Exchange.module.css';
 import { FilesStep } from './FilesStep';
 import { ImportTree } from './ImportTree';
 import { compareImport } from './comparison';
-import { decisionsOf, existingRows, NOTHING_CHOSEN, withChoice, wrongNames, type ExistingRow } from './existing';
+import {
+  decisionsOf,
+  existingRows,
+  NOTHING_CHOSEN,
+  undecidedEntries,
+  withChoice,
+  wrongNames,
+  type ExistingRow,
+} from './existing';
 import { ExistingTable } from './ExistingTable';
 import { nodeForest, placesOf, proposedPlace } from './model';
 import { ReportView } from './ReportView';
@@ -158,7 +166,7 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
   }
   if (step.at === 'choose') {
     const { preview: found } = step;
-    const noteworthy = found.report.entries.filter((entry) => entry.outcome !== 'imported');
+    const noteworthy = undecidedEntries(found.report.entries, found.nodes);
     return (
       <FormDialog
         title={title}
@@ -196,7 +204,9 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
           <Button onClick={() => setChosen(new Set(found.nodes.map((node) => node.key)))}>{t('exchange.all')}</Button>
           <Button onClick={() => setChosen(new Set())}>{t('exchange.none')}</Button>
         </div>
-        <ImportTree forest={forest} chosen={chosen} search={search} change={setChosen} />
+        <div className={existing.length > 0 ? styles.short : undefined}>
+          <ImportTree forest={forest} chosen={chosen} search={search} change={setChosen} />
+        </div>
         {existing.length > 0 && (
           <ExistingTable
             rows={existing}

@@ -1,6 +1,14 @@
 import { describe, expect, it } from 'vitest';
 import type { ImportNode } from '@/api/types';
-import { decisionsOf, existingRows, NOTHING_CHOSEN, withChoice, wrongNames, type Choices } from './existing';
+import {
+  decisionsOf,
+  existingRows,
+  NOTHING_CHOSEN,
+  undecidedEntries,
+  withChoice,
+  wrongNames,
+  type Choices,
+} from './existing';
 import { nodeForest } from './model';
 
 type Existing = NonNullable<ImportNode['existing']>;
@@ -68,6 +76,19 @@ describe('objects that exist', () => {
         List: { act: 'rename', name: 'Other', texts: {} },
       },
     });
+  });
+
+  it('are no news of the preview', () => {
+    const entry = (outcome: 'changed' | 'imported', object: string) => ({
+      outcome,
+      object,
+      source: 'a.st',
+      line: 1,
+      text: '',
+      object_id: null,
+    });
+    const entries = [entry('changed', 'Pump'), entry('changed', 'Pause'), entry('imported', 'Other')];
+    expect(undecidedEntries(entries, forest.nodes)).toEqual([entries[1]]);
   });
 
   it('need names of their own', () => {

@@ -1,5 +1,5 @@
 /** Objects of an import whose names exist already: what becomes of each. Pure functions. */
-import type { ImportNode } from '@/api/types';
+import type { ImportEntry, ImportNode } from '@/api/types';
 import type { NodeForest } from './model';
 
 export type ExistingAct = NonNullable<ImportNode['existing']>['acts'][number];
@@ -88,6 +88,16 @@ export function wrongNames(rows: readonly ExistingRow[], taken: (row: ExistingRo
     seen.set(name, row.node.key);
   }
   return wrong;
+}
+
+/** What a preview has to say besides objects that exist: what becomes of these is decided in the preview. */
+export function undecidedEntries(entries: readonly ImportEntry[], nodes: readonly ImportNode[]): ImportEntry[] {
+  const decided = new Set(
+    nodes.filter(({ existing }) => existing).map((node) => `${node.source}:${node.line}:${node.name}`),
+  );
+  return entries.filter(
+    ({ outcome, source, line, object }) => outcome !== 'imported' && !decided.has(`${source}:${line}:${object}`),
+  );
 }
 
 export function withChoice(choices: Choices, key: string, choice: Choice): Choices {
