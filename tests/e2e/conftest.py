@@ -94,9 +94,10 @@ class Server:
         raise AssertionError("the server printed no new login link")
 
     def forget_settings(self) -> None:
-        """Windows, opened rows, watch lists, theme and language as a new user has them."""
+        """Windows, opened rows, watch lists, theme, language and test results as a new user has them."""
         with closing(sqlite3.connect(self.data / "data" / "tappet.sqlite", timeout=30.0)) as database:
             database.execute("DELETE FROM user_settings")
+            database.execute("DELETE FROM test_runs")
             database.commit()
 
 

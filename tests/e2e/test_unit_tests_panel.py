@@ -107,6 +107,26 @@ def test_what_failed_runs_again_and_the_others_keep_their_results(tested: Page) 
     expect(tested.get_by_text("0 not run", exact=True)).to_be_visible()
 
 
+def test_results_outlast_the_page_and_say_when_they_are_outdated(tested: Page) -> None:
+    tested.reload()
+    expect(suite(tested, "1 of 3")).to_be_visible()
+    expect(row(tested, "sum: expected 3, but was 2")).to_be_visible()
+    outdated = tested.get_by_text("The program has changed since")
+    expect(tested.get_by_text("project revision")).to_be_visible()
+    expect(outdated).to_have_count(0)
+    row(tested, "sum: expected 3").dblclick()
+    editor = implementation(tested)
+    expect(editor).to_contain_text("AssertEquals_INT(3")
+    editor.locator(".view-line").first.click()
+    tested.keyboard.press("Control+End")
+    tested.keyboard.type(" // later")
+    tested.keyboard.press("Control+s")
+    expect(outdated).to_be_visible()
+    tested.get_by_role("button", name="Run Tests", exact=True).click()
+    expect(outdated).to_have_count(0)
+    expect(suite(tested, "1 of 3")).to_be_visible()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("theme", "language"), [("dark", "en"), ("light", "en"), ("dark", "zh"), ("light", "zh")]

@@ -114,3 +114,63 @@ def test_a_test_with_an_exception_leads_to_its_place(admin: TestClient, project:
 def test_tests_that_do_not_run_cannot_be_cancelled(admin: TestClient, project: dict[str, str]) -> None:
     url = f"{PROJECTS}/{project['project']}/applications/{project['application']}/tests"
     assert admin.delete(url).status_code == 404
+
+
+def last_run(client: TestClient, ids: dict[str, str]) -> dict[str, Any] | None:
+    url = f"{PROJECTS}/{ids['project']}/applications/{ids['application']}/tests"
+    answer = client.get(url)
+    assert answer.status_code == 200, answer.text
+    found: dict[str, Any] | None = answer.json()
+    return found
+
+
+def test_the_last_run_is_kept(admin: TestClient, project: dict[str, str]) -> None:
+    assert last_run(admin, project) is None
+    report = run(admin, project)
+    kept = last_run(admin, project)
+    assert kept is not None
+    revision = admin.get(f"{PROJECTS}/{project['project']}").json()["revision"]
+    assert (kept["report"], kept["outdated"], kept["revision"]) == (report, False, revision)
+    assert kept["username"] == "admin"
+
+
+def test_the_last_run_is_outdated_once_what_it_tested_has_changed(
+    admin: TestClient, project: dict[str, str]
+) -> None:
+    run(admin, project)
+    url = f"{PROJECTS}/{project['project']}"
+    admin.patch(url, json={"description": "no text of the program"}).raise_for_status()
+    kept = last_run(admin, project)
+    assert kept is not None
+    assert not kept["outdated"]
+    good = admin.get(f"{url}/objects/{project['Good']}").json()
+    data = good["data"] | {"implementation": good["data"]["implementation"].replace("2, 1", "3, 1")}
+    change = {"base_revision": good["revision"], "data": data}
+    admin.put(f"{url}/objects/{project['Good']}", json=change).raise_for_status()
+    kept = last_run(admin, project)
+    assert kept is not None
+    assert kept["outdated"]
+
+
+def test_a_run_of_some_tests_keeps_the_results_of_the_others(
+    admin: TestClient, project: dict[str, str]
+) -> None:
+    run(admin, project)
+    run(admin, project, only=("FB_Sum_Test.Bad",))
+    kept = last_run(admin, project)
+    assert kept is not None
+    (suite,) = kept["report"]["suites"]
+    outcomes = {test["name"]: test["outcome"] for test in suite["tests"]}
+    assert outcomes == {"Good": "passed", "Bad": "failed", "Worse": "error"}
+    counts = {key: kept["report"][key] for key in ("total", "passed", "failed", "error", "skipped")}
+    assert counts == {"total": 3, "passed": 1, "failed": 1, "error": 1, "skipped": 0}
+    assert not kept["report"]["ok"]
+
+
+def test_errors_of_the_program_replace_the_results(admin: TestClient, project: dict[str, str]) -> None:
+    run(admin, project)
+    _add(admin, project["project"], project["suite"], "method", "Wrong", "METHOD Wrong", "TEST('x'); y := 1;")
+    report = run(admin, project, only=("FB_Sum_Test.Bad",))
+    kept = last_run(admin, project)
+    assert kept is not None
+    assert (kept["report"], kept["report"]["suites"]) == (report, [])

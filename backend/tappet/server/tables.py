@@ -1,4 +1,4 @@
-"""Database tables of accounts, audit and runtimes, beside those of the project store."""
+"""Database tables of accounts, audit, test runs and runtimes, beside those of the project store."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from sqlalchemy import (
     JSON,
     Boolean,
     Column,
+    Float,
     ForeignKey,
     Index,
     Integer,
@@ -91,6 +92,20 @@ audit = Table(
     Column("last_at", UtcDateTime, nullable=True),
     Index("ix_audit_action", "action"),
 )
+
+test_runs = Table(
+    "test_runs",
+    metadata,
+    Column("project_id", String(32), ForeignKey("projects.id", ondelete="CASCADE"), primary_key=True),
+    Column("application_id", String(32), primary_key=True),
+    Column("at", UtcDateTime, nullable=False),
+    Column("username", String(64), nullable=False),
+    Column("revision", Integer, nullable=False),
+    Column("digest", String(64), nullable=False),
+    Column("seconds", Float, nullable=False),
+    Column("report", JSON, nullable=False),
+)
+"""The last one of each application: the revision of the project, and the digest of what was tested."""
 
 runtimes = Table(
     "runtimes",

@@ -25,6 +25,7 @@ export const keys = {
   project: (projectId: string) => ['project', projectId] as const,
   objects: (projectId: string) => ['project', projectId, 'objects'] as const,
   object: (projectId: string, objectId: string) => ['project', projectId, 'object', objectId] as const,
+  testRuns: (projectId: string) => ['project', projectId, 'testRun'] as const,
   placement: ['placement'] as const,
   languages: ['languages'] as const,
   importFormats: ['importFormats'] as const,
@@ -50,6 +51,16 @@ export function objectQuery(projectId: string, objectId: string) {
   return queryOptions({
     queryKey: keys.object(projectId, objectId),
     queryFn: () => api.get('/api/v1/projects/{project_id}/objects/{object_id}', { params: { path } }),
+    staleTime: Infinity,
+  });
+}
+
+/** The last run of the unit tests of an application, and whether what it tested has changed since. */
+export function testRunQuery(projectId: string, applicationId: string) {
+  const path = { project_id: projectId, application_id: applicationId };
+  return queryOptions({
+    queryKey: [...keys.testRuns(projectId), applicationId],
+    queryFn: () => api.get('/api/v1/projects/{project_id}/applications/{application_id}/tests', { params: { path } }),
     staleTime: Infinity,
   });
 }

@@ -699,11 +699,17 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * Last Run
+         * @description The last run of the tests of the application, whoever started it; null before the first one.
+         */
+        get: operations["last_run"];
         put?: never;
         /**
          * Run Tests
          * @description Run the test suites of the application as it is stored, on simulated time, beside the server.
+         *
+         *     The report becomes that of the last run; with `only`, the other tests keep their results there.
          */
         post: operations["run_tests"];
         /**
@@ -5595,6 +5601,39 @@ export interface components {
             seconds: number;
         };
         /**
+         * TestRun
+         * @description The last run of the tests of an application.
+         */
+        TestRun: {
+            /**
+             * At
+             * Format: date-time
+             * @description When it ended.
+             */
+            at: string;
+            /**
+             * Outdated
+             * @description What was tested has changed since.
+             */
+            outdated: boolean;
+            report: components["schemas"]["TestReport"];
+            /**
+             * Revision
+             * @description Of the project that was tested.
+             */
+            revision: number;
+            /**
+             * Seconds
+             * @description What it took.
+             */
+            seconds: number;
+            /**
+             * Username
+             * @description Who started it.
+             */
+            username: string;
+        };
+        /**
          * TestSuite
          * @description One instance of a suite.
          */
@@ -7479,6 +7518,47 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["BuildReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    last_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestRun"] | null;
                 };
             };
             /** @description The request was refused */

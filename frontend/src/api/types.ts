@@ -51,6 +51,7 @@ export type LoginRelation = Schemas['Relation'];
 export type LoginAnswer = Schemas['LoginReport'];
 
 export type TestReport = Schemas['TestReport'];
+export type TestRun = Schemas['TestRun'];
 export type TestSuite = Schemas['TestSuite'];
 export type TestFailure = Schemas['TestFailure'];
 

@@ -68,6 +68,7 @@ function receive(projectId: string, message: EventMessage): void {
     keys.objects(projectId),
     (objects) => objects && applyChange(objects, message),
   );
+  void queryClient.invalidateQueries({ queryKey: keys.testRuns(projectId) });
   const key = objectQuery(projectId, message.object.id).queryKey;
   if (message.change === 'deleted') queryClient.removeQueries({ queryKey: key });
   else {

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from tappet.server.dependencies import CommissioningDep, Engineer, ServicesDep
+import time
+
+from starlette.concurrency import run_in_threadpool
+
+from tappet.server.builds.builder import Application
+from tappet.server.dependencies import DatabaseDep, Engineer, ServicesDep, StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.routing import Router
-from tappet.server.unit_tests.shapes import TestOrder, TestReport
+from tappet.server.unit_tests import last_runs
+from tappet.server.unit_tests.shapes import TestOrder, TestReport, TestRun
 
 router = Router(prefix="/projects/{project_id}/applications/{application_id}/tests", tags=["tests"])
+
+
+@router.get("")
+def last_run(
+    project_id: str, application_id: str, who: Viewer, store: StoreDep, database: DatabaseDep
+) -> TestRun | None:
+    """The last run of the tests of the application, whoever started it; null before the first one."""
+    application = Application.of(project_id, store.load(project_id), application_id)
+    return database.read(lambda db: last_runs.read(db, application))
 
 
 @router.post("")
@@ -16,12 +31,21 @@ async def run_tests(
     application_id: str,
     body: TestOrder,
     who: Engineer,
-    commissioning: CommissioningDep,
     services: ServicesDep,
 ) -> TestReport:
-    """Run the test suites of the application as it is stored, on simulated time, beside the server."""
-    application = await commissioning.application(project_id, application_id)
-    return await services.test_runs.run(application, body.filter, body.only)
+    """Run the test suites of the application as it is stored, on simulated time, beside the server.
+
+    The report becomes that of the last run; with `only`, the other tests keep their results there.
+    """
+    begun = time.perf_counter()
+    info, project = await run_in_threadpool(services.store.snapshot, project_id)
+    application = await run_in_threadpool(Application.of, project_id, project, application_id)
+    report = await services.test_runs.run(application, body.filter, body.only)
+    seconds = time.perf_counter() - begun
+    await services.database.write_async(
+        lambda db: last_runs.keep(db, application, info.revision, who.username, report, seconds, body.only)
+    )
+    return report
 
 
 @router.delete("", status_code=204)

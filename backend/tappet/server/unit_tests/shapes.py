@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Literal
 
 from pydantic import Field
@@ -79,3 +80,16 @@ class TestReport(Reply):
     problem: str | None = Field(description="Why nothing, or not everything, was run.")
     suites: list[TestSuite]
     diagnostics: list[Diagnostic] = Field(description="Errors of the program; nothing was run then.")
+
+
+class TestRun(Reply):
+    """The last run of the tests of an application."""
+
+    __test__ = False
+
+    at: datetime = Field(description="When it ended.")
+    username: str = Field(description="Who started it.")
+    revision: int = Field(description="Of the project that was tested.")
+    seconds: float = Field(description="What it took.")
+    outdated: bool = Field(description="What was tested has changed since.")
+    report: TestReport

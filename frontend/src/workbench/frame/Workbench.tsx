@@ -2,7 +2,7 @@ import { hasRole } from '@/project/kinds';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef, useState } from 'react';
 import type { SerializedDockview } from 'dockview-react';
-import { projectQuery, useObjects } from '@/api/queries';
+import { projectQuery, queryClient, testRunQuery, useObjects } from '@/api/queries';
 import type { ObjectSummary, ProjectSummary } from '@/api/types';
 import { loadNames, loadSetting, saveSetting } from '@/session/preferences';
 import { go } from '@/session/route';
@@ -151,6 +151,8 @@ function useActiveApplication(projectId: string, objects: readonly ObjectSummary
     if (!applications.some((application) => application.id === applicationId)) {
       useProject.setState({ applicationId: applications[0]?.id ?? null });
     } else if (applicationId) void saveSetting(`application.${projectId}`, applicationId).catch(() => undefined);
+    // The menu says at once whether there are tests to run again.
+    if (applicationId) void queryClient.prefetchQuery(testRunQuery(projectId, applicationId));
   }, [projectId, objects, applicationId]);
 }
 

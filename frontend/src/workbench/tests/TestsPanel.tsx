@@ -9,9 +9,10 @@ import {
   TriangleAlert,
 } from 'lucide-react';
 import { useMemo, useState, type KeyboardEvent } from 'react';
-import { keys, queryClient } from '@/api/queries';
-import type { ObjectSummary, TestFailure } from '@/api/types';
-import { useText } from '@/i18n';
+import { useQuery } from '@tanstack/react-query';
+import { keys, queryClient, testRunQuery } from '@/api/queries';
+import type { ObjectSummary, TestFailure, TestRun } from '@/api/types';
+import { useLanguage, useText } from '@/i18n';
 import { openObject } from '../docking/dock';
 import { useProject } from '@/project/openProject';
 import { runCommand } from '../run';
@@ -30,12 +31,16 @@ const OUTCOMES: readonly Outcome[] = ['passed', 'failed', 'error', 'skipped'];
 /** Results of the last test run: suites, tests, failures. Enter or a double click on a failure leads to its place. */
 export default function TestsPanel() {
   const t = useText();
-  const { last, filter } = useTests();
-  const { projectId, busy } = useProject();
+  const { filter } = useTests();
+  const { projectId, applicationId, busy } = useProject();
+  const { data: last, isPending } = useQuery({
+    ...testRunQuery(projectId ?? '', applicationId ?? ''),
+    enabled: projectId !== null && applicationId !== null,
+  });
   const [closed, toggleClosed] = useToggleSet<string>();
   const [onlyBad, setOnlyBad] = useState(false);
   const [current, setCurrent] = useState<string | null>(null);
-  const report = last?.projectId === projectId ? last.report : null;
+  const report = last?.report ?? null;
   const rows = useMemo(() => {
     const words = (failure: TestFailure) =>
       failure.expected === null
@@ -97,6 +102,7 @@ export default function TestsPanel() {
           </label>
         )}
       </div>
+      {last && <LastRun run={last} />}
       {report?.problem && (
         <div className={styles.problem} role="alert">
           {report.problem}
@@ -105,6 +111,7 @@ export default function TestsPanel() {
       {report ? (
         <div
           className={styles.tree}
+          data-outdated={last?.outdated || undefined}
           role="tree"
           tabIndex={0}
           aria-label={t('tests.title')}
@@ -122,12 +129,28 @@ export default function TestsPanel() {
             />
           ))}
         </div>
-      ) : (
+      ) : isPending ? null : (
         <Empty icon={FlaskConical} title={t('tests.none')} text={t('tests.noneText')}>
           {run}
         </Empty>
       )}
     </Panel>
+  );
+}
+
+/** Of when and of what the results are. */
+function LastRun({ run }: { run: TestRun }) {
+  const t = useText();
+  const language = useLanguage();
+  const at = useMemo(
+    () => new Intl.DateTimeFormat(language, { dateStyle: 'medium', timeStyle: 'medium' }).format(new Date(run.at)),
+    [language, run.at],
+  );
+  return (
+    <div className={styles.run} role="status">
+      {t('tests.ranAt', { at, revision: run.revision, name: run.username, seconds: run.seconds.toFixed(1) })}
+      {run.outdated && <strong>{t('tests.outdated')}</strong>}
+    </div>
   );
 }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { TestFailure, TestReport, TestSuite } from '@/api/types';
-import { namesOfBad, outcomeOf, rowsOf, withOthers, type Outcome } from './model';
+import { namesOfBad, outcomeOf, rowsOf, type Outcome } from './model';
 
 const failure = (message: string): TestFailure => ({
   message,
@@ -77,22 +77,5 @@ describe('a run of what was not good', () => {
       'A.t1',
       'B.t0',
     ]);
-  });
-
-  it('keeps the results of the others and counts again', () => {
-    const before = report(suite('A', ['passed', 'failed', 'skipped']), suite('B', ['error']));
-    const now = report(suite('A', ['skipped', 'passed', 'skipped']), suite('B', ['failed']));
-    const both = withOthers(before, now, ['A.t1', 'B.t0']);
-    expect(both.suites.map((one) => one.tests.map((test) => test.outcome))).toEqual([
-      ['passed', 'passed', 'skipped'],
-      ['failed'],
-    ]);
-    expect([both.total, both.passed, both.failed, both.error, both.skipped, both.ok]).toEqual([4, 2, 1, 0, 1, false]);
-    expect(withOthers(before, report(suite('A', ['passed', 'passed', 'passed'])), ['A.t1']).ok).toBe(true);
-  });
-
-  it('shows errors of the program as they are', () => {
-    const broken = { ...report(), problem: 'no' };
-    expect(withOthers(report(suite('A', ['failed'])), broken, ['A.t0'])).toBe(broken);
   });
 });

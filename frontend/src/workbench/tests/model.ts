@@ -1,8 +1,7 @@
 /** The results tree of a test run as the rows on screen; pure. */
 import type { Schemas, TestFailure, TestReport, TestSuite } from '@/api/types';
 
-type Result = Schemas['TestResult'];
-export type Outcome = Result['outcome'];
+export type Outcome = Schemas['TestResult']['outcome'];
 
 /** A suite, a test or a failure in the order of the tree. */
 export interface Row {
@@ -36,26 +35,6 @@ export function namesOfBad(report: TestReport): readonly string[] {
       .filter((test) => test.outcome === 'failed' || test.outcome === 'error')
       .map((test) => `${suite.name}.${test.name}`),
   );
-}
-
-/** A run of some tests, with the others as they were before. */
-export function withOthers(before: TestReport, now: TestReport, ran: readonly string[]): TestReport {
-  if (now.diagnostics.length > 0 || now.suites.length === 0) return now;
-  const chosen = new Set(ran);
-  const known = new Map<string, Result>();
-  before.suites.forEach((suite) => suite.tests.forEach((test) => known.set(`${suite.name}.${test.name}`, test)));
-  const suites = now.suites.map((suite) => ({
-    ...suite,
-    tests: suite.tests.map((test) => {
-      const name = `${suite.name}.${test.name}`;
-      return chosen.has(name) ? test : (known.get(name) ?? test);
-    }),
-  }));
-  const count = (outcome: Outcome) =>
-    suites.reduce((sum, suite) => sum + suite.tests.filter((test) => test.outcome === outcome).length, 0);
-  const [passed, failed, error, skipped] = [count('passed'), count('failed'), count('error'), count('skipped')];
-  const ok = failed + error === 0 && now.problem === null && suites.every((suite) => suite.failures.length === 0);
-  return { ...now, suites, ok, total: passed + failed + error + skipped, passed, failed, error, skipped };
 }
 
 /** What a failure says in one line: `sum: expected 3, but was 2` is built by `words`. */

@@ -4,13 +4,9 @@ import { lazy } from 'react';
 import { registerCommands } from '../commands';
 import { registerPanel } from '../panels';
 import { application, engineer, idle, when, type Condition } from '../conditions';
-import { namesOfBad } from './model';
-import { lastRunOf, runFailedTests, runTests } from './store';
+import { namesOfFailed, runFailedTests, runTests } from './store';
 
-const someFailed: Condition = ({ projectId }) => {
-  const last = lastRunOf(projectId);
-  return last && namesOfBad(last.report).length > 0 ? true : 'tests.noneFailed';
-};
+const someFailed: Condition = (context) => (namesOfFailed(context).length > 0 ? true : 'tests.noneFailed');
 
 export function registerTests(): void {
   registerPanel({

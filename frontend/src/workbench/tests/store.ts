@@ -1,6 +1,7 @@
-/** The last test run of the open project, and running one. */
+/** The last test run of an application, which the server keeps, and running one. */
 import { create } from 'zustand';
 import { api } from '@/api/client';
+import { queryClient, testRunQuery } from '@/api/queries';
 import type { TestReport } from '@/api/types';
 import { t } from '@/i18n';
 import type { CommandContext } from '../context';
@@ -8,21 +9,9 @@ import { saveEditors } from '../docking/close';
 import { showPanel } from '../docking/dock';
 import { buildFinished } from '../messages/store';
 import { useProject } from '@/project/openProject';
-import { namesOfBad, withOthers } from './model';
+import { namesOfBad } from './model';
 
-interface Run {
-  projectId: string;
-  applicationId: string;
-  report: TestReport;
-  seconds: number;
-}
-
-interface Tests {
-  last: Run | null;
-  filter: string;
-}
-
-export const useTests = create<Tests>(() => ({ last: null, filter: '' }));
+export const useTests = create<{ filter: string }>(() => ({ filter: '' }));
 
 export function setFilter(filter: string): void {
   useTests.setState({ filter });
@@ -35,14 +24,13 @@ export function runTests(context: CommandContext): Promise<void> {
 
 /** Runs the tests again that were not good; the others keep their results. */
 export function runFailedTests(context: CommandContext): Promise<void> {
-  const last = lastRunOf(context.projectId);
-  return last ? run(context, namesOfBad(last.report)) : Promise.resolve();
+  return run(context, namesOfFailed(context));
 }
 
-/** The last run of a project. */
-export function lastRunOf(projectId: string | null): Run | null {
-  const { last } = useTests.getState();
-  return last && last.projectId === projectId ? last : null;
+/** The tests of the active application that were not good in its last run. */
+export function namesOfFailed({ projectId, applicationId }: CommandContext): readonly string[] {
+  const last = projectId && applicationId && queryClient.getQueryData(testRunQuery(projectId, applicationId).queryKey);
+  return last ? namesOfBad(last.report) : [];
 }
 
 async function run(context: CommandContext, only: readonly string[]): Promise<void> {
@@ -55,13 +43,10 @@ async function run(context: CommandContext, only: readonly string[]): Promise<vo
   useProject.setState({ busy: { text: t('tests.running'), cancel } });
   const begun = performance.now();
   try {
-    const before = lastRunOf(projectId)?.report;
     const filter = only.length > 0 ? '' : useTests.getState().filter;
-    const now = await api.post(path, { params, body: { filter, only: [...only] } });
-    const report = before && only.length > 0 ? withOthers(before, now, only) : now;
-    const seconds = (performance.now() - begun) / 1000;
-    useTests.setState({ last: { projectId, applicationId, report, seconds } });
-    if (report.diagnostics.length > 0) showErrors(applicationId, report, seconds);
+    const report = await api.post(path, { params, body: { filter, only: [...only] } });
+    await queryClient.fetchQuery({ ...testRunQuery(projectId, applicationId), staleTime: 0 });
+    if (report.diagnostics.length > 0) showErrors(applicationId, report, (performance.now() - begun) / 1000);
   } finally {
     useProject.setState({ busy: null });
   }
