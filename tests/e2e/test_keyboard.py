@@ -5,7 +5,17 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
-from .workbench import implementation, open_object, open_project, text_of
+from .workbench import (
+    add_line,
+    implementation,
+    message_rows,
+    open_object,
+    open_panel,
+    open_project,
+    plc_prg,
+    status_bar,
+    text_of,
+)
 
 pytestmark = pytest.mark.e2e
 
@@ -63,3 +73,32 @@ def test_tab_leaves_a_text_when_asked_to(page: Page) -> None:
     assert text_of(editor) == before
     page.get_by_role("button", name="Tab: next field").click()
     expect(page.get_by_role("button", name="Tab: indent")).to_be_visible()
+
+
+def test_a_list_of_places_keeps_the_keyboard_until_enter(page: Page) -> None:
+    editor = plc_prg(page)
+    for name in ("nowhereA", "nowhereB"):
+        add_line(page, editor, f"{name} := 1;")
+    page.keyboard.press("F11")
+    panel = open_panel(page, "Messages")
+    first, second = (
+        message_rows(page).filter(has_text=f"'{name}'").first for name in ("nowhereB", "nowhereA")
+    )
+    open_object(page, "GVL_IO")
+    first.click()
+    grid = panel.get_by_role("grid")
+    expect(grid).to_be_focused()
+    expect(status_bar(page)).to_contain_text("Ln 2, Col")
+    page.keyboard.press("ArrowDown")
+    expect(second).to_have_attribute("aria-selected", "true")
+    expect(grid).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(status_bar(page)).to_contain_text("Ln 3, Col")
+    page.keyboard.press("End")
+    page.keyboard.type(" // here")
+    expect(editor).to_contain_text("nowhereA\xa0:=\xa01;\xa0//\xa0here")
+    first.dblclick()
+    expect(status_bar(page)).to_contain_text("Ln 2, Col")
+    page.keyboard.press("End")
+    page.keyboard.type(" // there")
+    expect(editor).to_contain_text("nowhereB\xa0:=\xa01;\xa0//\xa0there")

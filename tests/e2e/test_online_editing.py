@@ -205,6 +205,6 @@ def test_one_click_on_a_message_goes_to_its_place(page: Page) -> None:
     line = message_rows(page).filter(has_text="4").first
     editor.locator(".view-line").first.click()
     page.keyboard.press("Control+Home")
-    line.click()
+    line.dblclick()
     expect(page.get_by_text("Ln 4, Col")).to_be_visible()
     page.keyboard.press("Control+Z")

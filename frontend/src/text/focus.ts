@@ -19,6 +19,8 @@ export interface PanelTable {
 interface PanelEditors {
   editors: Partial<Record<Part, CodeEditor>>;
   active: Part;
+  /** Shows a place without having been entered. */
+  shown: Part | null;
   table: PanelTable | null;
   chosen: (() => readonly string[]) | null;
   prepare: Partial<Record<Part, () => boolean>>;
@@ -30,6 +32,7 @@ function panelOf(panelId: string): PanelEditors {
   const known = panels.get(panelId) ?? {
     editors: {},
     active: 'implementation' as const,
+    shown: null,
     table: null,
     chosen: null,
     prepare: {},
@@ -38,7 +41,7 @@ function panelOf(panelId: string): PanelEditors {
   return known;
 }
 
-/** Adds an editor of a panel; the status bar follows its cursor while it has the focus. */
+/** Adds an editor of a panel; the status bar follows its cursor while it is the one used last. */
 export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor): void {
   const panel = panelOf(panelId);
   panel.editors[part] = editor;
@@ -52,13 +55,21 @@ export function addPanelEditor(panelId: string, part: Part, editor: CodeEditor):
   };
   editor.onDidFocusEditorText(() => {
     panel.active = part;
+    panel.shown = null;
     panel.table = null;
     panel.chosen = null;
     report();
   });
   editor.onDidChangeCursorSelection(() => {
-    if (editor.hasTextFocus()) report();
+    if (editor.hasTextFocus() || panel.shown === part) report();
   });
+}
+
+/** A place is to be shown in this part while the keyboard is elsewhere: commands and the status bar go with it. */
+export function showPanelPart(panelId: string, part: Part): void {
+  const panel = panelOf(panelId);
+  panel.active = part;
+  panel.shown = part;
 }
 
 export function removePanelEditor(panelId: string, part: Part): void {

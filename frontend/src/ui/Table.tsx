@@ -19,8 +19,8 @@ interface TableProps<Item> {
   onSelect: (item: Item | null) => void;
   /** Double click and Enter. */
   onOpen?: (item: Item) => void;
-  /** A single click opens as well: lists of places to go to. */
-  opensOnClick?: boolean;
+  /** A single click, in lists of places to go to: shows the place, and the keyboard stays in the list. */
+  onShow?: (item: Item) => void;
   /** Keys the table itself does not know (Delete, Alt+Up ...). */
   onKey?: (event: KeyboardEvent, item: Item | undefined) => void;
   /** Context menu around the rows. */
@@ -29,7 +29,7 @@ interface TableProps<Item> {
 
 /** A virtualised table: any number of rows, keyboard, sorting by head, columns that can be dragged wider. */
 export function Table<Item>(props: TableProps<Item>) {
-  const { label, items, columns, keyOf, selected, onSelect, onOpen, onKey, empty } = props;
+  const { label, items, columns, keyOf, selected, onSelect, onOpen, onShow, onKey, empty } = props;
   const id = useId();
   const scroll = useRef<HTMLDivElement>(null);
   const [sorting, setSorting] = useState<Sorting | null>(null);
@@ -115,9 +115,7 @@ export function Table<Item>(props: TableProps<Item>) {
                   className={styles.row}
                   style={{ transform: `translateY(${entry.start}px)` }}
                   onPointerDown={() => onSelect(item)}
-                  onClick={
-                    props.opensOnClick === true && onOpen ? (event) => event.detail <= 1 && onOpen(item) : undefined
-                  }
+                  onClick={onShow && ((event) => event.detail <= 1 && onShow(item))}
                   onDoubleClick={onOpen && (() => onOpen(item))}
                 >
                   {columns.map((column) => (

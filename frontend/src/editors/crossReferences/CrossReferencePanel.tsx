@@ -108,11 +108,11 @@ export default function CrossReferencePanel() {
     ],
     [t],
   );
-  const jump = (row: Row) => {
+  const jump = (row: Row, focus: boolean) => {
     const object = objects?.find((candidate) => candidate.id === row.objectId);
     if (object === undefined) return;
     const { part, line, column, endColumn } = row;
-    openObject(object.id, object.name, { place: { part, line, column, endLine: line, endColumn } });
+    openObject(object.id, object.name, { focus, place: { part, line, column, endLine: line, endColumn } });
   };
 
   return (
@@ -155,8 +155,8 @@ export default function CrossReferencePanel() {
           keyOf={(row) => row.key}
           selected={selected}
           onSelect={(row) => setSelected(row?.key ?? null)}
-          onOpen={jump}
-          opensOnClick
+          onOpen={(row) => jump(row, true)}
+          onShow={(row) => jump(row, false)}
           empty={<Nothing asked={question !== null} busy={busy} filtered={rows.length > 0} name={name} />}
         />
       </PanelRest>

@@ -1,6 +1,6 @@
 import { useEffect } from 'react';
 import type { Reveal } from '@/project/editorProps';
-import { panelEditor, panelEditorOf, panelTable } from '@/text/focus';
+import { panelEditor, panelEditorOf, panelTable, showPanelPart } from '@/text/focus';
 
 /** Carries out a jump into an editor; the editor may appear a moment later (the table gives way to the text). */
 export function useReveal(panelId: string, reveal: Reveal | null): void {
@@ -17,6 +17,7 @@ export function useReveal(panelId: string, reveal: Reveal | null): void {
         return;
       }
       if (reveal.line !== undefined) {
+        if (!reveal.focus && reveal.part !== undefined) showPanelPart(panelId, reveal.part);
         const line = reveal.line;
         const column = reveal.column ?? 1;
         const end = { line: reveal.endLine ?? line, column: reveal.endColumn ?? column };

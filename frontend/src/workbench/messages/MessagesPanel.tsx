@@ -26,7 +26,7 @@ interface Line {
   key: string;
 }
 
-/** Compiler messages: filters, the table, the outcome of the last build. Enter or a click leads to the place. */
+/** Compiler messages: filters, the table, the outcome of the last build. A click shows the place, Enter or a double click leads there. */
 export default function MessagesPanel() {
   const t = useText();
   const { build, live, current } = useMessages();
@@ -136,7 +136,7 @@ export default function MessagesPanel() {
               selected={lines.find((line) => line.message === current)?.key ?? null}
               onSelect={(line) => setCurrent(line?.message ?? null)}
               onOpen={(line) => jumpTo(line.message)}
-              opensOnClick
+              onShow={(line) => jumpTo(line.message, false)}
               onKey={onKey}
               empty={<NoMessages built={build !== null} filtered={all.length > 0} />}
             />

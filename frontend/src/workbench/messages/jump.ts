@@ -7,8 +7,8 @@ import { useProject } from '@/project/openProject';
 import { hasPlace, presentMessages, setCurrent, useMessages } from './store';
 
 /** Opens the object a message is about, at its place. Messages about libraries or the application have none,
- *  nor have the lines of `{text}` pragmas. */
-export function jumpTo(message: Diagnostic): void {
+ *  nor have the lines of `{text}` pragmas. Without `focus` the keyboard stays where it is. */
+export function jumpTo(message: Diagnostic, focus = true): void {
   const { projectId } = useProject.getState();
   const objects = (projectId && queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId))) || [];
   const object = hasPlace(message) && objects.find((candidate) => candidate.id === message.object_id);
@@ -18,6 +18,7 @@ export function jumpTo(message: Diagnostic): void {
   }
   const { part, line, column, end_line, end_column } = message;
   openObject(object.id, object.name, {
+    focus,
     place: {
       part: part ?? undefined,
       line: line ?? undefined,

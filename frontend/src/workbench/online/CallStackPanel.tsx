@@ -129,7 +129,7 @@ function Report({ exception }: { exception: RuntimeException }) {
           selected={selected}
           onSelect={(line) => setSelected(line?.key ?? null)}
           onOpen={({ frame }) => jumpToFrame(frame)}
-          opensOnClick
+          onShow={({ frame }) => jumpToFrame(frame, false)}
           empty={<Empty title={t('exception.noStack')} />}
         />
         <Table

@@ -64,14 +64,14 @@ export function framePath(frame: CallFrame): string {
 }
 
 /** Opens the object of a frame at its line; a place in a library or in the system has none. */
-export function jumpToFrame(frame: CallFrame): void {
+export function jumpToFrame(frame: CallFrame, focus = true): void {
   const object = objectsNow().find((candidate) => candidate.id === frame.object_id);
   if (object === undefined) {
     notify({ tone: 'info', title: t('messages.noPlace'), text: framePath(frame) });
     return;
   }
   const place = { part: frame.part ?? undefined, line: frame.line ?? undefined };
-  openObject(object.id, object.name, { place });
+  openObject(object.id, object.name, { place, focus });
 }
 
 function objectsNow(): readonly ObjectSummary[] {
