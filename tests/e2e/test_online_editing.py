@@ -208,3 +208,18 @@ def test_one_click_on_a_message_goes_to_its_place(page: Page) -> None:
     line.dblclick()
     expect(page.get_by_text("Ln 4, Col")).to_be_visible()
     page.keyboard.press("Control+Z")
+
+
+def test_a_watched_variable_leads_to_its_declaration_and_its_uses(page: Page) -> None:
+    open_project(page)
+    open_object(page, "PLC_PRG")
+    log_in(page)
+    row = watch(page, "PLC_PRG.xRun")
+    row.get_by_role("gridcell").first.click(button="right")
+    page.get_by_role("menuitem", name=re.compile("^Cross References")).click()
+    uses = page.get_by_role("grid", name="Cross References").get_by_role("row")
+    expect(uses.filter(has_text="Declaration").first).to_be_visible()
+    row = watch(page, "PLC_PRG.xRun")
+    row.get_by_role("gridcell").first.click(button="right")
+    page.get_by_role("menuitem", name=re.compile("^Go to Definition")).click()
+    expect(page.locator(".dv-tab.dv-active-tab").filter(has_text="PLC_PRG")).to_be_visible()

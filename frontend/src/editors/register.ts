@@ -1,6 +1,7 @@
 /** What the editors add to the workbench; their components are loaded when the first object opens. */
 import { Waypoints } from 'lucide-react';
 import { lazy } from 'react';
+import { setSymbolActs } from '@/online/symbolActs';
 import { partUri } from '@/project/partUri';
 import { registerLanguage, type LanguageDescriptor } from '@/text/languages';
 import { setImportComparison } from '@/workbench/exchange/comparison';
@@ -32,6 +33,11 @@ export function registerEditors(): void {
   setQuickFixSource(async (message, show) => {
     const { quickFixesOfMessage } = await import('./text/quickFixes');
     return quickFixesOfMessage(message, show);
+  });
+  setSymbolActs({
+    goToDefinition: async (expression) => (await import('./crossReferences/expressions')).goToDefinitionOf(expression),
+    showCrossReferences: async (expression) =>
+      (await import('./crossReferences/expressions')).showCrossReferencesOf(expression),
   });
   setSymbolSource({
     project: async (projectId, query) => (await import('@/lsp/symbols')).projectSymbols(projectId, query),

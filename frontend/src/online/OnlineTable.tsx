@@ -18,6 +18,7 @@ import type { OnlineSession } from '@/workbench/onlineSession';
 import { NameCell } from './NameCell';
 import styles from './OnlineTable.module.css';
 import { PreparedCell, PreparedEditor } from './PreparedCell';
+import { symbolKey } from './rowMenu';
 import { togglePrepared } from './toggle';
 import { flatten, isExpandable, watchedExpressions, type OnlineRoot, type OnlineRow } from './treeRows';
 import { useItems } from './useItems';
@@ -85,6 +86,7 @@ export function OnlineTable(props: OnlineTableProps) {
     if (props.onKey?.(event, chosen) === true) return true;
     const cursor = selection.cursor;
     const row = cursor === null ? undefined : rows[cursor.row];
+    if (symbolKey(event, row)) return true;
     if (cursor === null || row === undefined) return false;
     if (columnOf(cursor) === 'expression' && isExpandable(row)) {
       if (event.key === 'ArrowRight' && row.open === false)

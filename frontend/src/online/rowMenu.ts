@@ -1,12 +1,23 @@
 /** Menu entries that every online table offers for its rows. */
-import { Copy, Eye, LockKeyhole, PencilLine } from 'lucide-react';
+import type { KeyboardEvent } from 'react';
+import { Copy, Eye, LockKeyhole, PencilLine, Search, Waypoints } from 'lucide-react';
 import type { t as Text } from '@/i18n';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { runCommand } from '@/workbench/run';
 import type { MenuEntry } from '@/ui/Menu';
 import { prepare, preparedLiteral } from './prepared';
+import { actOnSymbol } from './symbolActs';
 import type { OnlineRow } from './treeRows';
 import { addToList, useWatchLists, WATCH_LISTS } from './watch/lists';
+
+/** F12 and Alt+Shift+F12 as in editors. True when the key was one of them. */
+export function symbolKey(event: KeyboardEvent, row: OnlineRow | undefined): boolean {
+  if (event.key !== 'F12' || event.ctrlKey || event.altKey !== event.shiftKey || !row?.expression) return false;
+  event.preventDefault();
+  event.stopPropagation();
+  actOnSymbol(event.altKey ? 'showCrossReferences' : 'goToDefinition', row.expression);
+  return true;
+}
 
 export function commonEntries(t: typeof Text, session: OnlineSession | null, rows: readonly OnlineRow[]): MenuEntry[] {
   const expressions = rows.map((row) => row.expression).filter((expression) => expression !== '');
@@ -14,7 +25,28 @@ export function commonEntries(t: typeof Text, session: OnlineSession | null, row
   const runtimeId = session?.runtimeId ?? null;
   const prepared = runtimeId !== null && expressions.some((e) => preparedLiteral(runtimeId, e) !== null);
   const offline = runtimeId === null ? t('reason.notLoggedIn') : null;
+  const single = expressions.length === 1 ? expressions[0]! : null;
+  const one = single === null ? t('watch.selectOneLine') : null;
   return [
+    {
+      kind: 'item',
+      key: 'definition',
+      text: t('st.command.goToDefinition'),
+      icon: Search,
+      shortcut: 'F12',
+      disabledReason: one,
+      run: () => single !== null && actOnSymbol('goToDefinition', single),
+    },
+    {
+      kind: 'item',
+      key: 'crossReferences',
+      text: t('st.command.crossReferences'),
+      icon: Waypoints,
+      shortcut: 'Alt+Shift+F12',
+      disabledReason: one,
+      run: () => single !== null && actOnSymbol('showCrossReferences', single),
+    },
+    { kind: 'line', key: 'symbol-line' },
     {
       kind: 'item',
       key: 'write',

@@ -75,3 +75,27 @@ def test_an_address_is_found_in_declarations_and_statements() -> None:
 @pytest.mark.parametrize("name", ["", "  ", ".", "nothing", "%", "a.b.c", "("])
 def test_a_name_of_nothing_has_no_places(name: str) -> None:
     assert cross_references_of(project("").snapshot, name) == []
+
+
+@pytest.mark.parametrize(
+    ("expression", "symbol"),
+    [
+        ("PLC_PRG.fb.iCount", "FB.iCount"),
+        ("PLC_PRG.aFb[2].iCount", "FB.iCount"),
+        ("plc_prg.pFb^.icount", "FB.iCount"),
+        ("PLC_PRG.aPoint[1].rX", "Point.rX"),
+        ("PLC_PRG.aFb[2]", "PLC_PRG.aFb"),
+        ("GVL.iCount", "GVL.iCount"),
+    ],
+)
+def test_a_path_through_instances_names_what_its_last_name_means(expression: str, symbol: str) -> None:
+    head = "fb : FB; aFb : ARRAY[1..3] OF FB; pFb : POINTER TO FB; aPoint : ARRAY[0..1] OF Point;"
+    code = "aPoint[0].rX := 1.0; aFb[1](); iCount := 2;"
+    p = Project(
+        PLC_PRG=f"PROGRAM PLC_PRG\nVAR {head} END_VAR\n{code}|\nEND_PROGRAM",
+        Point="TYPE Point : STRUCT rX : REAL; END_STRUCT END_TYPE",
+        **OBJECTS,
+    )
+    found = cross_references_of(p.snapshot, expression)
+    assert {item.symbol for item in found} == {symbol}
+    assert [item.role for item in found].count("declaration") == 1

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from tappet.lang import ast
 from tappet.lang.lexer import ADDRESS, lex
+from tappet.lang.parser import parse_expression
 from tappet.lang.services.documents import Position
 from tappet.lang.services.occurrences import (
     Key,
@@ -16,10 +18,14 @@ from tappet.lang.services.occurrences import (
     occurrences,
     occurrences_of,
 )
+from tappet.lang.services.resolution import Scope, resolve
 from tappet.lang.services.results import CrossReference
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import Span, split_lines
 from tappet.lang.symbols import EnumValueSymbol, PouSymbol, Symbol, VarSymbol
+
+_SELECTED = re.compile(r"\[[^\]]*\]|\^")
+"""An element of an array, and what a pointer leads to."""
 
 
 def cross_references(snapshot: Snapshot, document: str, position: Position) -> list[CrossReference]:
@@ -37,19 +43,36 @@ def cross_references(snapshot: Snapshot, document: str, position: Position) -> l
 
 
 def cross_references_of(snapshot: Snapshot, name: str) -> list[CrossReference]:
-    """Where everything of a name is declared and used: `iCount`, `PLC_PRG.iCount`, `TON` or `%IX0.0`."""
-    path = [part for part in name.strip().upper().split(".") if part]
+    """Where everything of a name is declared and used: `iCount`, `PLC_PRG.iCount`, `TON` or `%IX0.0`.
+
+    Of a path through instances, `PLC_PRG.aValve[2].xOpen`, it is what the last name means.
+    """
+    path = [part for part in _SELECTED.sub("", name).strip().upper().split(".") if part]
     if name.strip().startswith("%"):
         return _of_address(snapshot, name.strip())
     if not path:
         return []
-    keys = _declared(snapshot, path)
+    meant = _meant(snapshot, name)
+    if meant is not None:
+        path, keys = [meant.name], {key for key in (key_of(meant),) if key is not None}
+    else:
+        keys = _declared(snapshot, path)
     named = re.compile(rf"(?<!\w){re.escape(path[-1])}(?!\w)", re.IGNORECASE)
     places: list[tuple[int, Occurrence]] = []
     for index, text in enumerate(snapshot.program.texts):
         if not text.read_only and named.search(text.source.text):
             places += [(index, item) for item in occurrences(snapshot, index) if item.key in keys]
     return _listed(snapshot, iter(places))
+
+
+def _meant(snapshot: Snapshot, expression: str) -> Symbol | None:
+    """What an expression of the application names; None for a plain name or one with its owner alone."""
+    found, faults = parse_expression(expression)
+    while isinstance(found, (ast.Index, ast.Deref)):
+        found = found.base
+    if faults or (isinstance(found, ast.Member) and isinstance(found.base, ast.Name)):
+        return None
+    return resolve(Scope(snapshot, None), found).symbol if isinstance(found, ast.Member) else None
 
 
 def _declared(snapshot: Snapshot, path: list[str]) -> set[Key]:
