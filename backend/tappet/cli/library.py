@@ -11,7 +11,7 @@ from pathlib import Path
 from tappet import libraries
 from tappet.cli.arguments import ArgumentParser
 from tappet.cli.errors import UsageError
-from tappet.cli.output import show_json
+from tappet.cli.output import counted, show_json
 from tappet.libraries import archive
 from tappet.libraries.archive import LibraryFileError
 from tappet.libraries.catalog import Item, Pin, items
@@ -110,7 +110,7 @@ def save(given: Namespace) -> int:
     if errors:
         return 1
     write_output(given.to, archive.pack(facts, texts))
-    print(f"{facts['name']} {given.version}: {len(texts)} objects in {given.to}")
+    print(f"{facts['name']} {given.version}: {counted(len(texts), 'object')} in {given.to}")
     return 0
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from tappet.cli.arguments import ArgumentParser
 from tappet.cli.errors import UsageError
 from tappet.cli.inputs import load_project
-from tappet.cli.output import show_json
+from tappet.cli.output import counted, show_json
 from tappet.libraries.missing import report_missing
 from tappet.project import folder
 from tappet.project.errors import ProjectError
@@ -130,7 +130,7 @@ def _show(project: Project, report: ImportReport, to: Path, output: str) -> None
     for entry in report.noteworthy():
         print(str(entry))
     said = f" ({report.summary()})" if report.entries else ""
-    print(f"{project.name}: {len(project.objects)} objects in {to}{said}")
+    print(f"{project.name}: {counted(len(project.objects), 'object')} in {to}{said}")
 
 
 def export_project_arguments(parser: ArgumentParser) -> None:
@@ -145,5 +145,5 @@ def export_project(given: Namespace) -> int:
     if to.suffix.lower() not in (".xml", ".zip"):
         raise UsageError(f"{to}: the name should end in .xml (PLCopen XML) or .zip (archive of the folder)")
     write_output(to, write_plcopen(project) if to.suffix.lower() == ".xml" else folder.write_zip(project))
-    print(f"{project.name}: {len(project.objects)} objects in {to}")
+    print(f"{project.name}: {counted(len(project.objects), 'object')} in {to}")
     return 0

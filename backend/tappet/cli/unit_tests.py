@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from tappet.cli.arguments import ArgumentParser, integer
 from tappet.cli.errors import UsageError, complain
-from tappet.cli.output import show_json
+from tappet.cli.output import counted, show_json
 from tappet.whole_file import write_output
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def _show(report: Report) -> None:
             _show_failure(failure)
     counts = ", ".join(f"{report.count(o)} {o}" for o in ("passed", "failed", "error", "skipped"))
     if not report.diagnostics:
-        print(f"{report.total} tests: {counts}")
+        print(f"{counted(report.total, 'test')}: {counts}")
     if report.problem:
         complain(report.problem)
 

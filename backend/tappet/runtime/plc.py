@@ -420,9 +420,8 @@ class SoftPlc(ApplicationAccess):
         if result.paused:
             self._note_flight(application)
         if result.lost_forces:
-            self.log.add(
-                "warning", "forces", f"{len(result.lost_forces)} forces released: their variables are gone"
-            )
+            released = len(result.lost_forces)
+            self.log.add("warning", "forces", f"forces released because their variables are gone: {released}")
             self._notify("forces")
         if result.report is not None:
             self._report = result.report

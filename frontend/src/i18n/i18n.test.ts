@@ -50,6 +50,36 @@ describe('texts', () => {
     }
   });
 
+  it('say one of a thing in the singular', () => {
+    // A value and a noun in the plural behind it. A text that is chosen by a count has its own form for one.
+    const plural = /({{\w+}}|\b1) (?:(?!of |has |does |in )[a-z]+ )?([a-z]{2,}(?<!s)s)\b/;
+    const verbs = [
+      'has',
+      'does',
+      'requires',
+      'exists',
+      'was',
+      'is',
+      'needs',
+      'begins',
+      'comes',
+      'runs',
+      'becomes',
+      'changes',
+    ];
+    const wrong = Object.entries(en).filter(([key, text]) => {
+      const noun = plural.exec(key.endsWith('_one') ? text.replace('{{count}}', '1') : text)?.[2];
+      return noun !== undefined && !verbs.includes(noun) && !(key.endsWith('_other') && base(key) + '_one' in en);
+    });
+    expect(wrong).toEqual([]);
+  });
+
+  it('are chosen by a count in all forms that the language has', () => {
+    const forms = new Intl.PluralRules('en').resolvedOptions().pluralCategories;
+    const counted = Object.keys(en).filter((key) => /_(one|other)$/.test(key));
+    for (const key of counted) for (const form of forms) expect(en, key).toHaveProperty([`${base(key)}_${form}`]);
+  });
+
   it('are not empty', () => {
     for (const [key, text] of [...Object.entries(en), ...Object.entries(zh)]) expect(text.trim(), key).not.toBe('');
   });

@@ -173,7 +173,7 @@ function checkString(text: string, quote: string, item: LiteralItem): LiteralRes
     return bad('online.literal.string', { text, quote });
   }
   const room = quote === '"' ? item.size / 2 - 1 : item.size - 1;
-  if (rest.length > room) return bad('online.literal.long', { length: rest.length, room });
+  if (rest.length > room) return bad('online.literal.long', { count: rest.length, room });
   if (quote === "'" && [...rest].some((c) => c > '\u00ff')) return bad('online.literal.narrow', { text });
   return good(quote + inside + quote);
 }

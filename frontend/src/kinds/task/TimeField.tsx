@@ -2,7 +2,7 @@ import { useState } from 'react';
 import { useText } from '@/i18n';
 import { Field, Select, TextInput } from '@/ui/Field';
 import styles from '@/editors/form/Form.module.css';
-import { intervalFrom, unitOf, type IntervalUnit } from './model';
+import { intervalFrom, intervalNs, shownInterval, unitOf, type IntervalUnit } from './model';
 
 interface TimeFieldProps {
   label: string;
@@ -12,7 +12,10 @@ interface TimeFieldProps {
   onValue: (value: string) => void;
 }
 
-/** A time as number and unit or as TIME literal (TASK-17); what was typed becomes its stored form when the field is left. */
+/**
+ * A time as number and unit (TASK-17), or typed as TIME literal; what was typed becomes its stored form when the field
+ * is left. Another unit shows the same time.
+ */
 export function TimeField({ label, value, error, disabled, onValue }: TimeFieldProps) {
   const t = useText();
   const [typed, setTyped] = useState<string | null>(null);
@@ -23,12 +26,7 @@ export function TimeField({ label, value, error, disabled, onValue }: TimeFieldP
     const stored = intervalFrom(text, as);
     if (stored === null) return;
     setTyped(null);
-    if (stored !== value) onValue(stored);
-  };
-  const changeUnit = (next: IntervalUnit) => {
-    setUnit(next);
-    const number = /^\d+$/.exec((typed ?? value).trim());
-    if (number) take(number[0], next);
+    if (intervalNs(stored) !== intervalNs(value)) onValue(stored);
   };
 
   return (
@@ -39,7 +37,7 @@ export function TimeField({ label, value, error, disabled, onValue }: TimeFieldP
             {...attributes}
             className={`${styles.narrow} code`}
             disabled={disabled}
-            value={typed ?? value}
+            value={typed ?? shownInterval(value, unit)}
             onValue={setTyped}
             onBlur={() => typed !== null && take(typed, unit)}
             onKeyDown={(event) => {
@@ -56,7 +54,7 @@ export function TimeField({ label, value, error, disabled, onValue }: TimeFieldP
               { value: 'ms', text: 'ms' },
               { value: 'us', text: 'µs' },
             ]}
-            onValue={changeUnit}
+            onValue={setUnit}
           />
         </div>
       )}

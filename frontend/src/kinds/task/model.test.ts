@@ -8,6 +8,7 @@ import {
   movedPou,
   taskFaults,
   timeLiteral,
+  shownInterval,
   unitOf,
 } from './model';
 
@@ -45,6 +46,13 @@ describe('times', () => {
   });
 
   it('are shown with the unit they were entered in', () => {
+    expect(shownInterval('t#20ms', 'ms')).toBe('20');
+    expect(shownInterval('T#1s500ms', 'ms')).toBe('1500');
+    expect(shownInterval('t#500us', 'ms')).toBe('0.5');
+    expect(shownInterval('t#20ms', 'us')).toBe('20000');
+    expect(shownInterval('300', 'us')).toBe('300');
+    expect(shownInterval('t#100ns', 'us')).toBe('t#100ns');
+    expect(shownInterval('soon', 'ms')).toBe('soon');
     expect(unitOf('300')).toBe('us');
     expect(unitOf('t#200ms')).toBe('ms');
     expect(intervalNs('300')).toBe(300_000);

@@ -43,6 +43,13 @@ export function intervalFrom(entry: string, unit: IntervalUnit): string | null {
   return timeLiteral(text) === null ? null : text;
 }
 
+/** A stored interval as a number of the unit that stands beside it; what is no whole or decimal number of it as it is. */
+export function shownInterval(interval: string, unit: IntervalUnit): string {
+  const ns = intervalNs(interval);
+  if (ns === null || ns % 1000 !== 0) return interval;
+  return String(ns / UNITS[unit]!);
+}
+
 /** Nanoseconds of a stored interval; null when it is none. */
 export function intervalNs(interval: string): number | null {
   return /^\d+$/.test(interval.trim()) ? Number(interval) * 1000 : timeLiteral(interval);

@@ -186,7 +186,7 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
         aside={
           <>
             <span className={styles.count}>
-              {t('exchange.chosen', { chosen: chosen.size, all: found.nodes.length })}
+              {t('exchange.chosen', { chosen: chosen.size, count: found.nodes.length })}
             </span>
             <Button disabledReason={abort ? t('reason.busy') : null} onClick={() => setStep({ at: 'files' })}>
               {t('exchange.back')}

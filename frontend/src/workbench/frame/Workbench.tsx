@@ -11,7 +11,7 @@ import { warnBeforeLeaving } from '../docking/close';
 import { DockArea } from '../docking/DockArea';
 import { restoreLayout } from '../docking/layout';
 import { openEvents, type ProjectEvents } from '../events';
-import { clearMessages } from '../messages/store';
+import { forgetBuild } from '../messages/store';
 import { compareLogin, followRelation } from '../online/relation';
 import { resumeLogins } from '../online/resume';
 import { useOnline } from '../onlineSession';
@@ -94,7 +94,7 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
     return () => {
       gone = true;
       selectObjects([]);
-      clearMessages();
+      forgetBuild();
       useOnline.setState({ sessions: {}, forces: {}, forcedPlaces: {} });
       useProject.setState({ projectId: null, projectName: '', applicationId: null, busy: null });
     };

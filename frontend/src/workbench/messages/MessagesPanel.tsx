@@ -17,7 +17,16 @@ import { messageEntries } from './messageMenu';
 import styles from './Messages.module.css';
 import { SeverityFilter } from './SeverityFilter';
 import { SeverityIcon } from './SeverityIcon';
-import { bytesText, clearMessages, countOf, pathParts, presentMessages, setCurrent, useMessages } from './store';
+import {
+  bytesText,
+  clearMessages,
+  countOf,
+  isMended,
+  pathParts,
+  presentMessages,
+  setCurrent,
+  useMessages,
+} from './store';
 
 const RANK: Record<Severity, number> = { error: 0, warning: 1, info: 2 };
 
@@ -34,6 +43,7 @@ export default function MessagesPanel() {
   const [search, setSearch] = useState('');
   const all = useMemo(() => presentMessages(build, live), [build, live]);
   const count = useMemo(() => countOf(all), [all]);
+  const mended = isMended(build, live);
   const lines = useMemo(() => {
     const wanted = search.trim().toLowerCase();
     return all
@@ -116,12 +126,14 @@ export default function MessagesPanel() {
           small
           icon={ListX}
           label={t('messages.clear')}
-          disabledReason={all.length || build ? null : t('messages.nothingToClear')}
+          disabledReason={all.length ? null : t('messages.nothingToClear')}
           onClick={clearMessages}
         />
         {build && (
-          <span className={styles.summary} data-ok={build.report.ok}>
-            {summary(build.applicationName, build.report, t)}
+          <span className={styles.summary} data-ok={mended ? undefined : build.report.ok}>
+            {mended
+              ? t('messages.mended', { name: build.applicationName })
+              : summary(build.applicationName, build.report, t)}
           </span>
         )}
       </PanelBar>

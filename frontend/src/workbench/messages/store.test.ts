@@ -1,6 +1,17 @@
 import { describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
-import { bytesText, countOf, hasPlace, pathParts, presentMessages, type BuildResult } from './store';
+import {
+  bytesText,
+  buildFinished,
+  clearMessages,
+  countOf,
+  hasPlace,
+  isMended,
+  pathParts,
+  presentMessages,
+  useMessages,
+  type BuildResult,
+} from './store';
 
 const message = (object_id: string | null, severity: Diagnostic['severity'], text = 'm'): Diagnostic => ({
   code: 'E0001',
@@ -34,6 +45,21 @@ describe('messages', () => {
 
   it('without an object stay until the next build', () => {
     expect(presentMessages(build(message(null, 'error')), new Map([['x', []]]))).toHaveLength(1);
+  });
+
+  it('are taken away without forgetting that the application was built', () => {
+    buildFinished(build(message('x', 'warning')));
+    clearMessages();
+    expect(useMessages.getState().build?.applicationName).toBe('A');
+    expect(presentMessages(useMessages.getState().build, new Map())).toEqual([]);
+  });
+
+  it('of a failed build hold no more once editors have found its errors gone', () => {
+    const failed = build(message('x', 'error'), message('y', 'warning'));
+    expect(isMended(failed, new Map())).toBe(false);
+    expect(isMended(failed, new Map([['x', [message('x', 'warning')]]]))).toBe(true);
+    expect(isMended({ ...failed, report: { ...failed.report, ok: true } }, new Map([['x', []]]))).toBe(false);
+    expect(isMended(null, new Map())).toBe(false);
   });
 
   it('have a place, except those of the application and the lines of {text} pragmas', () => {

@@ -39,8 +39,21 @@ export function publishDiagnostics(objectId: string, diagnostics: readonly Diagn
   useMessages.setState({ live });
 }
 
+/** Takes the messages away; that the application was built stays known. */
 export function clearMessages(): void {
+  const { build } = useMessages.getState();
+  const cleared = build && { ...build, report: { ...build.report, diagnostics: [] } };
+  useMessages.setState({ build: cleared, live: new Map(), current: null });
+}
+
+/** Another project is opened: nothing of it has been built. */
+export function forgetBuild(): void {
   useMessages.setState({ build: null, live: new Map(), current: null });
+}
+
+/** A build failed, and the editors have found since that its errors are gone: what it said holds no more. Pure. */
+export function isMended(build: BuildResult | null, live: ReadonlyMap<string, readonly Diagnostic[]>): boolean {
+  return build !== null && !build.report.ok && countOf(presentMessages(build, live)).error === 0;
 }
 
 /** All messages that hold now. Pure. */
