@@ -15,7 +15,7 @@ export interface LanguageBody {
   view: ComponentType<BodyProps>;
   /** Also shows bodies in languages that have no folder, as text. */
   showsOthers?: boolean;
-  /** Acts for commands, besides those of every text. */
+  /** Acts that change the body, for commands, besides those of every text; while logged in they ask first. */
   handlers?: (panelId: string, document: TextDocument) => Handlers;
   /**
    * The tokens that may stand for values, of a text that begins as the language does; null of any other text.

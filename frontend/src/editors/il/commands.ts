@@ -1,7 +1,7 @@
 /** Commands of bodies in IL; there only while such a body is what commands act on (spec 6: CMD-03, CMD-21). */
 import { activeHandler, useRegistry, type Command } from '@/workbench/commands';
 import type { CommandContext } from '@/workbench/context';
-import { mayEdit } from '@/workbench/rights';
+import { mayChangeText } from '@/workbench/rights';
 
 const offered = (id: string) => (context: CommandContext) =>
   activeHandler(id, context, useRegistry.getState().handlers) !== undefined;
@@ -15,7 +15,7 @@ export const ilCommands: readonly Command[] = [
     scope: 'editor',
     delegated: true,
     visible: offered('il.negate'),
-    enabled: mayEdit,
+    enabled: mayChangeText,
     menu: { menu: 'edit', group: '7_il', order: 1 },
   },
   {
@@ -25,7 +25,7 @@ export const ilCommands: readonly Command[] = [
     scope: 'editor',
     delegated: true,
     visible: offered('il.toggleNetwork'),
-    enabled: mayEdit,
+    enabled: mayChangeText,
     menu: { menu: 'edit', group: '7_il', order: 2 },
   },
 ];

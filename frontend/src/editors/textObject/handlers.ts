@@ -88,7 +88,12 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
         else if (place !== null) addToWatch(panel, place);
       },
     },
-    ...bodyOf(document.language).handlers?.(panelId, document),
+    ...Object.fromEntries(
+      Object.entries(bodyOf(document.language).handlers?.(panelId, document) ?? {}).map(([command, handler]) => [
+        command,
+        changing(handler),
+      ]),
+    ),
     'st.revisions': { run: () => revisions(panel) },
     'file.save': {
       run: async () => {
