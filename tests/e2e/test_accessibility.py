@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -22,18 +23,45 @@ from .workbench import (
 pytestmark = pytest.mark.e2e
 
 AXE = Path(__file__).parents[2] / "frontend/node_modules/axe-core/axe.min.js"
-RUN = """async () => {
+RUN = """async (part) => {
     const options = {
         runOnly: {type: 'tag', values: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']},
         resultTypes: ['violations'],
     };
     // The 3D scene is a page of its own and not ours.
-    const found = await axe.run({exclude: [['iframe']]}, options);
+    const here = part !== null && document.querySelector(part) !== null ? {include: [[part]]} : {};
+    const found = await axe.run({...here, exclude: [['iframe']]}, options);
     return found.violations
         .filter(({impact}) => impact === 'serious' || impact === 'critical')
         .flatMap(({id, help, nodes}) => nodes.map((node) => `${id}: ${help}: ${node.html.slice(0, 160)} `
             + `${node.any.map(({message}) => message).join('; ').slice(0, 200)}`));
 }"""
+
+
+OBJECTS_OF_ALL_KINDS = """async () => {
+    const headers = {'X-Tappet-Client': '1', 'Content-Type': 'application/json'};
+    const project = (await (await fetch('/api/v1/projects')).json())[0].id;
+    const path = `/api/v1/projects/${project}/objects`;
+    const rules = await (await fetch('/api/v1/placement')).json();
+    let before = -1;
+    for (let objects = []; objects.length > before;) {
+        before = objects.length;
+        objects = await (await fetch(path)).json();
+        for (const kind of new Set(rules.map((rule) => rule.kind))) {
+            if (objects.some((one) => one.kind === kind && one.name.startsWith('Axe'))) continue;
+            for (const parent of [...objects].reverse()) {
+                const made = await fetch(path, {method: 'POST', headers,
+                    body: JSON.stringify({kind, parent_id: parent.id, name: `Axe${kind}`})});
+                if (made.ok) break;
+            }
+        }
+        objects = await (await fetch(path)).json();
+    }
+    const found = await (await fetch(path)).json();
+    const first = new Map(found.map((one) => [`${one.kind}/${one.subkind}`, one.name]));
+    return [...first].map(([kind, name]) => ({kind, name}));
+}"""
+"""One object at least of every kind there is, with its name."""
 
 
 def _objects(page: Page) -> Iterator[str]:
@@ -107,10 +135,91 @@ def _online(page: Page) -> Iterator[str]:
     yield "GVL_IO online"
 
 
-def _serious(page: Page) -> list[str]:
+def _every_kind(page: Page) -> Iterator[str]:
+    kinds = page.evaluate(OBJECTS_OF_ALL_KINDS)
+    assert {"pou", "dut", "gvl", "interface", "method", "task", "device"} <= {
+        one["kind"].split("/")[0] for one in kinds
+    }
+    for one in kinds:
+        page.keyboard.press("Control+p")
+        page.get_by_role("combobox").last.fill(one["name"])
+        expect(page.get_by_role("option").first).to_be_visible()
+        page.keyboard.press("Enter")
+        expect(page.locator(".dv-tab").filter(has_text=one["name"]).first).to_be_visible()
+        page.wait_for_timeout(500)
+        yield f"editor of {one['kind']}"
+
+
+def _panel_entries(page: Page) -> list[str]:
+    """The entries of the View menu that show a panel."""
+    page.get_by_role("menuitem", name="View", exact=True).click()
+    entries = page.get_by_role("menu").get_by_role("menuitemcheckbox").all_inner_texts()
+    page.keyboard.press("Escape")
+    return [entry.split("\n")[0] for entry in entries if "Full" not in entry]
+
+
+def _every_panel(page: Page) -> Iterator[str]:
+    open_object(page, "PLC_PRG")
+    for online in (False, True):
+        if online:
+            log_in(page)
+        entries = _panel_entries(page)
+        assert len(entries) >= 8
+        for entry in entries:
+            page.get_by_role("menuitem", name="View", exact=True).click()
+            page.get_by_role("menuitemcheckbox", name=re.compile(f"^{re.escape(entry)}")).first.click()
+            page.wait_for_timeout(300)
+            yield f"{entry}, {'online' if online else 'offline'}"
+
+
+def _every_menu(page: Page) -> Iterator[str]:
+    open_object(page, "PLC_PRG")
+    for menu in page.get_by_role("menubar").get_by_role("menuitem").all_inner_texts():
+        page.get_by_role("menuitem", name=menu, exact=True).click()
+        yield f"menu {menu}"
+        page.keyboard.press("Escape")
+    for place in (tree_item(page, "PLC_PRG"), implementation(page).locator(".view-line").first):
+        place.click(button="right")
+        expect(page.get_by_role("menu").first).to_be_visible()
+        yield "context menu"
+        page.keyboard.press("Escape")
+    for key in ("Control+Shift+P", "Control+p"):
+        page.keyboard.press(key)
+        expect(page.get_by_role("option").first).to_be_visible()
+        yield f"palette by {key}"
+        page.keyboard.press("Escape")
+
+
+def _every_dialog(page: Page) -> Iterator[str]:
+    """What the entries open that end with three dots."""
+    open_object(page, "PLC_PRG")
+    dialog = page.get_by_role("dialog")
+    seen = 0
+    for menu in page.get_by_role("menubar").get_by_role("menuitem").all_inner_texts():
+        item = page.get_by_role("menuitem", name=menu, exact=True)
+        item.click()
+        entries = page.get_by_role("menu").get_by_role("menuitem").all_inner_texts()
+        page.keyboard.press("Escape")
+        for entry in (text.split("\n")[0] for text in entries if "…" in text and "Open Project" not in text):
+            item.click()
+            found = page.get_by_role("menu").get_by_role("menuitem", name=re.compile(f"^{re.escape(entry)}"))
+            if found.first.get_attribute("aria-disabled") == "true":
+                page.keyboard.press("Escape")
+                continue
+            found.first.click()
+            page.wait_for_timeout(500)
+            if dialog.count():
+                seen += 1
+                yield f"dialog {entry}"
+            page.keyboard.press("Escape")
+            expect(dialog).to_have_count(0)
+    assert seen >= 8
+
+
+def _serious(page: Page, part: str | None = None) -> list[str]:
     # Evaluated from outside: the policy of the page lets no foreign script in.
     page.evaluate(f"() => {{ if (!('axe' in window)) {{ {AXE.read_text(encoding='utf-8')} }} }}")
-    found: list[str] = page.evaluate(RUN)
+    found: list[str] = page.evaluate(RUN, part)
     return found
 
 
@@ -128,4 +237,26 @@ def test_nothing_serious(
         open_project(page)
         for name in views(page):
             found += [f"{name}: {line}" for line in _serious(page)]
+    assert found == [], "\n".join(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("theme", ["dark", "light"])
+@pytest.mark.parametrize(
+    "views",
+    [_every_kind, _every_panel, _every_menu, _every_dialog],
+    ids=lambda views: views.__name__.strip("_"),
+)
+def test_nothing_serious_anywhere(
+    browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]
+) -> None:
+    """Every kind of object, panel, menu and dialog that the workbench itself lists."""
+    with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
+        open_project(page)
+        found = []
+        for name in views(page):
+            # What floats lies over the rest, which has been looked at.
+            floating = "[role=dialog], [role=menu]"
+            part = floating if page.locator(floating).count() else "main"
+            found += [f"{name}: {line}" for line in _serious(page, part)]
     assert found == [], "\n".join(found)

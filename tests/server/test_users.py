@@ -17,7 +17,7 @@ from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
 
 from tappet.server import tables
-from tappet.server.auth.confusables import skeleton
+from tappet.server.auth.confusables import look_alike, skeleton
 from tappet.server.services import Services
 from tappet.server.sockets import SESSION_ENDED
 
@@ -73,6 +73,22 @@ def test_digits_and_letters_that_look_alike(admin: TestClient, one: str, other: 
 @given(st.text(max_size=20))
 def test_equal_names_have_equal_looks(name: str) -> None:
     assert skeleton(name) == skeleton(unicodedata.normalize("NFC", name)) == skeleton(skeleton(name))
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("maria", "rnaria"),  # a sequence that looks like a letter
+        ("ivan", "\u0399VAN"),  # Greek capital iota
+        ("paul", "pau\uff4c"),  # full width
+        ("bob", "b\u0585b"),  # Armenian oh
+        ("anna", "\U0001d41anna"),  # mathematical bold
+        ("li", "l\u0456"),  # Cyrillic
+        ("ab", "a\u200bb"),  # zero width
+    ],
+)
+def test_what_unicode_calls_confusable_looks_alike(one: str, other: str) -> None:
+    assert look_alike(one, other)
 
 
 def test_different_names_look_different() -> None:

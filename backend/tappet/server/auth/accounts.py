@@ -11,7 +11,7 @@ from sqlalchemy import Connection, Row, delete, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from tappet.server.auth import passwords
-from tappet.server.auth.confusables import skeleton
+from tappet.server.auth.confusables import look_alike
 from tappet.server.auth.passwords import WeakPasswordError
 from tappet.server.auth.roles import Role
 from tappet.server.problems import Problem, not_found
@@ -91,9 +91,8 @@ def check_password(password: str, username: str) -> None:
 
 def create(db: Connection, username: str, password_hash: str | None, role: Role, now: datetime) -> Account:
     """A new account; raises a 409 problem when the name is taken, or looks like that of another account."""
-    looks = skeleton(username)
     for other in db.scalars(select(users.c.username)):
-        if skeleton(other) == looks:
+        if look_alike(username, other):
             raise Problem(409, "name-taken", f"There already is a user '{other}', which looks the same.")
     user_id = uuid.uuid4().hex
     try:
