@@ -23,5 +23,13 @@ export function someContext(changes: Partial<CommandContext> = {}): CommandConte
 /** A login in the given state of the runtime. */
 export function someSession(state: RuntimeState['state'], changes: Partial<OnlineSession> = {}): OnlineSession {
   const runtime = { id: 'local', name: 'Local', connected: true, state } as RuntimeState;
-  return { applicationId: 'a', runtimeId: 'local', relation: 'same', runtime, lostSince: null, ...changes };
+  return {
+    applicationId: 'a',
+    runtimeId: 'local',
+    relation: 'same',
+    runtime,
+    lostSince: null,
+    pacedMs: null,
+    ...changes,
+  };
 }

@@ -6,17 +6,18 @@ import { OnlineChannel } from './channel';
 import type { SubscribedItem } from './item';
 
 class OnlineSocket extends FakeSocket {
-  answer(id: number, expressions: string[]) {
+  answer(id: number, expressions: string[], interval_ms = 100) {
     const items: SubscribedItem[] = expressions.map((expression, i) => ({
       expression, offset: i, size: 1, type: 'BOOL', kind: 'bool',
     })); // prettier-ignore
-    this.say({ op: 'subscribed', id, items });
+    this.say({ op: 'subscribed', id, items, interval_ms });
   }
 }
 
 function setUp() {
   const { sockets, timers, environment, elapse } = fakeSockets(() => new OnlineSocket());
   const log: string[] = [];
+  const paces: (number | null)[] = [];
   const board = new ValueBoard({ now: () => 0, soon: (run) => run() });
   const channel = new OnlineChannel(
     board,
@@ -25,10 +26,11 @@ function setUp() {
       state: (state: RuntimeState) => log.push(`state ${state.code_id ?? ''}`),
       forces: (paths) => log.push(`forces ${paths.join()}`),
       lost: () => log.push('lost'),
+      paced: (intervalMs) => paces.push(intervalMs),
     },
     environment,
   );
-  return { channel, board, sockets, timers, log, elapse };
+  return { channel, board, sockets, timers, log, paces, elapse };
 }
 
 describe('online channel', () => {
@@ -38,6 +40,23 @@ describe('online channel', () => {
     expect(sockets[0]?.sent).toEqual([]);
     sockets[0]?.accept();
     expect(sockets[0]?.sent).toEqual([{ op: 'subscribe', id: 1, expressions: ['P.a', 'P.b'], interval_ms: 100 }]);
+  });
+
+  it('says when values come at a longer interval than asked for, and when no longer', () => {
+    const { channel, sockets, paces } = setUp();
+    const socket = sockets[0]!;
+    socket.accept();
+    channel.watch(['P.a'], 100);
+    const large = channel.watch(['P.b'], 100);
+    socket.answer(1, ['P.a']);
+    socket.answer(2, ['P.b'], 400);
+    expect(paces.at(-1)).toBe(400);
+    socket.say({ op: 'paced', id: 1, interval_ms: 800 });
+    expect(paces.at(-1)).toBe(800);
+    large.release();
+    expect(paces.at(-1)).toBe(800);
+    socket.say({ op: 'paced', id: 1, interval_ms: 100 });
+    expect(paces.at(-1)).toBeNull();
   });
 
   it('ends the old subscription only when the new one is answered', () => {

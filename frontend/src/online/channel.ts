@@ -15,11 +15,15 @@ export interface ChannelEvents {
   state: (state: RuntimeState) => void;
   forces: (expressions: readonly string[], places: readonly ImagePlace[]) => void;
   lost: () => void;
+  /** The longest interval at which values come now in place of a shorter one that was asked for; null: all as asked. */
+  paced: (intervalMs: number | null) => void;
 }
 
 interface Group {
   expressions: readonly string[];
   intervalMs: number;
+  /** What the server gives: longer than asked where its user watches much. */
+  givenMs: number;
   /** Subscription number that delivers now, and the one asked for. */
   active: number | null;
   pending: number | null;
@@ -67,6 +71,7 @@ export class OnlineChannel {
     const group: Group = {
       expressions: distinct(expressions),
       intervalMs,
+      givenMs: intervalMs,
       active: null,
       pending: null,
       cancelUpdate: null,
@@ -99,7 +104,10 @@ export class OnlineChannel {
     }
     if (typeof data !== 'string') return;
     const message = JSON.parse(data) as { op?: string; [field: string]: unknown };
-    if (message.op === 'subscribed') this.subscribed(message.id as number, message.items as readonly SubscribedItem[]);
+    if (message.op === 'subscribed') {
+      this.subscribed(message.id as number, message.items as readonly SubscribedItem[]);
+      this.paced(message.id as number, message.interval_ms as number);
+    } else if (message.op === 'paced') this.paced(message.id as number, message.interval_ms as number);
     else if (message.op === 'forces')
       this.events.forces(message.expressions as readonly string[], message.places as readonly ImagePlace[]);
     else if (message.op === 'state') this.state(message);
@@ -125,6 +133,18 @@ export class OnlineChannel {
       this.board.open(id, items);
     }
     if (group.pending === id) group.pending = null;
+  }
+
+  private paced(id: number, intervalMs: number): void {
+    const group = this.byId.get(id);
+    if (group === undefined) return;
+    group.givenMs = intervalMs;
+    this.tellPace();
+  }
+
+  private tellPace(): void {
+    const longer = [...this.groups].filter((one) => one.givenMs > one.intervalMs).map((one) => one.givenMs);
+    this.events.paced(longer.length === 0 ? null : Math.max(...longer));
   }
 
   private subscribe(group: Group): void {
@@ -153,6 +173,7 @@ export class OnlineChannel {
     if (group.pending !== null) this.end(group.pending);
     if (group.active !== null) this.end(group.active);
     group.pending = group.active = null;
+    if (group.givenMs > group.intervalMs) this.tellPace();
   }
 
   private end(id: number): void {

@@ -1,6 +1,6 @@
 /** One channel for each runtime that an application is logged in to; they come and go with the logins. */
 import { socketUrl } from '@/api/client';
-import { connectionLost, forcesReceived, runtimeStateReceived, useOnline } from '@/workbench/onlineSession';
+import { connectionLost, forcesReceived, runtimeStateReceived, useOnline, valuesPaced } from '@/workbench/onlineSession';
 import { BROWSER_CLOCK, ValueBoard } from './board';
 import { OnlineChannel } from './channel';
 
@@ -11,6 +11,7 @@ function openChannel(runtimeId: string): OnlineChannel {
     state: (state) => runtimeStateReceived(runtimeId, state),
     forces: (expressions, places) => forcesReceived(runtimeId, expressions, places),
     lost: () => connectionLost(runtimeId),
+    paced: (intervalMs) => valuesPaced(runtimeId, intervalMs),
   });
 }
 

@@ -16,6 +16,8 @@ export interface OnlineSession {
   runtime: RuntimeState | null;
   /** Milliseconds since 1970 when the connection broke, null while it stands. */
   lostSince: number | null;
+  /** Milliseconds between values where the server gives them less often than asked for; null where it does not. */
+  pacedMs: number | null;
 }
 
 interface OnlineState {
@@ -29,7 +31,7 @@ interface OnlineState {
 export const useOnline = create<OnlineState>(() => ({ sessions: {}, forces: {}, forcedPlaces: {} }));
 
 export function loggedIn(applicationId: string, runtimeId: string, relation: LoginRelation): void {
-  const session: OnlineSession = { applicationId, runtimeId, relation, runtime: null, lostSince: null };
+  const session: OnlineSession = { applicationId, runtimeId, relation, runtime: null, lostSince: null, pacedMs: null };
   useOnline.setState((state) => ({ sessions: { ...state.sessions, [applicationId]: session } }));
 }
 
@@ -63,6 +65,11 @@ export function runtimePolled(runtimeId: string, runtime: RuntimeState): void {
 /** The online socket lost a runtime; values are frozen from now on. */
 export function connectionLost(runtimeId: string, since: number = Date.now()): void {
   change((session) => session.runtimeId === runtimeId && session.lostSince === null, { lostSince: since });
+}
+
+export function valuesPaced(runtimeId: string, pacedMs: number | null): void {
+  const differs = (session: OnlineSession) => session.runtimeId === runtimeId && session.pacedMs !== pacedMs;
+  if (Object.values(useOnline.getState().sessions).some(differs)) change(differs, { pacedMs });
 }
 
 export function forcesReceived(runtimeId: string, paths: readonly string[], places: readonly ImagePlace[]): void {

@@ -3,6 +3,7 @@ import {
   CloudOff,
   CloudUpload,
   Equal,
+  Hourglass,
   LockKeyhole,
   OctagonAlert,
   TriangleAlert,
@@ -45,6 +46,7 @@ export function StatusBar() {
         <>
           <RuntimeItem session={session} />
           <TaskItem runtimeId={session.runtimeId} />
+          <PaceItem pacedMs={session.pacedMs} />
           <RelationItem relation={session.relation} />
           <ForceItem runtimeId={session.runtimeId} />
           <ExceptionItem session={session} />
@@ -130,6 +132,21 @@ function RelationItem({ relation }: { relation: LoginRelation }) {
     <Tooltip text={t(`relation.${relation}`)} side="top">
       <span className={`${styles.item} ${className}`}>
         <Icon size={14} aria-label={t(`relation.${relation}`)} />
+      </span>
+    </Tooltip>
+  );
+}
+
+/** Values come less often than asked for: who watches much gets them so, others do not. */
+function PaceItem({ pacedMs }: { pacedMs: number | null }) {
+  const t = useText();
+  if (pacedMs === null) return null;
+  const text = t('status.paced', { interval: microsText(pacedMs * 1000) });
+  return (
+    <Tooltip text={text} detail={t('status.pacedText')} side="top">
+      <span className={`${styles.item} ${styles.warn}`} tabIndex={0}>
+        <Hourglass size={13} aria-hidden />
+        {text}
       </span>
     </Tooltip>
   );
