@@ -8,6 +8,7 @@ const session = (runtimeId: string): OnlineSession => ({
   relation: 'same',
   runtime: null,
   lostSince: null,
+  pacedMs: null,
 });
 
 describe('runtime of a scene', () => {

@@ -26,6 +26,7 @@ const session = (applicationId: string, raised: RuntimeException | null): Online
   relation: 'same',
   runtime: { exception: raised } as RuntimeState,
   lostSince: null,
+  pacedMs: null,
 });
 
 describe('exceptions', () => {

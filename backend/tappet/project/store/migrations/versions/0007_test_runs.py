@@ -3,8 +3,8 @@
 from alembic import op
 from sqlalchemy import JSON, Column, DateTime, Float, ForeignKey, Integer, String
 
-revision = "0006_test_runs"
-down_revision = "0005_audit_results"
+revision = "0007_test_runs"
+down_revision = "0006_undone_changes"
 branch_labels = None
 depends_on = None
 
