@@ -102,9 +102,11 @@ function Revisions({ projectId, object, foot }: Omit<HistoryDialogProps, 'close'
   });
   const newest = useMemo(() => [...(list.data ?? [])].sort((a, b) => b.revision - a.revision), [list.data]);
   const [chosen, setChosen] = useState<number | null>(null);
-  const [other, setOther] = useState(NOW);
+  const [against, setOther] = useState(NOW);
   const [ignoring, setIgnoring] = useState<Ignoring>({ white_space: false, comments: false, pragmas: false });
   const selected = newest.find((one) => one.revision === chosen) ?? newest[1] ?? newest[0];
+  // A revision beside itself would say nothing.
+  const other = against === String(selected?.project_revision) ? NOW : against;
   const revisions = selected ? compared(selected, other) : null;
   const opened = useRevisions(projectId, revisions);
   const query = useDifferences(projectId, opened.data, ignoring);

@@ -88,7 +88,8 @@ def _with_runtime(services: Services, project_id: str, user_id: str, old: Compar
             409,
             "no-source",
             f"'{link.name}' runs '{info.application}', whose source this server does not have: another one "
-            "downloaded it, or a version before sources were kept. Download it from here to compare with it.",
+            "downloaded it, or a version before sources were kept. Download it from here to compare with it, "
+            "or upload the source that the controller keeps as a project and compare with that.",
         )
     project, at = source
     return OpenComparison(project_id, user_id, f"{link.name}: {info.application}", project, at)
