@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from functools import cache
 from importlib.resources import files
 
-_BESIDE = str.maketrans("ьκкмптτχςⲍ", "bkkmnttxcz")
+_BESIDE = dict(zip(map(ord, "ьκкмптτχςⲍ"), "bkkmnttxcz", strict=True))
 """Small letters of which the table has the capital ones only, and that a hurried eye takes for Latin ones."""
 _MARKS = range(0x300, 0x370)
 """Accents of Latin, Greek and Cyrillic letters; in other scripts marks are vowels."""
