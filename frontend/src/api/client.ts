@@ -100,8 +100,8 @@ type Arguments<Of> = object extends Options<Of> ? [options?: Options<Of>] : [opt
 type Responses<Of> = Of extends { responses: infer All } ? All[keyof All & (200 | 201 | 204)] : never;
 type Data<Of> = Responses<Of> extends { content: infer Content } ? Content[keyof Content] : undefined;
 
-/** Paths that answer with a file. */
-type Files = { [Path in Paths<'get'>]: Data<Operation<'get', Path>> extends Blob ? Path : never }[Paths<'get'>];
+/** Paths that answer with a file, some of them with a text in place of an archive. */
+type Files = { [Path in Paths<'get'>]: Blob extends Data<Operation<'get', Path>> ? Path : never }[Paths<'get'>];
 
 /** A request of one method: resolves with the data of the answer, throws `ApiError` or, when cancelled, `AbortError`. */
 function request<Verb extends Method>(verb: Verb, parseAs: 'json' | 'blob' = 'json') {
