@@ -135,3 +135,23 @@ def test_library_show_gives_the_shape_of_the_catalogs() -> None:
     assert [(pin["name"], pin["type"]) for pin in shown[0]["inputs"]] == [("IN", "BOOL"), ("PT", "TIME")]
     listed = json.loads(tappet("library", "list", "--format", "json").stdout)
     assert "Standard" in {library["name"] for library in listed}
+
+
+def test_build_writes_the_boot_application(tmp_path: Path) -> None:
+    from tappet.codegen.package import CodePackage
+
+    file = written(tmp_path / "counter.st", COUNTER)
+    boot = tmp_path / "boot.tappet"
+    done = tappet("build", file, "--boot", boot)
+    assert done.returncode == 0, done.stderr
+    assert "bytes of code" in done.stdout
+    again = tappet("build", file, "--rebuild", "--format", "json")
+    report = json.loads(again.stdout)
+    assert report["ok"]
+    assert report["code_id"] == CodePackage.from_bytes(boot.read_bytes()).code_id
+    assert report["code_size"] > 0
+    broken = written(tmp_path / "broken.st", COUNTER.replace("n + 1", "nowhere"))
+    refused = tappet("build", broken, "--boot", tmp_path / "none")
+    assert refused.returncode == 1
+    assert "nowhere" in refused.stderr
+    assert not (tmp_path / "none").exists()

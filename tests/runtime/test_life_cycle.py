@@ -328,3 +328,32 @@ def test_instances_can_be_left_out_of_fb_exit() -> None:
     END_PROGRAM
     """
     assert left_by_exit(text) == 13
+
+
+def test_the_loaded_application_becomes_the_boot_application(tmp_path: Path) -> None:
+    first = SoftPlc(tmp_path)
+    first.load(package())
+    assert not (tmp_path / FILE).exists()
+    first.create_boot_application()
+    first.close()
+    second = SoftPlc(tmp_path)
+    assert second.boot()
+    assert second.state == "run"
+    second.close()
+
+
+def test_a_boot_application_needs_an_application_and_a_folder(plc: SoftPlc, tmp_path: Path) -> None:
+    with pytest.raises(PlcError, match="no application"):
+        plc.create_boot_application()
+    without = SoftPlc(None)
+    without.load(package())
+    with pytest.raises(PlcError, match="has no data folder"):
+        without.create_boot_application()
+    without.close()
+    (tmp_path / "gone").mkdir()
+    removed = SoftPlc(tmp_path / "gone")
+    removed.load(package())
+    removed.folder = tmp_path / "nowhere"
+    with pytest.raises(PlcError, match="could not be stored"):
+        removed.create_boot_application()
+    removed.close()

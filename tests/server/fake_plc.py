@@ -79,6 +79,8 @@ class FakePlc:
     state: str = "stop"
     cycles: int = 0
     """Single cycles that were ordered."""
+    boots: int = 0
+    """How often the application was made the boot application."""
     application: str | None = "Application"
     code_id: str | None = "code1"
     data_id: str | None = "data1"
@@ -166,6 +168,10 @@ class FakePlc:
         self._need()
         self.state = "stop"
         self.notify("state")
+
+    def create_boot_application(self) -> None:
+        self._need()
+        self.boots += 1
 
     def single_cycle(self) -> None:
         self._need()

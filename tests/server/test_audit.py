@@ -32,6 +32,7 @@ EXEMPT = {
     "preview_files": READS,
     "compare_import": READS,
     "build": READS,
+    "rebuild": READS,
     "run_static_analysis": READS,
     "run_tests": READS,
     "search": READS,

@@ -226,3 +226,52 @@ def test_values_of_a_downloaded_program(admin: TestClient, project: Stored, runt
     url = f"/api/v1/runtimes/{runtime_id}/values/read"
     values = admin.post(url, json={"expressions": ["PLC_PRG.n"]}).json()["values"]
     assert values[0]["literal"] == "5"
+
+
+def test_after_clean_only_a_download_brings_the_application_in(
+    admin: TestClient, project: Stored, runtime_id: str
+) -> None:
+    _download(admin, project, runtime_id)
+    assert _login(admin, project, runtime_id)["relation"] == "same"
+    assert admin.post(f"{project.url}/clean").status_code == 204
+    assert _login(admin, project, runtime_id)["relation"] == "download"
+    _download(admin, project, runtime_id)
+    assert _login(admin, project, runtime_id)["relation"] == "same"
+    assert admin.post(f"/api/v1/projects/{project.id}/clean").status_code == 204
+    assert _login(admin, project, runtime_id)["relation"] == "download"
+    cleaned = admin.get("/api/v1/audit", params={"action": "clean"}).json()
+    assert [entry["subject"] for entry in cleaned] == ["Filler", "Application"]
+    unknown = admin.post(f"/api/v1/projects/{project.id}/applications/{'0' * 32}/clean")
+    assert unknown.status_code == 404
+
+
+def test_a_rebuild_gives_what_a_build_gives(admin: TestClient, project: Stored) -> None:
+    built = _build(admin, project)
+    rebuilt = admin.post(f"{project.url}/rebuild").json()
+    assert rebuilt | {"seconds": 0} == built | {"seconds": 0}
+
+
+def test_the_boot_application_is_a_file_for_the_runtime(
+    admin: TestClient, project: Stored, runtime_id: str, plc: FakePlc
+) -> None:
+    answer = admin.get(f"{project.url}/boot-application")
+    assert answer.status_code == 200
+    assert "boot.tappet" in answer.headers["content-disposition"]
+    package = CodePackage.from_bytes(answer.content)
+    assert package.code_id == _build(admin, project)["code_id"]
+    # A runtime that was started with the file is known at the login.
+    plc.application, plc.code_id, plc.data_id = "Application", package.code_id, package.data_id
+    admin.post(f"/api/v1/runtimes/{runtime_id}/stop")
+    assert _login(admin, project, runtime_id)["relation"] == "same"
+    project.edit("PROGRAM PLC_PRG\nVAR\nEND_VAR", "nowhere := 1;")
+    refused = admin.get(f"{project.url}/boot-application")
+    assert (refused.status_code, refused.json()["type"]) == (422, "urn:tappet:problem:build-errors")
+    assert refused.json()["diagnostics"]
+
+
+def test_the_loaded_application_becomes_the_boot_application(
+    admin: TestClient, runtime_id: str, plc: FakePlc
+) -> None:
+    answer = admin.post(f"/api/v1/runtimes/{runtime_id}/boot-application")
+    assert (answer.status_code, plc.boots) == (200, 1)
+    assert admin.get("/api/v1/audit").json()[0]["action"] == "boot-application"

@@ -76,7 +76,7 @@ def compile_order(body: str) -> dict[str, Any]:
     return {
         "key": "p/a", "application": "A", "project": "P", "sources": [source], "tasks": [],
         "libraries": [], "previous": None, "cache": "",
-        "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False,
+        "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False, "fresh": False,
         "heap": {"limit": 1 << 16, "poison": False},
     }  # fmt: skip
 
@@ -133,3 +133,27 @@ def test_package_store_keeps_the_newest(tmp_path: Path) -> None:
     assert store.find("../../etc/passwd") is None
     with pytest.raises(ValueError, match="no id"):
         store.put("../p", "a", "c", b"")
+
+
+async def test_a_cleaned_application_is_built_anew_once(builder: Builder) -> None:
+    await builder.build(application("x"), None)
+    builder.clean("p", "a")
+    builder.clean("p", "never built")
+    assert (await builder.build(application("x"), None)).report.code_id == "2"
+    assert (await builder.build(application("x"), None)).report.code_id == "2"
+    assert (await builder.build(application("x"), None, fresh=True)).report.code_id == "3"
+    assert (await builder.build(application("x"), None)).report.code_id == "3"
+
+
+def test_a_fresh_build_uses_nothing_of_earlier_ones(tmp_path: Path) -> None:
+    compiler = Compiler()
+    order = compile_order("n := n + 1;") | {"cache": str(tmp_path)}
+    assert compiler.build(order)["package"]
+    kept = set(tmp_path.rglob("*"))
+    session = compiler._sessions[order["key"]]
+    assert compiler.build(order)["package"]
+    assert compiler._sessions[order["key"]] is session
+    assert compiler.build(order | {"fresh": True})["package"]
+    assert compiler._sessions[order["key"]] is not session
+    assert set(tmp_path.rglob("*")) == kept
+    assert compiler.build(order)["package"]

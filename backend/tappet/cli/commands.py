@@ -53,6 +53,12 @@ COMMANDS = (
         "check",
         "Check programs without running them: one `file:line:column: severity code: message` a finding.",
     ),
+    Command(
+        ("build",),
+        "build",
+        "build",
+        "Build an application; with --boot write the file that a runtime starts with.",
+    ),
     Command(("run",), "run", "run", "Run an application for some cycles or a time and print values."),
     Command(
         ("test",),

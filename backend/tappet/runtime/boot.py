@@ -10,7 +10,7 @@ from tappet.codegen.package import CodePackage, PackageError
 from tappet.disk_full import is_disk_full
 from tappet.runtime.errors import DiskFullError
 from tappet.runtime.logbook import Logbook
-from tappet.whole_file import PRIVATE, replacing_file
+from tappet.whole_file import PRIVATE, replace_file, replacing_file
 
 FILE = "boot.tappet"
 
@@ -36,6 +36,16 @@ def storing_boot(folder: Path | None, package: bytes, log: Logbook) -> Iterator[
                     raise DiskFullError("there is no room for the boot application") from error
                 log.add("error", "boot", f"the boot application could not be stored: {error}")
         yield
+
+
+def create_boot(folder: Path, package: bytes) -> None:
+    """Makes `package` the boot application. Raises DiskFullError, BootError."""
+    try:
+        replace_file(folder / FILE, package, mode=PRIVATE, to_disk=True)
+    except OSError as error:
+        if is_disk_full(error):
+            raise DiskFullError("there is no room for the boot application") from error
+        raise BootError(f"the boot application could not be stored: {error}") from error
 
 
 def load_boot(folder: Path) -> CodePackage | None:

@@ -18,7 +18,7 @@ from tappet.codegen.package import CodePackage, PackageError
 from tappet.disk_full import is_disk_full
 from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.boot import BootError, load_boot, remove_boot, storing_boot
+from tappet.runtime.boot import BootError, create_boot, load_boot, remove_boot, storing_boot
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
 from tappet.runtime.crash import Crash, RunningMark
 from tappet.runtime.errors import DiskFullError, PlcError
@@ -287,6 +287,21 @@ class SoftPlc(ApplicationAccess):
                 else:
                     raise PlcError(f"unknown mode '{mode}'; known are download and online_change")
             self._notify("application")
+
+    def create_boot_application(self) -> None:
+        """Make the loaded application, as it is after its online changes, the one that is started when the
+        process begins. A download does so by itself; this stores it again where that failed or the file was
+        removed or replaced. Raises PlcError.
+        """
+        with self._lock:
+            application = self._need()
+            if self.folder is None:
+                raise PlcError("this runtime has no data folder, so it starts without an application")
+            try:
+                create_boot(self.folder, application.package.to_bytes())
+            except BootError as error:
+                raise PlcError(str(error)) from error
+            self.log.add("info", "boot", f"{application.package.application} is the boot application")
 
     def load(self, package: CodePackage) -> None:
         """Load a package that is at hand as an object, without storing it as boot application."""

@@ -60,6 +60,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_online.router,
     routes_build.router,
     routes_source.router,
+    routes_build.all_router,
     routes_static_analysis.router,
     routes_tests.router,
     routes_libraries.router,

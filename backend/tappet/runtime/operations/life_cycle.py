@@ -69,6 +69,19 @@ class SingleCycle(Operation[None], frozen=True):
         plc.single_cycle()
 
 
+class CreateBootApplication(Operation[None], frozen=True):
+    """Make the loaded application the one that the runtime starts with."""
+
+    op: ClassVar[str] = "create_boot_application"
+    rest: ClassVar[Rest | None] = Rest(
+        "POST", "/boot-application", "engineer", lambda _: Fact("boot-application"), "state"
+    )
+
+    def run(self, plc: SoftPlc) -> None:
+        """Returns when the disk has it."""
+        plc.create_boot_application()
+
+
 class Reset(Operation[None], frozen=True):
     """Initialise the variables: warm (not RETAIN), cold (not PERSISTENT), origin (all, and unload)."""
 

@@ -25,7 +25,8 @@ from tappet.project.kinds.application import NO_RULES, StaticAnalysisData
 from tappet.project.library_reference import LibraryReference
 from tappet.project.library_texts import library_requirements, library_sources
 from tappet.project.model import Project
-from tappet.server.builds.messages import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
+from tappet.server.builds.compiler_process import BuildCrashedError, CompilerProcess
+from tappet.server.builds.messages import BuildOrder
 from tappet.server.builds.shapes import BuildReport, Diagnostic, Part, Severity
 from tappet.server.problems import Problem
 
@@ -33,12 +34,6 @@ log = logging.getLogger(__name__)
 KEPT_BUILDS = 32
 """Newest build of so many applications stay at hand."""
 WORKER = (sys.executable, "-m", "tappet.server.builds.worker")
-GRACE_S = 3.0
-"""A compiler process that does not end a cancelled build within this time is killed."""
-
-
-class BuildCrashedError(RuntimeError):
-    """The compiler process died or failed; a fault of the product, not of the program."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,19 +111,25 @@ class Builder:
 
     def __init__(self, workers: int, cache: Path, command: Sequence[str] = WORKER) -> None:
         self._cache = cache
-        self._workers = [_Worker(command) for _ in range(max(1, workers))]
+        self._workers = [CompilerProcess(command) for _ in range(max(1, workers))]
         self._built: OrderedDict[tuple[str, str], Built] = OrderedDict()
         self._running: dict[tuple[str, str], tuple[str, asyncio.Task[Built]]] = {}
+        self._cleaned: set[tuple[str, str]] = set()
+        """Applications whose next build uses nothing of earlier ones."""
 
-    async def build(self, application: Application, previous: tuple[str, bytes] | None) -> Built:
+    async def build(
+        self, application: Application, previous: tuple[str, bytes] | None, *, fresh: bool = False
+    ) -> Built:
         """The build of exactly these texts on top of `previous` (code id, package), from memory if known.
 
-        Raises problems: 409 when it was cancelled, 500 when the compiler crashed.
+        With `fresh` everything is compiled anew. Raises problems: 409 when it was cancelled, 500 when the
+        compiler crashed.
         """
         key = (application.project_id, application.application_id)
-        order, fingerprint = await asyncio.to_thread(self._order, application, previous)
+        fresh = fresh or key in self._cleaned
+        order, fingerprint = await asyncio.to_thread(self._order, application, previous, fresh=fresh)
         known = self._built.get(key)
-        if known is not None and known.fingerprint == fingerprint:
+        if not fresh and known is not None and known.fingerprint == fingerprint:
             self._built.move_to_end(key)
             return known
         while key in self._running:
@@ -141,6 +142,12 @@ class Builder:
         self._running[key] = (fingerprint, task)
         task.add_done_callback(lambda done: self._finished(key, done))
         return await self._wait(task)
+
+    def clean(self, project_id: str, application_id: str) -> None:
+        """Forget what builds of an application have left; one that runs is cancelled."""
+        self.cancel(project_id, application_id)
+        self._built.pop((project_id, application_id), None)
+        self._cleaned.add((project_id, application_id))
 
     async def check(self, application: Application) -> BuildReport:
         """All messages about an application, without code; it does not count as a build.
@@ -188,7 +195,12 @@ class Builder:
             log.error("build of %s failed", key, exc_info=task.exception())
 
     def _order(
-        self, application: Application, previous: tuple[str, bytes] | None, *, check_only: bool = False
+        self,
+        application: Application,
+        previous: tuple[str, bytes] | None,
+        *,
+        check_only: bool = False,
+        fresh: bool = False,
     ) -> tuple[BuildOrder, str]:
         """The order, and a fingerprint of everything the outcome depends on.
 
@@ -207,10 +219,11 @@ class Builder:
             static=application.static.model_dump(),
             heap=asdict(application.heap),
             check_only=check_only,
+            fresh=fresh,
         )
         return order, _fingerprint(order, previous[0] if previous else None)
 
-    def _worker(self, order: BuildOrder) -> _Worker:
+    def _worker(self, order: BuildOrder) -> CompilerProcess:
         number = int(hashlib.sha256(order.key.encode()).hexdigest(), 16) % len(self._workers)
         return self._workers[number]
 
@@ -226,6 +239,7 @@ class Builder:
             outcome["change_base"],
             tuple(outcome["change_reasons"]),
         )
+        self._cleaned.discard(key)
         self._built[key] = built
         self._built.move_to_end(key)
         while len(self._built) > KEPT_BUILDS:
@@ -233,91 +247,12 @@ class Builder:
         return built
 
 
-class _Worker:
-    """One compiler process, started when it is first needed and again after it was killed."""
-
-    def __init__(self, command: Sequence[str]) -> None:
-        self._command = tuple(command)
-        self._process: asyncio.subprocess.Process | None = None
-        self._turn = asyncio.Lock()
-
-    async def build(self, order: BuildOrder) -> dict[str, Any]:
-        """One build; when this call is cancelled, the process ends the build and keeps its caches."""
-        async with self._turn:
-            process = await self._start()
-            exchange = asyncio.create_task(self._exchange(process, order))
-            try:
-                return await asyncio.shield(exchange)
-            except asyncio.CancelledError:
-                ready = False
-                try:
-                    ready = await _ends(process, exchange)
-                finally:
-                    if not ready:
-                        await self._kill()
-                raise
-            except BaseException:
-                await self._kill()
-                raise
-
-    async def warm(self) -> None:
-        """Starts the process."""
-        async with self._turn:
-            await self._start()
-
-    async def _start(self) -> asyncio.subprocess.Process:
-        if self._process is None or self._process.returncode is not None:
-            self._process = await asyncio.create_subprocess_exec(
-                *self._command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
-            )
-        return self._process
-
-    async def _exchange(self, process: asyncio.subprocess.Process, order: BuildOrder) -> dict[str, Any]:
-        assert process.stdin is not None
-        assert process.stdout is not None
-        frame = await asyncio.to_thread(pack_frame, asdict(order))
-        try:
-            process.stdin.write(frame)
-            await process.stdin.drain()
-            head = await process.stdout.readexactly(LENGTH.size)
-            body = await process.stdout.readexactly(LENGTH.unpack(head)[0])
-        except (OSError, asyncio.IncompleteReadError):
-            raise BuildCrashedError("its process ended") from None
-        outcome: dict[str, Any] = await asyncio.to_thread(
-            msgpack.unpackb, body, raw=False, max_bin_len=LARGEST_FRAME
-        )
-        if "crash" in outcome:
-            raise BuildCrashedError(outcome["crash"])
-        return outcome
-
-    async def _kill(self) -> None:
-        process, self._process = self._process, None
-        if process is not None and process.returncode is None:
-            with suppress(ProcessLookupError):
-                process.kill()
-            await process.wait()
-
-    async def close(self) -> None:
-        await self._kill()
-
-
-async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict[str, Any]]) -> bool:
-    """Whether a process ends its build on request, and is ready for the next one."""
-    with suppress(ProcessLookupError):
-        process.send_signal(CANCEL)
-    await asyncio.wait([exchange], timeout=GRACE_S)
-    if not exchange.done():
-        exchange.cancel()
-        return False
-    return exchange.exception() is None
-
-
 def _crashed(error: BuildCrashedError) -> Problem:
     return Problem(500, "compiler-crashed", f"The compiler failed: {error}.")
 
 
 def _fingerprint(order: BuildOrder, previous_code: str | None) -> str:
-    content = asdict(order) | {"previous": previous_code}
+    content = asdict(order) | {"previous": previous_code, "fresh": False}
     return hashlib.blake2b(msgpack.packb(content), digest_size=16).hexdigest()
 
 

@@ -10,7 +10,7 @@ from typing import Literal
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.kinds.application import ApplicationData
-from tappet.project.model import Project
+from tappet.project.model import Project, ProjectObject
 from tappet.project.store import Store
 from tappet.project.store.records import UnknownProjectError
 from tappet.runtime.client import RuntimeRefused
@@ -45,18 +45,49 @@ class Commissioning:
 
         return await run_in_threadpool(read)
 
-    async def build(self, project_id: str, application_id: str) -> Built:
-        """Builds on top of what was downloaded last, so that data keep their places."""
-        return await self._build(await self.application(project_id, application_id))
+    async def build(self, project_id: str, application_id: str, *, fresh: bool = False) -> Built:
+        """Builds on top of what was downloaded last, so that data keep their places.
+
+        With `fresh` nothing is used that earlier builds have left.
+        """
+        return await self._build(await self.application(project_id, application_id), fresh=fresh)
 
     async def build_of(self, project_id: str, project: Project, application_id: str) -> Built:
         """The same for a project that has been read. Raises UnknownObjectError."""
         return await self._build(await run_in_threadpool(Application.of, project_id, project, application_id))
 
-    async def _build(self, application: Application) -> Built:
+    async def _build(self, application: Application, *, fresh: bool = False) -> Built:
         place = application.project_id, application.application_id
         last = await run_in_threadpool(self.packages.latest, *place)
-        return await self.builder.build(application, _base(last))
+        return await self.builder.build(application, _base(last), fresh=fresh)
+
+    async def clean(self, project_id: str, application_id: str | None) -> list[str]:
+        """Forgets builds and downloads of an application, of None those of all; answers their names.
+
+        After that the application can only be brought into a runtime by a download.
+        """
+
+        def found() -> list[ProjectObject]:
+            project = self.store.load(project_id)
+            if application_id is None:
+                return project.applications()
+            return [item for item in project.applications() if item.id == application_id]
+
+        applications = await run_in_threadpool(found)
+        for item in applications:
+            self.builder.clean(project_id, item.id)
+            await run_in_threadpool(self.packages.remove, project_id, item.id)
+        return [item.name for item in applications]
+
+    async def boot_application(self, project_id: str, application_id: str) -> tuple[str, bytes]:
+        """Name and package of an application, as the file that a runtime starts with. What is built from now
+        on keeps the places of its data, as after a download. Raises the problem `build-errors`.
+        """
+        built = await self.build(project_id, application_id)
+        package = _package(built, "made a boot application")
+        code_id = built.report.code_id or ""
+        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, package)
+        return built.application.name, package
 
     async def analyse(self, project_id: str, application_id: str) -> BuildReport:
         """Checks with all coding rules that the application has chosen; makes no code."""
@@ -142,20 +173,14 @@ class Commissioning:
                 "from; download instead.",
             )
         built = await self.builder.build(application, _base(loaded))
-        if built.package is None:
-            raise Problem(
-                422,
-                "build-errors",
-                f"'{application.name}' has errors and cannot be downloaded.",
-                diagnostics=[d.model_dump() for d in built.report.diagnostics if d.severity == "error"],
-            )
+        package = _package(built, "downloaded")
         assert built.report.code_id is not None
         code_id = built.report.code_id
         # Kept first: without it the next login would take the application for a stranger's.
-        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, built.package)
+        await run_in_threadpool(self.packages.put, project_id, application_id, code_id, package)
         await begin(mode, built)
         async with link.client() as client:
-            await client.download(built.package, mode)
+            await client.download(package, mode)
         try:  # what is loaded runs without it, too
             await run_in_threadpool(self.packages.put_source, project_id, application_id, code_id, project)
         except OSError:
@@ -180,6 +205,18 @@ async def _start(link: RuntimeLink, built: Built) -> None:
                 f"'{built.application.name}' was downloaded to '{link.name}', but does not start: {why}.",
                 exception=link.state().model_dump(mode="json")["exception"],
             ) from refusal
+
+
+def _package(built: Built, purpose: str) -> bytes:
+    """Raises the problem `build-errors`."""
+    if built.package is None:
+        raise Problem(
+            422,
+            "build-errors",
+            f"'{built.application.name}' has errors and cannot be {purpose}.",
+            diagnostics=[d.model_dump() for d in built.report.diagnostics if d.severity == "error"],
+        )
+    return built.package
 
 
 def _base(stored: StoredPackage | None) -> tuple[str, bytes] | None:

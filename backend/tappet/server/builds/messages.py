@@ -44,6 +44,8 @@ class BuildOrder:
     """Make no package."""
     project: str = ""
     """Name of the project, for programs that ask."""
+    fresh: bool = False
+    """Use nothing that earlier builds left: no trees, no objects."""
 
 
 def read_frame(stream: BinaryIO) -> dict[str, Any] | None:

@@ -72,6 +72,13 @@ class PackageStore:
         """The package of an application that was downloaded last."""
         return self._read_first(f"{_safe(project_id)}.{_safe(application_id)}.*.package")
 
+    def remove(self, project_id: str, application_id: str) -> None:
+        """Forget all packages of an application and their sources: the next login finds it in no runtime as
+        one of ours.
+        """
+        for path in self._folder.glob(f"{_safe(project_id)}.{_safe(application_id)}.*"):
+            path.unlink(missing_ok=True)
+
     def _read_first(self, pattern: str) -> StoredPackage | None:
         for path in self._newest_first(pattern):
             project_id, application_id, code_id, _ = path.name.split(".")

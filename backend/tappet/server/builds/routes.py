@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
 from tappet.lang.diagnostic_translations import Language
+from tappet.runtime import boot
 from tappet.server.audit import Act, Result
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
@@ -29,17 +31,25 @@ from tappet.server.dependencies import (
 )
 from tappet.server.metrics.service import Metrics
 from tappet.server.problems import Problem
+from tappet.server.projects.routes import download as file_response
 from tappet.server.routing import Router
 from tappet.server.source.service import check_wanted, source_setting, store_source
 
 router = Router(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
+all_router = Router(prefix="/projects/{project_id}", tags=["build"])
+"""What concerns all applications of a project."""
 
 
 async def _build(
-    commissioning: Commissioning, metrics: Metrics, project_id: str, application_id: str
+    commissioning: Commissioning,
+    metrics: Metrics,
+    project_id: str,
+    application_id: str,
+    *,
+    fresh: bool = False,
 ) -> BuildReport:
     try:
-        built = await commissioning.build(project_id, application_id)
+        built = await commissioning.build(project_id, application_id, fresh=fresh)
     except Problem as problem:
         metrics.builds[problem.kind] += 1
         raise
@@ -60,6 +70,63 @@ async def build(
     """Build the application as it is stored. Errors of the program are diagnostics, not problems."""
     report = await _build(commissioning, services.metrics, project_id, application_id)
     return report.in_language(language)
+
+
+@router.post("/rebuild")
+async def rebuild(
+    project_id: str,
+    application_id: str,
+    who: Engineer,
+    commissioning: CommissioningDep,
+    services: ServicesDep,
+    language: Language = "en",
+) -> BuildReport:
+    """Build the application without anything that earlier builds have left."""
+    report = await _build(commissioning, services.metrics, project_id, application_id, fresh=True)
+    return report.in_language(language)
+
+
+@router.post("/clean", status_code=204)
+async def clean(
+    act: Annotated[ActRecord, audited("clean", Role.ENGINEER)],
+    project_id: str,
+    application_id: str,
+    commissioning: CommissioningDep,
+) -> None:
+    """Forget what builds and downloads of the application have left; the next login asks for a download."""
+    application = await commissioning.application(project_id, application_id)
+    await act.begin_async(Act("clean", application.name, project_id=project_id))
+    await commissioning.clean(project_id, application_id)
+
+
+@all_router.post("/clean", status_code=204)
+async def clean_all(
+    act: Annotated[ActRecord, audited("clean", Role.ENGINEER)],
+    project_id: str,
+    commissioning: CommissioningDep,
+    store: StoreDep,
+) -> None:
+    """Forget what builds and downloads of all applications of the project have left."""
+    project = await run_in_threadpool(store.project, project_id)
+    await act.begin_async(Act("clean", project.name, project_id=project_id))
+    await commissioning.clean(project_id, None)
+
+
+@router.get(
+    "/boot-application",
+    response_class=Response,
+    responses={
+        200: {"content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}
+    },
+)
+async def read_boot_application(
+    project_id: str, application_id: str, who: Engineer, commissioning: CommissioningDep
+) -> Response:
+    """The application as the file that a runtime starts with: it belongs into the data folder of the runtime,
+    under this name. A program with errors is the problem `build-errors`.
+    """
+    _, package = await commissioning.boot_application(project_id, application_id)
+    return file_response(package, boot.FILE, "application/octet-stream")
 
 
 @router.delete("/build", status_code=204)

@@ -85,7 +85,8 @@ class Compiler:
     def build(self, order: dict[str, Any]) -> dict[str, Any]:
         """Outcome of an order: package or None, diagnostics as maps, sizes, seconds."""
         started = time.perf_counter()
-        session = self._sessions.pop(order["key"], None) or BuildSession()
+        kept = self._sessions.pop(order["key"], None)
+        session = BuildSession() if kept is None or order["fresh"] else kept
         self._sessions[order["key"]] = session
         while len(self._sessions) > KEPT_SESSIONS:
             self._sessions.popitem(last=False)
@@ -96,7 +97,7 @@ class Compiler:
             project=order["project"],
             compiled=int(time.time()),
             libraries=tuple(LibraryReference.of(fields) for fields in order["libraries"]),
-            cache=Path(order["cache"]),
+            cache=None if order["fresh"] else Path(order["cache"]),
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
             heap=HeapSettings(**order["heap"]),
             check_only=order["check_only"],

@@ -1,4 +1,17 @@
-import { CloudUpload, Hammer, LogIn, LogOut, Play, RotateCcw, Square, StepForward, Zap } from 'lucide-react';
+import {
+  Binary,
+  BrushCleaning,
+  CloudUpload,
+  Hammer,
+  HardDriveDownload,
+  LogIn,
+  LogOut,
+  Play,
+  RotateCcw,
+  Square,
+  StepForward,
+  Zap,
+} from 'lucide-react';
 import { t } from '@/i18n';
 import { menuGroup, registerCommands, type Command, type Enablement } from '../commands';
 import type { CommandContext } from '../context';
@@ -6,7 +19,18 @@ import { application, connected, engineer, idle, online, operator, when } from '
 import { confirm } from '@/ui/dialogs';
 import { stepMessage } from '../messages/jump';
 import { presentMessages, useMessages } from '../messages/store';
-import { build, download, login, logout, onlineChange, reset, runtimeAct } from '../online/acts';
+import {
+  build,
+  clean,
+  createBootApplication,
+  download,
+  generateCode,
+  login,
+  logout,
+  onlineChange,
+  reset,
+  runtimeAct,
+} from '../online/acts';
 import { waitsForStart } from '../online/runtimeText';
 
 const hasMessages = (): Enablement => {
@@ -24,6 +48,12 @@ const startable = (context: CommandContext): Enablement =>
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
 const changed = (context: CommandContext): Enablement =>
   context.online?.relation === 'same' && context.dirtyPanels.length === 0 ? 'reason.nothingChanged' : true;
+
+/** What is loaded would be lost from sight: values are shown by the build that was downloaded. */
+const loggedOut = (context: CommandContext): Enablement => (context.online ? 'reason.logOutToClean' : true);
+/** The controller has the application that is meant. */
+const loaded = (context: CommandContext): Enablement =>
+  context.online?.relation === 'same' ? true : 'reason.notLoaded';
 
 const changeable = when(online, connected, engineer, changed, idle);
 
@@ -43,12 +73,44 @@ const commands: Command[] = [
     title: 'command.build',
     icon: Hammer,
     keys: ['F11'],
-    menu: { menu: 'build', group: '1_build' },
+    menu: { menu: 'build', group: '1_build', order: 0 },
     toolbar: { group: '2_online', order: 0 },
     enabled: when(application, engineer, idle),
     run: async (context) => {
       await build(context);
     },
+  },
+  {
+    id: 'build.rebuild',
+    title: 'command.rebuild',
+    menu: { menu: 'build', group: '1_build', order: 1 },
+    enabled: when(application, engineer, idle),
+    run: async (context) => {
+      await build(context, 'rebuild');
+    },
+  },
+  {
+    id: 'build.generateCode',
+    title: 'command.generateCode',
+    icon: Binary,
+    menu: { menu: 'build', group: '1_build', order: 2 },
+    enabled: when(application, engineer, idle),
+    run: generateCode,
+  },
+  {
+    id: 'build.clean',
+    title: 'command.clean',
+    icon: BrushCleaning,
+    menu: { menu: 'build', group: '1_clean', order: 0 },
+    enabled: when(application, engineer, idle, loggedOut),
+    run: (context) => clean(context, false),
+  },
+  {
+    id: 'build.cleanAll',
+    title: 'command.cleanAll',
+    menu: { menu: 'build', group: '1_clean', order: 1 },
+    enabled: when(application, engineer, idle, loggedOut),
+    run: (context) => clean(context, true),
   },
   ...menuGroup(
     'build',
@@ -111,6 +173,15 @@ const commands: Command[] = [
       run: (context) => onlineChange(context),
     },
   ),
+  {
+    id: 'online.createBootApplication',
+    title: 'command.createBootApplication',
+    icon: HardDriveDownload,
+    menu: { menu: 'online', group: '3_boot' },
+    enabled: (context) =>
+      context.online ? when(connected, engineer, loaded, idle)(context) : when(application, engineer, idle)(context),
+    run: createBootApplication,
+  },
   ...(['warm', 'cold', 'origin'] as const).map((kind, at): Command => ({
     id: `online.reset.${kind}`,
     title: `command.reset.${kind}`,

@@ -8,7 +8,9 @@ import { saveObject } from '@/api/queries';
 import { commandContext, type CommandContext } from '../context';
 import { saveEditors } from '../docking/close';
 import { showPanel } from '../docking/dock';
-import { buildFinished } from '../messages/store';
+import { saveBlob } from '../downloadFile';
+import { buildFinished, bytesText, clearMessages } from '../messages/store';
+import { confirm } from '@/ui/dialogs';
 import { notify } from '@/ui/notices';
 import { loggedIn, loggedOut, relationChanged, runtimePolled } from '../onlineSession';
 import { ofRole } from '@/project/kinds';
@@ -37,6 +39,62 @@ function nameOf(context: CommandContext): string {
   return objects.find((object) => object.id === context.applicationId)?.name ?? '';
 }
 
+/** Builds and says how large the code is that a download would bring into the controller. */
+export async function generateCode(context: CommandContext): Promise<void> {
+  const report = await build(context);
+  if (!report?.ok) return;
+  const sizes = { code: bytesText(report.code_size ?? 0), data: bytesText(report.data_size ?? 0) };
+  notify({ tone: 'ok', title: t('build.generated', { name: nameOf(context) }), text: t('build.sizes', sizes) });
+}
+
+/** Forgets what builds and downloads of the active application, or of all of them, have left; asks before. */
+export async function clean(context: CommandContext, all: boolean): Promise<void> {
+  const name = all ? useProject.getState().projectName : nameOf(context);
+  const sure = await confirm({
+    title: t(all ? 'clean.all.title' : 'clean.title', { name }),
+    text: t('clean.text'),
+    action: t('clean.action'),
+    danger: true,
+  });
+  if (!sure) return;
+  const { project_id, application_id } = applicationPath(context);
+  if (all) await api.post('/api/v1/projects/{project_id}/clean', { params: { path: { project_id } } });
+  else {
+    const params = { path: { project_id, application_id } };
+    await api.post('/api/v1/projects/{project_id}/applications/{application_id}/clean', { params });
+  }
+  clearMessages();
+  notify({ tone: 'ok', title: t('clean.done', { name }) });
+}
+
+/**
+ * Logged in, the application of the controller becomes the one that it starts with; else the application comes as the
+ * file that a controller starts with.
+ */
+export async function createBootApplication(context: CommandContext): Promise<void> {
+  const name = nameOf(context);
+  if (context.online) {
+    const { runtimeId } = context.online;
+    runtimePolled(runtimeId, await api.post('/api/v1/runtimes/{runtime_id}/boot-application', runtimeAt(runtimeId)));
+    notify({ tone: 'ok', title: t('boot.created', { name }), text: t('boot.createdText') });
+    return;
+  }
+  const report = await build(context);
+  if (!report) return;
+  if (!report.ok) {
+    tellBuildErrors();
+    return;
+  }
+  const blob = await api.download('/api/v1/projects/{project_id}/applications/{application_id}/boot-application', {
+    params: { path: applicationPath(context) },
+  });
+  saveBlob(blob, BOOT_FILE);
+  notify({ tone: 'ok', title: t('boot.saved', { name }), text: t('boot.savedText', { file: BOOT_FILE }) });
+}
+
+/** The name under which a controller looks for it in its data folder. */
+const BOOT_FILE = 'boot.tappet';
+
 /** The names that questions about the active application give. */
 function namesOf(context: CommandContext): { application: string; project: string } {
   return { application: nameOf(context), project: useProject.getState().projectName };
@@ -51,14 +109,22 @@ function inLanguage(context: CommandContext, signal: AbortSignal) {
   return { params: { path: applicationPath(context), query: { language: language() } }, signal };
 }
 
-/** Saves what is open and builds the active application. Null when it was cancelled or something could not be saved. */
-export async function build(context: CommandContext): Promise<BuildReport | null> {
+const BUILDS = {
+  build: '/api/v1/projects/{project_id}/applications/{application_id}/build',
+  rebuild: '/api/v1/projects/{project_id}/applications/{application_id}/rebuild',
+} as const;
+
+/**
+ * Saves what is open and builds the active application; a rebuild uses nothing of earlier builds. Null when it was
+ * cancelled or something could not be saved.
+ */
+export async function build(context: CommandContext, how: keyof typeof BUILDS = 'build'): Promise<BuildReport | null> {
   const { applicationId } = context;
   if (!(await saveEditors(context.dirtyPanels))) return null;
   const applicationName = nameOf(context);
   try {
     const report = await busy(t('busy.build', { name: applicationName }), (signal) =>
-      api.post('/api/v1/projects/{project_id}/applications/{application_id}/build', inLanguage(context, signal)),
+      api.post(BUILDS[how], inLanguage(context, signal)),
     );
     buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
     if (!report.ok) showPanel('messages', false);
