@@ -21,6 +21,7 @@ const ROOMS = [
   'search',
   'compare',
   'lsp',
+  'help',
   'online',
   'editors/form',
   'editors/crossReferences',

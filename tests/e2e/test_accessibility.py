@@ -65,6 +65,18 @@ def _tools(page: Page) -> Iterator[str]:
     yield "Search with a fault"
 
 
+def _help(page: Page) -> Iterator[str]:
+    open_object(page, "PLC_PRG")
+    implementation(page).locator(".view-line").first.click()
+    page.keyboard.press("F1")
+    panel = page.locator("[data-panel-id=help]")
+    expect(panel.get_by_role("article")).to_be_visible()
+    yield "Help"
+    panel.get_by_label("Search the help").fill("time")
+    expect(panel.get_by_role("listitem").first).to_be_visible()
+    yield "Search of the help"
+
+
 def _dialogs(page: Page) -> Iterator[str]:
     for menu, entry in (
         ("Project", "Add object"),
@@ -159,7 +171,7 @@ def _serious(page: Page, part: str | None = None) -> list[str]:
 @pytest.mark.parametrize("theme", ["dark", "light"])
 @pytest.mark.parametrize(
     "views",
-    [_objects, _panels, _tools, _dialogs, _comparisons, _online],
+    [_objects, _panels, _tools, _help, _dialogs, _comparisons, _online],
     ids=lambda views: views.__name__.strip("_"),
 )
 def test_nothing_serious(

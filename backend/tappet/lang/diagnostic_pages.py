@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 from tappet.lang.diagnostics import TABLE, Entry
@@ -43,11 +44,26 @@ _GROUPS = {
 }
 
 
+@cache
+def _explanations() -> dict[str, RuleText]:
+    return {code: text_of_rule(rule) for rule in all_rules() for code in rule.CODES}
+
+
+def explanation_of(code: str) -> str | None:
+    """Why there is the message, where a rule says so."""
+    rule = _explanations().get(code)
+    return None if rule is None else rule.explanation
+
+
+def samples_of(code: str) -> tuple[Sample, ...]:
+    """Programs that are accepted and programs that are reported."""
+    return tuple(samples().get(code, ()))
+
+
 def pages() -> dict[str, str]:
     """Text of every page by file name."""
-    rules = {code: text_of_rule(rule) for rule in all_rules() for code in rule.CODES}
-    found = samples()
-    made = {f"{code}.md": _page(entry, rules.get(code), found.get(code, ())) for code, entry in TABLE.items()}
+    rules = _explanations()
+    made = {f"{code}.md": _page(entry, rules.get(code), samples_of(code)) for code, entry in TABLE.items()}
     made["README.md"] = _index()
     made["codesys.md"] = _numbers()
     return made
@@ -67,11 +83,11 @@ def _page(entry: Entry, rule: RuleText | None, shown: Sequence[Sample]) -> str:
         lines += [rule.explanation, ""]
     for sample in shown:
         lines += ["Accepted:" if sample.passes else "Reported:", ""]
-        lines += ["```iecst", _as_text(sample.text), "```", ""]
+        lines += ["```iecst", as_text(sample.text), "```", ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _as_text(text: str) -> str:
+def as_text(text: str) -> str:
     """A sample as a reader takes it: the `@` lines become comments."""
     lines = text.rstrip().splitlines()
     return "\n".join(f"// {line[1:]}" if line.startswith("@") else line for line in lines)

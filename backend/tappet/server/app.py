@@ -24,6 +24,7 @@ from tappet.server.exchange import routes as routes_exchange
 from tappet.server.flight import routes as routes_flight
 from tappet.server.guard import RequestGuard
 from tappet.server.health import routes as routes_health
+from tappet.server.help import routes as routes_help
 from tappet.server.history import routes as routes_history
 from tappet.server.libraries import routes as routes_libraries
 from tappet.server.lsp import routes as routes_lsp
@@ -64,6 +65,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_static_analysis.router,
     routes_tests.router,
     routes_libraries.router,
+    routes_help.router,
     routes_lsp.router,
     routes_projects.router,
     routes_exchange.router,

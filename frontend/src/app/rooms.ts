@@ -4,6 +4,7 @@
  */
 import { registerCompare } from '@/compare/register';
 import { registerEditors } from '@/editors/register';
+import { registerHelp } from '@/help/register';
 import { registerOnline } from '@/online/register';
 import { registerSearch } from '@/search/register';
 import { Workbench } from '@/workbench/frame/Workbench';
@@ -13,6 +14,7 @@ registerWorkbench();
 registerCompare();
 registerOnline();
 registerSearch();
+registerHelp();
 registerEditors();
 registerPanelCommands();
 

@@ -12,6 +12,7 @@ import type analysis from './en/analysis.json';
 import type compare from './en/compare.json';
 import type editors from './en/editors.json';
 import type exchange from './en/exchange.json';
+import type help from './en/help.json';
 import type libraries from './en/libraries.json';
 import type objects from './en/objects.json';
 import type online from './en/online.json';
@@ -27,6 +28,7 @@ export interface TextTables {
   compare: typeof compare;
   editors: typeof editors;
   exchange: typeof exchange;
+  help: typeof help;
   libraries: typeof libraries;
   objects: typeof objects;
   online: typeof online;

@@ -1,0 +1,25 @@
+/** Help: the panel, and F1 for what stands at the cursor. */
+import { BookOpenText, CircleHelp } from 'lucide-react';
+import { lazy } from 'react';
+import { registerCommand } from '@/workbench/commands';
+import { registerPanel } from '@/workbench/panels';
+import { helpHere } from './context';
+
+export function registerHelp(): void {
+  registerPanel({
+    id: 'help',
+    title: 'help.title',
+    icon: BookOpenText,
+    component: lazy(() => import('./HelpPanel')),
+    position: 'right',
+    order: 50,
+  });
+  registerCommand({
+    id: 'help.here',
+    title: 'command.help',
+    icon: CircleHelp,
+    keys: ['F1'],
+    menu: { menu: 'help', group: '0_here' },
+    run: helpHere,
+  });
+}
