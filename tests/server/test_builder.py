@@ -147,7 +147,7 @@ async def test_a_cleaned_application_is_built_anew_once(builder: Builder) -> Non
 
 def test_a_fresh_build_uses_nothing_of_earlier_ones(tmp_path: Path) -> None:
     compiler = Compiler()
-    order = compile_order("n := n + 1;") | {"cache": str(tmp_path)}
+    order = compile_order("a := a + 1;") | {"cache": str(tmp_path)}
     assert compiler.build(order)["package"]
     kept = set(tmp_path.rglob("*"))
     session = compiler._sessions[order["key"]]
