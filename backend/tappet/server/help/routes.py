@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
 from tappet.lang.diagnostic_translations import Language
 from tappet.server.dependencies import Viewer
 from tappet.server.help import pages
 from tappet.server.help.shapes import HelpEntry, HelpPage
+from tappet.server.routing import Router
 
-router = APIRouter(prefix="/help", tags=["help"])
+router = Router(prefix="/help", tags=["help"])
 
 
 @router.get("")
