@@ -56,7 +56,7 @@ describe('orderOf', () => {
   it('names the objects of each scope', () => {
     const within = (scope: SearchForm['scope']) => orderOf({ ...FORM, scope }, OBJECTS, null)?.within;
     expect(within('project')).toBeNull();
-    expect(within('application')).toEqual(['app']);
+    expect(within('active')).toEqual(['app']);
     expect(within('selection')).toEqual(['a', 'b']);
     expect(within('editors')).toEqual(['c']);
     expect(orderOf({ ...FORM, scope: 'editors' }, OBJECTS, null)?.children).toBe(false);

@@ -8,7 +8,7 @@ type SearchOrder = Schemas['SearchOrder'];
 type ReplaceOrder = Schemas['ReplaceOrder'];
 
 export const AREAS: readonly Area[] = ['declarations', 'implementations', 'comments', 'names', 'tables'];
-export const SCOPES = ['project', 'application', 'selection', 'editors', 'libraries'] as const;
+export const SCOPES = ['project', 'active', 'selection', 'editors', 'libraries'] as const;
 export type Scope = (typeof SCOPES)[number];
 
 export interface SearchForm {
@@ -64,7 +64,7 @@ export function withinOf(scope: Scope, { applicationId, selection, editors }: Sc
     case 'project':
     case 'libraries':
       return null;
-    case 'application':
+    case 'active':
       return applicationId === null ? [] : [applicationId];
     case 'selection':
       return [...selection];
