@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import uuid
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any, TypeVar
 
@@ -21,15 +21,13 @@ from tappet.project.placement import check_project
 from tappet.project.store import history
 from tappet.project.store.changes import apply_project
 from tappet.project.store.engine import migrate, open_engine, reading
+from tappet.project.store.history_reader import HistoryReader
 from tappet.project.store.library_use import read_library_references
 from tappet.project.store.records import (
     ChangeEvent,
-    DeletedObject,
     ObjectContent,
-    ObjectRevision,
     ObjectSummary,
     ProjectInfo,
-    ProjectRevision,
     UnknownProjectError,
 )
 from tappet.project.store.rows import (
@@ -42,14 +40,14 @@ from tappet.project.store.rows import (
 )
 from tappet.project.store.saving import check_base, read_object, save_data, with_contents, with_index
 from tappet.project.store.tables import files, projects
-from tappet.project.store.undoing import NotUndoableError, Step, Steps, steps_of, undo_change
+from tappet.project.store.undoing import NotUndoableError, Step, steps_of, undo_change
 
 Listener = Callable[[ChangeEvent], None]
 T = TypeVar("T")
 log = logging.getLogger(__name__)
 
 
-class Store:
+class Store(HistoryReader):
     """Projects in a database. All methods block for it; call them from threads, several at once if needed.
 
     Every change of a project locks its row, so that changes of one project follow each other.
@@ -59,7 +57,7 @@ class Store:
         """Open `sqlite:///file` or `postgresql://...` and bring its schema up to date. Raises StoreError."""
         self.engine = open_engine(database) if isinstance(database, str) else database
         migrate(self.engine)
-        self._reading = reading(self.engine)
+        super().__init__(reading(self.engine))
         self._listeners: list[Listener] = []
 
     def close(self) -> None:
@@ -402,48 +400,6 @@ class Store:
         return outcome if known is None else known  # type: ignore[return-value]
 
     # -- history ------------------------------------------------------------------------------------
-
-    def object_revisions(self, project_id: str, object_id: str) -> list[ObjectRevision]:
-        """The states of an object, newest first. Raises UnknownProjectError, UnknownRevisionError."""
-        with self._reading.begin() as connection:
-            read_info(connection, project_id)
-            return history.object_revisions(connection, project_id, object_id)
-
-    def object_at(self, project_id: str, object_id: str, revision: int) -> ProjectObject:
-        """An object as it was. Raises UnknownProjectError, UnknownRevisionError."""
-        with self._reading.begin() as connection:
-            read_info(connection, project_id)
-            return history.object_at(connection, project_id, object_id, revision)[0]
-
-    def past_data(self, project_id: str, object_ids: Collection[str]) -> dict[str, list[dict[str, Any]]]:
-        """The data that objects have had, newest first; at most the last 200 states of each."""
-        with self._reading.begin() as connection:
-            return {one: history.past_data(connection, project_id, one) for one in object_ids}
-
-    def project_revisions(
-        self, project_id: str, *, limit: int = 100, before: int | None = None
-    ) -> list[ProjectRevision]:
-        """The changes of a project, newest first. Raises UnknownProjectError."""
-        with self._reading.begin() as connection:
-            read_info(connection, project_id)
-            return history.project_revisions(connection, project_id, limit, before)
-
-    def project_at(self, project_id: str, revision: int) -> Project:
-        """A project as it was after a change. Raises UnknownProjectError, UnknownRevisionError."""
-        with self._reading.begin() as connection:
-            return history.project_at(connection, read_info(connection, project_id), revision)
-
-    def deleted_objects(self, project_id: str, *, limit: int = 1000) -> list[DeletedObject]:
-        """What was deleted and is not back, latest first. Raises UnknownProjectError."""
-        with self._reading.begin() as connection:
-            stored = read_project(connection, read_info(connection, project_id))
-            return history.deleted_objects(connection, stored.project, project_id, limit)
-
-    def steps(self, project_id: str, author: str) -> Steps:
-        """What `undo` and `redo` of an author would do next. Raises UnknownProjectError."""
-        with self._reading.begin() as connection:
-            read_info(connection, project_id)
-            return steps_of(connection, project_id, author)
 
     def undo(self, project_id: str, author: str, *, redo: bool = False) -> tuple[Step, ChangeEvent | None]:
         """Take back the last change of the tree by this author, or with `redo` what was undone last.
