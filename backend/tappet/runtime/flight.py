@@ -16,9 +16,11 @@ from typing import TYPE_CHECKING, TypeVar
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_deltas import BLOCK, ENTRY_SIZE, Entry, FlightError, rebuild, unpack_entries
 from tappet.runtime.image import Image
+from tappet.runtime.logbook import Logbook
 from tappet.runtime.posix import map_memory, pages, read_memory
 
 if TYPE_CHECKING:
+    from tappet.runtime.application import LoadedApplication
     from tappet.runtime.executive.loader import Executive
 
 LEAST_MEMORY = 64 << 10
@@ -293,3 +295,13 @@ def _not_kept(cycle: int, entries: Sequence[Entry], at: int) -> str:
         f"cycle {cycle} is not kept; the flight recorder holds cycles {entries[0].cycle} to "
         f"{entries[-1].cycle}, next to it {' and '.join(near)}"
     )
+
+
+def note_flight(application: LoadedApplication, settings: FlightSettings, log: Logbook) -> None:
+    """Log what of past cycles is not kept."""
+    recorder = application.flight
+    if recorder is None:
+        if settings.memory and application.contexts.tasks:
+            log.add("error", "flight", "no memory for the flight recorder; past cycles are not kept")
+    elif recorder.parts > 1:
+        log.add("info", "flight", f"large image: each cycle records one of {recorder.parts} parts in turn")

@@ -18,14 +18,21 @@ from tappet.codegen.package import CodePackage, PackageError
 from tappet.disk_full import is_disk_full
 from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.boot import BootError, create_boot, load_boot, remove_boot, storing_boot
+from tappet.runtime.boot import (
+    BootError,
+    create_boot,
+    load_boot,
+    persistent_of,
+    remove_boot,
+    storing_boot,
+)
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
 from tappet.runtime.crash import Crash, RunningMark
 from tappet.runtime.errors import DiskFullError, PlcError
 from tappet.runtime.exception_report import ExceptionReport, summary
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.faults import RawFault
-from tappet.runtime.flight import FlightSettings
+from tappet.runtime.flight import FlightSettings, note_flight
 from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
@@ -346,7 +353,7 @@ class SoftPlc(ApplicationAccess):
             raise
         old = self.application
         if kept is None:
-            kept = self._persistent_of(old, package)
+            kept = persistent_of(old, package, self.folder)
         if old is not None:
             self._unload(old, leave=True)
         self.application = application
@@ -375,32 +382,10 @@ class SoftPlc(ApplicationAccess):
                 self.log.add("info", "scheduler", note)
         for note in self._notes()[len(self.scheduling.notes) :]:
             self.log.add("warning", "image", note)
-        self._note_flight(application)
+        note_flight(application, self.flight, self.log)
         self.log.add("info", "application", f"{package.application} loaded ({package.code_id[:12]})")
         if fault is not None:
             self.poll()
-
-    def _note_flight(self, application: LoadedApplication) -> None:
-        recorder = application.flight
-        if recorder is None:
-            if self.flight.memory and application.contexts.tasks:
-                self.log.add("error", "flight", "no memory for the flight recorder; past cycles are not kept")
-        elif recorder.parts > 1:
-            self.log.add(
-                "info", "flight", f"large image: each cycle records one of {recorder.parts} parts in turn"
-            )
-
-    def _persistent_of(self, old: LoadedApplication | None, package: CodePackage) -> Kept:
-        """Persistent values survive a download of the application of the same name (PERS-05)."""
-        if old is not None:
-            if old.package.application != package.application:
-                return {}
-            old.tasks.stop()
-            return old.kept_values(retain=False)
-        if self.folder is None:
-            return {}
-        kept, _ = load_retain(self.folder)  # left by a boot application that could not be loaded
-        return {path: value for path, value in kept.items() if value.persistent}
 
     def _unload(self, application: LoadedApplication, *, leave: bool) -> None:
         """End an application; with `leave` its FB_Exit methods are called."""
@@ -433,7 +418,7 @@ class SoftPlc(ApplicationAccess):
         if result.retain_problem:
             self.log.add("error", "retain", f"remanent variables are not kept: {result.retain_problem}")
         if result.paused:
-            self._note_flight(application)
+            note_flight(application, self.flight, self.log)
         if result.lost_forces:
             released = len(result.lost_forces)
             self.log.add("warning", "forces", f"forces released because their variables are gone: {released}")
