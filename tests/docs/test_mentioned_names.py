@@ -175,7 +175,11 @@ def test_the_layout_in_the_architecture_lists_the_packages() -> None:
     assert set(listed) - {"frontend"} == packages
 
 
-LOADED_BY_NAME = {"psycopg": "SQLAlchemy, from the address", "python_multipart": "FastAPI, for uploads"}
+LOADED_BY_NAME = {
+    "confusable_homoglyphs": "importlib.resources, for its table",
+    "psycopg": "SQLAlchemy, from the address",
+    "python_multipart": "FastAPI, for uploads",
+}
 """Dependencies without an import, and what loads them."""
 IMPORTED_AS = {"argon2_cffi": "argon2", "google_re2": "re2", "pyelftools": "elftools"}
 
