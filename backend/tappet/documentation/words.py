@@ -9,7 +9,7 @@ Language = Literal["en", "zh"]
 WORDS: dict[str, tuple[str, str]] = {
     "contents": ("Contents", "目录"),
     "page": ("Page {page} of {pages}", "第 {page} 页，共 {pages} 页"),
-    "project": ("Project", "项目"),
+    "project": ("Project", "工程"),
     "author": ("Author", "作者"),
     "printed": ("Printed", "打印时间"),
     "revision": ("Revision", "修订"),

@@ -26,7 +26,7 @@ _ERROR: Final = 1
 _SAID = {
     "en": "The analysis of this project ended unexpectedly ({reason}). It starts again with the next edit or "
     "request; no text is lost.",
-    "zh": "本项目的分析意外结束（{reason}）。下一次编辑或请求时会重新启动；文本不会丢失。",
+    "zh": "本工程的分析意外结束（{reason}）。下一次编辑或请求时会重新启动；文本不会丢失。",
 }
 
 log = logging.getLogger(__name__)
