@@ -181,6 +181,7 @@ def test_values_both_ways(symbols: SymbolMap, path: str, given: values.Value, li
         ("PLC_PRG.t", "T#1s1m", "units must come in the order"),
         ("PLC_PRG.f.a[1, 0].x", 40000, "outside -32768..32767"),
         ("PLC_PRG.f.a[1, 0].x", "four", "is no INT; write for example 12"),
+        ("PLC_PRG.f.a[1, 0].x", None, "null is no INT"),
         ("PLC_PRG.f.a[1, 0].tag", "'too long'", "longer than STRING"),
         ("PLC_PRG.bit1", "maybe", "write TRUE or FALSE"),
         ("PLC_PRG.f", 1, "write its members one by one"),

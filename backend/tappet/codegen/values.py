@@ -213,6 +213,8 @@ def _parse_int(text: str) -> int:
 
 
 def _show(value: Value) -> str:
+    if value is None:
+        return "null"
     return repr(value) if isinstance(value, str) else str(value)
 
 
