@@ -187,9 +187,8 @@ def project_at(connection: Connection, info: ProjectInfo, revision: int) -> Proj
     Raises UnknownRevisionError for a number that the project has not reached.
     """
     if not 1 <= revision <= info.revision:
-        raise UnknownRevisionError(
-            f"The project '{info.name}' has the revisions 1 to {info.revision}, not {revision}"
-        )
+        has = f"has the revisions 1 to {info.revision}" if info.revision else "has no revision yet"
+        raise UnknownRevisionError(f"The project '{info.name}' {has}, not {revision}")
     newest = (
         select(revisions.c.object_id, func.max(revisions.c.revision).label("revision"))
         .where(revisions.c.project_id == info.id, revisions.c.change <= revision)
