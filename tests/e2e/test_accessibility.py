@@ -83,6 +83,7 @@ def _dialogs(page: Page) -> Iterator[str]:
         ("Project", "Project information"),
         ("File", "Print"),
         ("Help", "About"),
+        ("Help", "Keyboard"),
     ):
         choose_menu(page, menu, entry)
         page.wait_for_timeout(300)

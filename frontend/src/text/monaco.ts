@@ -49,6 +49,7 @@ import 'monaco-editor/features/wordPartOperations/register';
 import 'monaco-editor/editor/contrib/semanticTokens/browser/documentSemanticTokens';
 import 'monaco-editor/editor/contrib/suggest/browser/suggestController';
 import { StandaloneServices } from 'monaco-editor/editor/standalone/browser/standaloneServices';
+import { releaseKeys } from './editorActions';
 import { IEC_TEXT, languageConfiguration, monarchLanguage } from './iecText';
 import { partLabels } from './labels';
 import { followTheme } from './theme';
@@ -61,5 +62,6 @@ monaco.languages.register({ id: IEC_TEXT, extensions: ['.st'] });
 monaco.languages.setLanguageConfiguration(IEC_TEXT, languageConfiguration);
 monaco.languages.setMonarchTokensProvider(IEC_TEXT, monarchLanguage);
 followTheme(monaco);
+releaseKeys(monaco);
 
 export { monaco };

@@ -56,7 +56,7 @@ export interface Command {
   /** `Ctrl+Shift+P`, `Alt+F8`, `F5`; the first one is shown in menus. */
   keys?: readonly string[];
   /** Keys act only while the focus is inside a view of this kind; without it they act everywhere. */
-  scope?: 'tree' | 'editor';
+  scope?: 'tree' | 'editor' | 'text';
   menu?: MenuPlace | readonly MenuPlace[];
   toolbar?: ToolbarPlace;
   /** Left out of the palette: entries that make no sense without the view they belong to. */
@@ -88,14 +88,33 @@ interface RegistryState {
 
 export const useRegistry = create<RegistryState>(() => ({ commands: new Map(), handlers: new Map(), version: 0 }));
 
+/** The commands as they were registered; those of the registry have the keys of the user. */
+const declared = new Map<string, Command>();
+let keysOf = (command: Command): readonly string[] | undefined => command.keys;
+
 export function registerCommand(command: Command): () => void {
-  useRegistry.setState((state) => ({ commands: new Map(state.commands).set(command.id, command) }));
-  return () =>
+  declared.set(command.id, command);
+  useRegistry.setState((state) => ({ commands: new Map(state.commands).set(command.id, withKeys(command)) }));
+  return () => {
+    if (declared.get(command.id) !== command) return;
+    declared.delete(command.id);
     useRegistry.setState((state) => {
       const commands = new Map(state.commands);
-      if (commands.get(command.id) === command) commands.delete(command.id);
+      commands.delete(command.id);
       return { commands };
     });
+  };
+}
+
+/** Commands have the keys that `keys` says, those that are registered later, too. */
+export function setKeysOf(keys: (command: Command) => readonly string[] | undefined): void {
+  keysOf = keys;
+  useRegistry.setState({ commands: new Map([...declared].map(([id, command]) => [id, withKeys(command)])) });
+}
+
+function withKeys(command: Command): Command {
+  const keys = keysOf(command);
+  return keys === command.keys ? command : { ...command, keys };
 }
 
 export function registerCommands(commands: readonly Command[]): () => void {

@@ -47,6 +47,7 @@ describe('keys', () => {
     ];
     expect(findByKey(commands, press('F2'), 'tree')?.id).toBe('rename');
     expect(findByKey(commands, press('F2'), 'editor')?.id).toBe('assistant');
+    expect(findByKey(commands, press('F2'), 'text')?.id).toBe('assistant');
     expect(findByKey(commands, press('F2'), undefined)).toBeUndefined();
     expect(findByKey(commands, press('F11'), 'tree')?.id).toBe('build');
   });

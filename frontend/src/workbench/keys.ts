@@ -21,6 +21,25 @@ function parseKeys(text: string): Stroke {
   };
 }
 
+/** Whether two combinations are one, however they are written. */
+export function sameKeys(one: string, other: string): boolean {
+  const [a, b] = [parseKeys(one), parseKeys(other)];
+  return a.key === b.key && a.ctrl === b.ctrl && a.shift === b.shift && a.alt === b.alt;
+}
+
+const WRITTEN: Record<string, string> = { ' ': 'Space', '+': 'Plus', Delete: 'Del', Escape: 'Esc' };
+const MODIFIER_KEYS = ['Control', 'Shift', 'Alt', 'Meta', 'AltGraph', 'Dead', 'Process', 'Unidentified'];
+
+/** The combination that was pressed; null while it is none, or one that types a character. */
+export function keyOfEvent(event: KeyPress): string | null {
+  const { key } = event;
+  if (MODIFIER_KEYS.includes(key)) return null;
+  const ctrl = event.ctrlKey || event.metaKey;
+  if (key.length === 1 && !ctrl && !event.altKey) return null;
+  const name = WRITTEN[key] ?? (key.length === 1 ? key.toUpperCase() : key);
+  return [ctrl && 'Ctrl', event.shiftKey && 'Shift', event.altKey && 'Alt', name].filter(Boolean).join('+');
+}
+
 export interface KeyPress {
   key: string;
   ctrlKey: boolean;
@@ -40,6 +59,13 @@ export function pressed(text: string, event: KeyPress): boolean {
   );
 }
 
+/** How near commands of a scope are to where a key was pressed; null for those of other views. */
+function nearness(scope: Command['scope'], pressedIn: Command['scope']): number | null {
+  if (scope === undefined) return 0;
+  if (scope === pressedIn) return 2;
+  return scope === 'editor' && pressedIn === 'text' ? 1 : null;
+}
+
 /** The command of a key: that of the view first; those that are not `shown` now leave it to others. */
 export function findByKey(
   commands: Iterable<Command>,
@@ -47,13 +73,16 @@ export function findByKey(
   scope: Command['scope'],
   shown: (command: Command) => boolean = () => true,
 ): Command | undefined {
-  let global: Command | undefined;
+  let found: Command | undefined;
+  let best = -1;
   for (const command of commands) {
     if (!command.keys?.some((keys) => pressed(keys, event)) || !shown(command)) continue;
-    if (command.scope === undefined) global ??= command;
-    else if (command.scope === scope) return command;
+    const near = nearness(command.scope, scope);
+    if (near === null || near <= best) continue;
+    found = command;
+    best = near;
   }
-  return global;
+  return found;
 }
 
 /** Where the browser's own meaning of a key comes first: typing, clipboard and undo inside plain fields. */

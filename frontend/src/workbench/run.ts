@@ -47,7 +47,9 @@ export async function runCommand(id: string, argument?: unknown): Promise<void> 
 function scopeOf(target: EventTarget | null): Command['scope'] {
   if (!(target instanceof Element)) return undefined;
   if (target.closest('[data-scope="tree"]')) return 'tree';
-  return target.closest('[data-scope="editor"]') ? 'editor' : undefined;
+  if (target.closest('[data-scope="editor"]') === null) return undefined;
+  // Fields of widgets within a text editor, like those of its search, are no text.
+  return target.matches('.monaco-editor textarea.inputarea') ? 'text' : 'editor';
 }
 
 function isField(target: EventTarget | null): boolean {

@@ -1,3 +1,5 @@
+import { EDITOR_ACTIONS } from '@/text/editorActions';
+
 /** Monaco's own command behind each of ours. */
 export const ACTIONS: Readonly<Record<string, string>> = {
   'edit.find': 'actions.find',
@@ -20,4 +22,13 @@ export const ACTIONS: Readonly<Record<string, string>> = {
   'st.parameters': 'editor.action.triggerParameterHints',
   'st.nextProblem': 'editor.action.marker.next',
   'st.previousProblem': 'editor.action.marker.prev',
+  ...Object.fromEntries(EDITOR_ACTIONS.map(({ id, action }) => [`text.${id}`, action])),
 };
+
+/** Those of them that change the text. */
+export const CHANGING: readonly string[] = [
+  'st.format',
+  'st.comment',
+  'st.quickFix',
+  ...EDITOR_ACTIONS.filter(({ changes }) => changes).map(({ id }) => `text.${id}`),
+];

@@ -3,6 +3,7 @@ import { Braces, Eye, History, Lightbulb, ListTree, Search, WandSparkles, Waypoi
 import { contextChanged, menuGroup, registerCommands, type Command } from '@/workbench/commands';
 import { openPalette } from '@/workbench/palette/state';
 import { mayChangeText } from '@/workbench/rights';
+import { EDITOR_ACTIONS } from '@/text/editorActions';
 import { setEditorSettings, useEditorSettings } from '@/text/settings';
 
 /** The focused editor offers the act, and the keys act in editors alone. */
@@ -137,6 +138,16 @@ const commands: Command[] = [
     keys,
     ...OF_EDITOR,
     menu: { menu: 'edit', group: '7_folding', order, submenu: 'st.folding' },
+  })),
+  ...EDITOR_ACTIONS.map(({ id, keys, changes }, order): Command => ({
+    id: `text.${id}`,
+    title: `text.command.${id}`,
+    keys,
+    // Tables have Alt and the arrows for themselves.
+    scope: 'text',
+    delegated: true,
+    menu: { menu: 'edit', group: '7_lines', order, submenu: 'text.lines' },
+    enabled: changes ? mayChangeText : undefined,
   })),
   {
     id: 'st.suggest',

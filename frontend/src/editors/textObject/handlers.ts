@@ -15,11 +15,9 @@ import {
 } from '../text/acts';
 import type { CodeEditor } from '@/text/CodePane';
 import { bodyOf } from '@/text/bodies';
-import { ACTIONS } from '../text/actions';
+import { ACTIONS, CHANGING } from '../text/actions';
 import { mayChangeNow } from '../text/onlineEdit';
 import { panelChosen, panelEditor, panelPlace, panelPrepare, panelTable, type TextPlace } from '@/text/focus';
-
-const CHANGING = ['st.format', 'st.comment', 'st.quickFix'] as const;
 
 /** Acts of a panel with Monaco editors: they go to the one that had the focus last. */
 export function textHandlers(panelId: string, panel: TextPanel): Handlers {

@@ -10,8 +10,8 @@ const commands: Command[] = [
     keys: ['Ctrl+Alt+K'],
     menu: { menu: 'help', group: '1_help' },
     run: async () => {
-      const { ShortcutsDialog } = await import('../help/ShortcutsDialog');
-      await openDialog((close) => <ShortcutsDialog close={() => close()} />);
+      const { KeysDialog } = await import('../keymap/KeysDialog');
+      await openDialog((close) => <KeysDialog close={() => close()} />);
     },
   },
   {

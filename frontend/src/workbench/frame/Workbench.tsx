@@ -18,6 +18,7 @@ import { useOnline } from '../onlineSession';
 import { Palette } from '../palette/Palette';
 import { findPanel } from '../panels';
 import { useProject } from '@/project/openProject';
+import { startKeymap } from '../keymap/keymap';
 import { listenToKeys } from '../run';
 import { selectObjects, useSelection } from '../selection';
 import { startTree } from '../tree/state';
@@ -41,6 +42,7 @@ export function Workbench({ projectId }: { projectId: string }) {
     document.title = name === undefined ? 'Tappet' : `${name} – Tappet`;
   }, [name]);
   useEffect(() => listenToKeys(), []);
+  useEffect(() => startKeymap(), []);
   useEffect(() => {
     window.addEventListener('beforeunload', warnBeforeLeaving);
     return () => window.removeEventListener('beforeunload', warnBeforeLeaving);

@@ -1,6 +1,7 @@
 import type { PlacementRule } from '@/api/types';
 import { t } from '@/i18n';
 import { kindTitle, objectIcon } from '@/project/kinds';
+import { keysText } from '../keys';
 import { findCommand, useRegistry } from '../commands';
 import { commandContext, type CommandContext } from '../context';
 import { guard } from '@/ui/notices';
@@ -33,7 +34,7 @@ export function treeEntries({ view, forest, rules, paste }: TreeMenuOptions): Me
     key: 'paste',
     text: t('command.paste'),
     icon: pasteCommand?.icon,
-    shortcut: pasteCommand?.keys?.[0],
+    shortcut: pasteCommand?.keys?.[0] && keysText(pasteCommand.keys[0]),
     disabledReason: pasteRefusal === true ? null : reasonText(pasteRefusal),
     run: () => void guard(paste),
   };
