@@ -38,7 +38,7 @@ def _prepare(page: Page, name: str, shown: str) -> None:
             return
         except AssertionError:
             page.wait_for_timeout(600)  # the next click is not the second of a double click
-    raise AssertionError(f"{name} does not show {shown}: {row.inner_text()}")
+    raise AssertionError(f"{name} does not show {shown}: {row.text_content()}")
 
 
 def test_the_five_minutes_of_the_readme(page: Page) -> None:

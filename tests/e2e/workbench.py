@@ -144,8 +144,8 @@ def watch_value(row: Locator, *, at_least: int) -> str:
     cell = row.get_by_role("gridcell").nth(2)
     deadline = time.monotonic() + 30.0
     while time.monotonic() < deadline:
-        text = cell.inner_text().strip()
+        text = (cell.text_content() or "").strip()
         if text.isdigit() and int(text) >= at_least:
             return text
         cell.page.wait_for_timeout(100)
-    raise AssertionError(f"{row.inner_text()!r} does not reach {at_least}")
+    raise AssertionError(f"{row.text_content()!r} does not reach {at_least}")

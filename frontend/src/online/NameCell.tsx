@@ -8,41 +8,43 @@ import {
   Variable,
 } from 'lucide-react';
 import { useText } from '@/i18n';
-import type { OnlineSession } from '@/workbench/onlineSession';
 import styles from './OnlineTable.module.css';
 import { isExpandable, type OnlineRow } from './treeRows';
 import { useLiveItem } from './useLive';
 
 interface NameCellProps {
   row: OnlineRow;
-  session: OnlineSession | null;
-  onToggle: () => void;
+  runtimeId: string | null;
+  onToggle: (row: OnlineRow) => void;
 }
 
 const INDENT_PX = 16;
 
 /** Name with its place in the tree, an arrow to open, and an icon for input, output and others (DECL-46). */
-export function NameCell({ row, session, onToggle }: NameCellProps) {
+export function NameCell({ row, runtimeId, onToggle }: NameCellProps) {
   const t = useText();
-  const item = useLiveItem(session?.runtimeId ?? null, row.expression);
+  const item = useLiveItem(runtimeId, row.expression);
   const error = row.valueless !== true && (row.kind === undefined || row.kind === 'error') ? item?.error : undefined;
   const expandable = isExpandable(row);
   if (row.expression === '') return <span className={styles.placeholder}>{t('watch.newLine')}</span>;
   const Arrow = row.open === true ? ChevronDown : ChevronRight;
   return (
     <span className={styles.name} style={{ paddingLeft: row.depth * INDENT_PX }}>
-      <button
-        type="button"
-        className={styles.arrow}
-        tabIndex={-1}
-        aria-label={t(row.open === true ? 'online.collapse' : 'online.expand')}
-        style={{ visibility: expandable ? 'visible' : 'hidden' }}
-        onPointerDown={(event) => event.stopPropagation()}
-        onDoubleClick={(event) => event.stopPropagation()}
-        onClick={onToggle}
-      >
-        <Arrow size={14} />
-      </button>
+      {expandable ? (
+        <button
+          type="button"
+          className={styles.arrow}
+          tabIndex={-1}
+          aria-label={t(row.open === true ? 'online.collapse' : 'online.expand')}
+          onPointerDown={(event) => event.stopPropagation()}
+          onDoubleClick={(event) => event.stopPropagation()}
+          onClick={() => onToggle(row)}
+        >
+          <Arrow size={14} />
+        </button>
+      ) : (
+        <span className={styles.arrow} />
+      )}
       <SectionIcon section={row.section ?? item?.section} flags={row.flags ?? item?.flags} />
       <span className={error ? styles.invalid : undefined} title={error ?? undefined}>
         {row.label}

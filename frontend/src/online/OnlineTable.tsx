@@ -1,4 +1,5 @@
 import {
+  useCallback,
   useEffect,
   useImperativeHandle,
   useMemo,
@@ -25,6 +26,8 @@ import { useItems } from './useItems';
 import { useChildren } from './useChildren';
 import { useWatched } from './useLive';
 import { ValueCell } from './ValueCell';
+import { ValueLayer } from './ValueLayer';
+import { ValuePainter } from './valuePainter';
 
 export interface OnlineTableProps {
   label: string;
@@ -48,6 +51,7 @@ export function OnlineTable(props: OnlineTableProps) {
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const [editing, setEditing] = useState<GridEditing | null>(null);
   const onScreen = useRef<OnScreenHandle>(null);
+  const [painter] = useState(() => new ValuePainter());
   const expressions = useMemo(
     () => roots.filter((r) => r.kind === undefined && r.valueless !== true).map((r) => r.expression),
     [roots],
@@ -63,13 +67,16 @@ export function OnlineTable(props: OnlineTableProps) {
     chosenNow.current = chosen;
   });
 
-  const toggleOpen = (row: OnlineRow, wanted = !open.has(row.key)) =>
-    setOpen((before) => {
-      const next = new Set(before);
-      if (wanted) next.add(row.key);
-      else next.delete(row.key);
-      return next;
-    });
+  const toggleOpen = useCallback(
+    (row: OnlineRow, wanted?: boolean) =>
+      setOpen((before) => {
+        const next = new Set(before);
+        if (wanted ?? !before.has(row.key)) next.add(row.key);
+        else next.delete(row.key);
+        return next;
+      }),
+    [],
+  );
   const columnOf = (cell: { column: number }) => columns[cell.column]?.id;
   const edit = (cell: GridEditing) => {
     const row = rows[cell.row];
@@ -113,31 +120,38 @@ export function OnlineTable(props: OnlineTableProps) {
   };
   const lost = session !== null && session.lostSince !== null;
 
-  const cell = (index: number, column: GridColumn): ReactNode => {
-    const row = rows[index];
-    if (row === undefined) return null;
-    switch (column.id) {
-      case 'expression':
-        return <NameCell row={row} session={session} onToggle={() => toggleOpen(row)} />;
-      case 'type':
-        return <span className={styles.type}>{row.type}</span>;
-      case 'value':
-        if (row.expression === '') return null;
-        return row.valueless === true ? (
-          <span className={styles.unknown}>???</span>
-        ) : (
-          <ValueCell runtimeId={runtimeId} row={row} lost={lost} />
-        );
-      case 'prepared':
-        return <PreparedCell runtimeId={runtimeId} row={row} />;
-      case 'address':
-        return <span>{row.address}</span>;
-      case 'comment':
-        return <span className={styles.muted}>{row.comment?.split('\n')[0]}</span>;
-      default:
-        return null;
-    }
-  };
+  // Rows are drawn again when these functions are others: not with each state that the runtime tells of itself.
+  const cell = useCallback(
+    (index: number, column: GridColumn): ReactNode => {
+      const row = rows[index];
+      if (row === undefined) return null;
+      switch (column.id) {
+        case 'expression':
+          return <NameCell row={row} runtimeId={runtimeId} onToggle={toggleOpen} />;
+        case 'type':
+          return <span className={styles.type}>{row.type}</span>;
+        case 'value':
+          if (row.expression === '') return null;
+          return row.valueless === true ? (
+            <span className={styles.unknown}>???</span>
+          ) : (
+            <ValueCell runtimeId={runtimeId} row={row} lost={lost} painter={painter} index={index} />
+          );
+        case 'prepared':
+          return <PreparedCell runtimeId={runtimeId} row={row} />;
+        case 'address':
+          return <span>{row.address}</span>;
+        case 'comment':
+          return <span className={styles.muted}>{row.comment?.split('\n')[0]}</span>;
+        default:
+          return null;
+      }
+    },
+    [rows, runtimeId, lost, toggleOpen, painter],
+  );
+  const hintOf = useCallback((index: number, column: GridColumn) => hint(t, rows[index], column.id), [t, rows]);
+  const level = useCallback((index: number) => (rows[index]?.depth ?? 0) + 1, [rows]);
+  const expanded = useCallback((index: number) => rows[index]?.open, [rows]);
   const editor = (what: GridEditing): ReactNode => {
     const row = rows[what.row];
     if (row === undefined) return null;
@@ -148,7 +162,6 @@ export function OnlineTable(props: OnlineTableProps) {
     <ContextMenu entries={entries}>
       <div
         className={styles.table}
-        data-lost={lost || undefined}
         onFocus={() => props.onFocus?.(() => chosenNow.current.map((row) => row.expression))}
       >
         <OnScreen ref={onScreen} runtimeId={runtimeId} rows={rows} />
@@ -158,9 +171,10 @@ export function OnlineTable(props: OnlineTableProps) {
           count={rows.length}
           keyOf={(index) => rows[index]?.key ?? String(index)}
           cell={cell}
-          hint={(index, column) => hint(t, rows[index], column.id)}
-          level={(index) => (rows[index]?.depth ?? 0) + 1}
-          expanded={(index) => rows[index]?.open}
+          layer={{ column: 'value', draw: (place) => <ValueLayer painter={painter} place={place} /> }}
+          hint={hintOf}
+          level={level}
+          expanded={expanded}
           selected={selection.selected}
           cursor={selection.cursor}
           onCursor={selection.move}

@@ -9,61 +9,77 @@ import { isLeaf, valueKind } from './item';
 import styles from './OnlineTable.module.css';
 import { isExpandable, type OnlineRow } from './treeRows';
 import { useForced, useLiveItem } from './useLive';
+import type { Tone, ValuePainter, ValuePlace } from './valuePainter';
 
 interface ValueCellProps {
   runtimeId: string | null;
   row: OnlineRow;
   lost: boolean;
+  /** What paints the values of the table, and the row's number in it; without one the cell shows its value itself. */
+  painter?: ValuePainter;
+  index?: number;
 }
 
+/** Pixels that the marks in front of a value take, with the gap behind them; the style sheet has the same. */
+const MARK_PX = { constant: 42, forced: 20 };
+
 /** The live value of a row: forced ones carry an F, constants their mark, changed ones glow for a second. */
-export function ValueCell({ runtimeId, row, lost }: ValueCellProps) {
+export function ValueCell({ runtimeId, row, lost, painter, index = 0 }: ValueCellProps) {
   const t = useText();
   const item = useLiveItem(runtimeId, row.expression);
   const forced = useForced(runtimeId, row.expression);
   if (isExpandable(row) || item === null) return null;
   if (item.error) return <span className={styles.invalid}>{item.error}</span>;
   if (!isLeaf(valueKind(item))) return <span className={styles.unknown}>…</span>;
+  const constant = item.flags?.includes('CONSTANT') === true;
   return (
-    <LiveText runtimeId={runtimeId} expression={row.expression} forced={forced} lost={lost}>
-      {item.flags?.includes('CONSTANT') === true && <i className={styles.constant}>const</i>}
+    <>
+      {constant && <i className={styles.constant}>const</i>}
       {forced && (
         <i className={styles.forced} aria-label={t('online.forced')}>
           F
         </i>
       )}
-    </LiveText>
+      <LiveText
+        runtimeId={runtimeId}
+        expression={row.expression}
+        painter={painter}
+        index={index}
+        inset={(constant ? MARK_PX.constant : 0) + (forced ? MARK_PX.forced : 0)}
+        forced={forced}
+        lost={lost}
+      />
+    </>
   );
 }
 
 interface LiveTextProps {
   runtimeId: string | null;
   expression: string;
+  painter: ValuePainter | undefined;
+  index: number;
+  inset: number;
   forced: boolean;
   lost: boolean;
-  /** Marks in front of the value. */
-  children: React.ReactNode;
 }
 
-/** Writes each value into the page itself: React draws a cell once, not ten times a second. */
-function LiveText({ runtimeId, expression, forced, lost, children }: LiveTextProps) {
+/** Writes each value into the page or the table's canvas: React draws a cell once, not ten times a second. */
+function LiveText({ runtimeId, expression, painter, index, inset, forced, lost }: LiveTextProps) {
   const t = useText();
   const format = useEditorSettings((settings) => settings.numberFormat);
   const frame = useRef<HTMLSpanElement>(null);
-  const text = useRef<HTMLSpanElement>(null);
   const board = channelOf(runtimeId)?.board ?? null;
 
   useLayoutEffect(() => {
-    const [shell, place] = [frame.current, text.current];
-    if (shell === null || place === null || board === null) return;
+    const shell = frame.current;
+    if (shell === null || board === null) return;
+    const place = painter === undefined ? inCell(shell) : inCanvas(shell, painter.row(index, inset));
+    const read = board.reader(expression);
     const show = () => {
-      const live = board.get(expression);
-      const shown = live === null || live.value === null ? '…' : textOf(live);
-      if (place.textContent !== shown) place.textContent = shown;
-      const state = typeof live?.value === 'boolean' ? String(live.value) : undefined;
-      if (state === undefined) delete shell.dataset.state;
-      else if (shell.dataset.state !== state) shell.dataset.state = state;
-      if (live !== null && !lost) markFresh(shell, live.changedAt);
+      const live = read();
+      const text = live === null || live.value === null ? '…' : textOf(live);
+      place.show(text, toneOf(live));
+      if (live !== null && !lost) markFresh(place, live.changedAt);
     };
     const textOf = ({ value, item }: LiveValue) =>
       value === null
@@ -71,13 +87,16 @@ function LiveText({ runtimeId, expression, forced, lost, children }: LiveTextPro
         : valueKind(item) === 'string'
           ? formatLiteral(value, item)
           : formatShort(value, item, format, 80);
+    const toneOf = (live: LiveValue | null): Tone =>
+      lost ? 'lost' : forced ? 'forced' : typeof live?.value === 'boolean' ? (live.value ? 'true' : 'false') : 'plain';
     show();
     const stop = board.subscribe(expression, show);
     return () => {
       stop();
-      unmarkFresh(shell);
+      unmarkFresh(place);
+      place.remove();
     };
-  }, [board, expression, format, lost]);
+  }, [board, expression, format, lost, forced, painter, index, inset]);
 
   // All formats are written only for who points at the value.
   const describe = () => {
@@ -88,9 +107,45 @@ function LiveText({ runtimeId, expression, forced, lost, children }: LiveTextPro
     frame.current.title = [...lines, live.item.type].join('\n');
   };
   return (
-    <span ref={frame} className={styles.value} data-forced={forced || undefined} onPointerEnter={describe}>
-      {children}
-      <span ref={text} />
-    </span>
+    <span ref={frame} className={painter === undefined ? styles.value : styles.painted} onPointerEnter={describe} />
   );
+}
+
+/** The text of an element, changed in place. */
+function textIn(element: HTMLElement): Text {
+  const first = element.firstChild;
+  if (first?.nodeType === Node.TEXT_NODE) return first as Text;
+  return element.appendChild(element.ownerDocument.createTextNode(''));
+}
+
+/** Shows a value in the cell itself. */
+function inCell(shell: HTMLElement): ValuePlace {
+  const node = textIn(shell);
+  return {
+    show: (text, tone) => {
+      if (node.data !== text) node.data = text;
+      if (shell.dataset.tone !== tone) shell.dataset.tone = tone;
+    },
+    setFresh: (fresh) => {
+      if (fresh) shell.dataset.fresh = '';
+      else delete shell.dataset.fresh;
+    },
+    remove: () => undefined,
+  };
+}
+
+/** Paints a value; its cell holds the text for assistive technology, which sees the canvas as a picture, and is not laid out. */
+function inCanvas(shell: HTMLElement, painted: ValuePlace): ValuePlace {
+  const node = textIn(shell);
+  shell.setAttribute('role', 'img');
+  return {
+    ...painted,
+    show: (text, tone) => {
+      if (node.data !== text) {
+        node.data = text;
+        shell.setAttribute('aria-label', text);
+      }
+      painted.show(text, tone);
+    },
+  };
 }

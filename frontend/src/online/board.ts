@@ -49,6 +49,12 @@ export class ValueBoard {
     return this.values.get(expressionKey(expression)) ?? null;
   }
 
+  /** Reads one expression often. */
+  reader(expression: string): () => LiveValue | null {
+    const key = expressionKey(expression);
+    return () => this.values.get(key) ?? null;
+  }
+
   /** Calls `listener` after the value of `expression`, or what it is, has changed. */
   subscribe(expression: string, listener: Listener): () => void {
     return listen(this.listeners, expressionKey(expression), listener);

@@ -89,14 +89,17 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
     }));
   }, [model, members, target.path, object]);
 
-  const columns: readonly GridColumn[] = [
-    { id: 'expression', title: t('online.column.expression'), width: 200, grow: true },
-    { id: 'type', title: t('online.column.type'), width: 140 },
-    { id: 'value', title: t('online.column.value'), width: 150, grow: true },
-    { id: 'prepared', title: t('online.column.prepared'), width: 120 },
-    { id: 'address', title: t('online.column.address'), width: 80, code: true },
-    { id: 'comment', title: t('online.column.comment'), width: 180, grow: true },
-  ];
+  const columns = useMemo(
+    (): readonly GridColumn[] => [
+      { id: 'expression', title: t('online.column.expression'), width: 200, grow: true },
+      { id: 'type', title: t('online.column.type'), width: 140 },
+      { id: 'value', title: t('online.column.value'), width: 150, grow: true },
+      { id: 'prepared', title: t('online.column.prepared'), width: 120 },
+      { id: 'address', title: t('online.column.address'), width: 80, code: true },
+      { id: 'comment', title: t('online.column.comment'), width: 180, grow: true },
+    ],
+    [t],
+  );
   return (
     <div className={online.panel}>
       <LostBar session={session} />

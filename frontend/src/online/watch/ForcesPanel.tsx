@@ -25,6 +25,7 @@ export default function ForcesPanel() {
   const session = useActiveSession() ?? null;
   const projectId = useProject((state) => state.projectId);
   const comments = useComments(projectId);
+  const columns = useMemo(() => onlineColumns(t), [t]);
   const paths = useOnline((state) => (session === null ? NONE : (state.forces[session.runtimeId] ?? NONE)));
   const roots = useMemo(
     () => paths.map((path) => ({ key: path, label: path, expression: path, comment: comments(path) })),
@@ -82,7 +83,7 @@ export default function ForcesPanel() {
           label={t('forces.title')}
           session={session}
           roots={roots}
-          columns={onlineColumns(t)}
+          columns={columns}
           onKey={onKey}
           menu={menu}
         />

@@ -38,6 +38,7 @@ export default function WatchPanel({ options }: PanelProps) {
   const { data: objects } = useObjects(projectId);
   const entries = useWatchLists((state) => state.lists[list]);
   const comments = useComments(projectId);
+  const columns = useMemo(() => onlineColumns(t), [t]);
   const [over, setOver] = useState(false);
 
   const roots = useMemo((): readonly OnlineRoot[] => {
@@ -115,7 +116,7 @@ export default function WatchPanel({ options }: PanelProps) {
           label={t('watch.title', { number: list })}
           session={session}
           roots={roots}
-          columns={onlineColumns(t)}
+          columns={columns}
           expressionEditor={editor}
           onKey={onKey}
           menu={menu}

@@ -1,9 +1,10 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { ArrowDown, ArrowUp } from 'lucide-react';
-import { useEffect, useId, useImperativeHandle, useRef, useState, type KeyboardEvent } from 'react';
+import { useEffect, useId, useImperativeHandle, useLayoutEffect, useRef, useState, type KeyboardEvent } from 'react';
 import { Grip } from '../Grip';
 import { isMenuKey, openMenuAt } from '../menuKey';
 import type { GridProps } from './gridProps';
+import { GridLayer } from './GridLayer';
 import { GridRow, widthOf, type Press } from './GridRow';
 import { useRowDrop } from './useRowDrop';
 import { cursorAfterKey } from './cursor';
@@ -26,6 +27,13 @@ export function Grid(props: GridProps) {
     estimateSize: () => ROW_HEIGHT,
     overscan: 10,
     scrollPaddingStart: ROW_HEIGHT,
+    // Rows beyond the screen are there already: no need to draw within the event of the wheel.
+    useFlushSync: false,
+  });
+  const head = useRef<HTMLDivElement>(null);
+  const given = useRef(props);
+  useLayoutEffect(() => {
+    given.current = props;
   });
   useImperativeHandle(props.ref, () => ({ focus: () => scroll.current?.focus() }), []);
 
@@ -48,6 +56,7 @@ export function Grid(props: GridProps) {
   const items = virtual.getVirtualItems();
   const first = items[0]?.index ?? 0;
   const last = items[items.length - 1]?.index ?? 0;
+  const canDrag = props.onDragRow !== undefined && editing === null;
   const { onRange } = props;
   useEffect(() => {
     onRange?.(first, last);
@@ -94,7 +103,7 @@ export function Grid(props: GridProps) {
       {...dropping.listeners}
       onPointerDown={(event) => event.target === event.currentTarget && props.onEmptyClick?.()}
     >
-      <div className={styles.head} role="row">
+      <div ref={head} className={styles.head} role="row">
         {columns.map((column) => (
           <div
             key={column.id}
@@ -126,14 +135,36 @@ export function Grid(props: GridProps) {
         {items.map(({ index, start }) => (
           <GridRow
             key={props.keyOf(index)}
-            grid={props}
+            grid={given}
             id={id}
             row={index}
             start={start}
             widths={widths}
             press={press}
+            columns={columns}
+            cell={props.cell}
+            hint={props.hint}
+            level={props.level}
+            expanded={props.expanded}
+            rowState={props.rowState}
+            selected={props.selected.has(index)}
+            cursorAt={cursor?.row === index ? cursor.column : -1}
+            editing={editing?.row === index ? editing : null}
+            editor={editing?.row === index ? props.editor : undefined}
+            canDrag={canDrag}
           />
         ))}
+        {props.layer && (
+          <GridLayer
+            head={head}
+            at={columns.findIndex((column) => column.id === props.layer?.column)}
+            draw={props.layer.draw}
+            first={first}
+            last={last}
+            count={count}
+            rowHeight={ROW_HEIGHT}
+          />
+        )}
       </div>
     </div>
   );

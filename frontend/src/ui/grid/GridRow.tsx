@@ -1,6 +1,6 @@
 import { memo, type CSSProperties, type RefObject } from 'react';
 import styles from '../Table.module.css';
-import type { GridColumn, GridProps } from './gridProps';
+import type { GridColumn, GridEditing, GridProps } from './gridProps';
 
 /** Widths that the user has given to columns, in pixels. */
 export type Widths = Readonly<Record<string, number>>;
@@ -21,71 +21,84 @@ export function widthOf(column: GridColumn, widths: Widths): CSSProperties {
     : { flex: `0 0 ${String(width)}px`, width };
 }
 
-interface GridRowProps {
-  /** What the grid is given; while it scrolls, that stays the same, and rows that stay are not drawn again. */
-  grid: GridProps;
+type Drawn = Pick<GridProps, 'columns' | 'cell' | 'hint' | 'level' | 'expanded' | 'rowState'>;
+
+interface GridRowProps extends Drawn {
+  /** What the grid is given now: events ask it, so that another function draws no row again. */
+  grid: RefObject<GridProps>;
   id: string;
   row: number;
   /** Pixels from the top of the first row. */
   start: number;
   widths: Widths;
   press: RefObject<Press>;
+  selected: boolean;
+  /** Number of the column of the cursor; -1 in rows that it does not stand in. */
+  cursorAt: number;
+  /** The cell of this row that is being edited. */
+  editing: GridEditing | null;
+  editor: GridProps['editor'];
+  canDrag: boolean;
 }
 
-/** One row of a grid. */
-export const GridRow = memo(function GridRow({ grid, id, row, start, widths, press }: GridRowProps) {
-  const { columns, cursor, editing = null, onCursor, onEdit } = grid;
-  const canDrag = grid.onDragRow !== undefined && editing === null;
+/** One row of a grid. It is drawn again when what it shows changes, not with each drawing of the grid. */
+export const GridRow = memo(function GridRow(props: GridRowProps) {
+  const { columns, cell, hint, grid, id, row, widths, press, cursorAt, editing, canDrag } = props;
   return (
     <div
       role="row"
       aria-rowindex={row + 1}
-      aria-selected={grid.selected.has(row)}
-      aria-level={grid.level?.(row)}
-      aria-expanded={grid.expanded?.(row)}
+      aria-selected={props.selected}
+      aria-level={props.level?.(row)}
+      aria-expanded={props.expanded?.(row)}
       className={styles.row}
-      data-state={grid.rowState?.(row)}
-      style={{ transform: `translateY(${String(start)}px)` }}
+      data-state={props.rowState?.(row)}
+      style={{ top: props.start }}
       draggable={canDrag}
-      onDragStart={(event) => grid.onDragRow?.(row, event)}
+      onDragStart={(event) => grid.current.onDragRow?.(row, event)}
     >
       {columns.map((column, at) => {
-        const edited = editing?.row === row && editing.column === at;
+        const edited = editing?.column === at;
         return (
           <div
             key={column.id}
             id={`${id}-${String(row)}-${String(at)}`}
             role="gridcell"
             className={`${styles.cell} ${column.align === 'right' ? styles.right : ''} ${column.code ? styles.code : ''}`}
-            data-cursor={cursor?.row === row && cursor.column === at ? '' : undefined}
+            data-cursor={cursorAt === at ? '' : undefined}
             data-editing={edited ? '' : undefined}
             style={widthOf(column, widths)}
-            title={edited ? undefined : grid.hint?.(row, column)}
+            title={edited ? undefined : hint?.(row, column)}
             onPointerDown={(event) => {
-              if (edited || (event.button !== 0 && grid.selected.has(row))) return;
-              press.current.pending = canDrag && !event.shiftKey && grid.selected.size > 1 && grid.selected.has(row);
+              const { selected, onCursor } = grid.current;
+              if (edited || (event.button !== 0 && selected.has(row))) return;
+              press.current.pending = canDrag && !event.shiftKey && selected.size > 1 && selected.has(row);
               if (press.current.pending) return;
               const plain = event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey;
-              press.current.again = plain && cursor?.row === row && cursor.column === at;
+              press.current.again = plain && cursorAt === at;
               onCursor(
                 { row, column: at },
                 event.ctrlKey || event.metaKey ? 'toggle' : event.shiftKey ? 'range' : 'one',
               );
             }}
             onClick={(event) => {
+              const { onCursor, onEdit, editOnClick, opensOnClick } = grid.current;
               if (press.current.pending)
                 onCursor({ row, column: at }, event.ctrlKey || event.metaKey ? 'toggle' : 'one');
               press.current.pending = false;
-              if (grid.editOnClick === true && press.current.again && !edited) onEdit?.({ row, column: at });
+              if (editOnClick === true && press.current.again && !edited) onEdit?.({ row, column: at });
               press.current.again = false;
               const plain = !event.ctrlKey && !event.metaKey && !event.shiftKey;
               // The second click of a double click is meant for the field that the first one has opened.
-              if (plain && event.detail <= 1 && !edited && grid.opensOnClick?.(column) === true)
+              if (plain && event.detail <= 1 && !edited && opensOnClick?.(column) === true)
                 onEdit?.({ row, column: at });
             }}
-            onDoubleClick={() => !edited && grid.opensOnClick?.(column) !== true && onEdit?.({ row, column: at })}
+            onDoubleClick={() => {
+              const { onEdit, opensOnClick } = grid.current;
+              if (!edited && opensOnClick?.(column) !== true) onEdit?.({ row, column: at });
+            }}
           >
-            {edited && editing ? grid.editor?.(editing) : grid.cell(row, column)}
+            {edited ? props.editor?.(editing) : cell(row, column)}
           </div>
         );
       })}

@@ -1,6 +1,7 @@
 /** What a grid is given. */
 import type { DragEvent, KeyboardEvent, ReactNode, Ref } from 'react';
 import type { GridCursor } from './cursor';
+import type { Layer } from './GridLayer';
 import type { RowDrop } from './useRowDrop';
 
 export interface GridColumn {
@@ -29,6 +30,7 @@ export interface GridProps {
   columns: readonly GridColumn[];
   count: number;
   keyOf: (row: number) => string;
+  /** What a cell shows; rows are drawn again when the function is another one. */
   cell: (row: number, column: GridColumn) => ReactNode;
   hint?: (row: number, column: GridColumn) => string | undefined;
   /** Chosen rows; the cursor's row is among them. */
@@ -56,6 +58,8 @@ export interface GridProps {
   onRange?: (first: number, last: number) => void;
   onDragRow?: (row: number, event: DragEvent) => void;
   onDropRow?: RowDrop;
+  /** Drawn over the cells of a column. */
+  layer?: Layer;
   empty?: ReactNode;
   ref?: Ref<GridHandle>;
 }

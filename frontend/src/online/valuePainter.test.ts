@@ -1,0 +1,125 @@
+// @vitest-environment happy-dom
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { ValuePainter } from './valuePainter';
+
+/** What has been painted: texts by row, in the order of painting. */
+interface Stroke {
+  kind: 'text' | 'clear' | 'pill';
+  row: number;
+  text?: string;
+  color?: string;
+}
+
+const ROW = 26;
+let strokes: Stroke[] = [];
+let canvas: HTMLCanvasElement;
+
+const COLORS: Readonly<Record<string, string>> = { true: 'blue', false: 'gray', forced: 'red', lost: 'silver' };
+
+beforeEach(() => {
+  strokes = [];
+  canvas = document.body.appendChild(document.createElement('canvas'));
+  const style = document.head.appendChild(document.createElement('style'));
+  style.textContent = Object.entries(COLORS)
+    .map(([tone, color]) => `canvas[data-tone='${tone}'] { color: ${color}; }`)
+    .join('\n');
+  const row = (y: number) => Math.floor(y / ROW);
+  const context = {
+    fillStyle: '',
+    font: '',
+    textBaseline: '',
+    setTransform: () => undefined,
+    beginPath: () => undefined,
+    fill: () => undefined,
+    measureText: () => ({ width: 8 }),
+    clearRect: (_: number, y: number) => strokes.push({ kind: 'clear', row: row(y) }),
+    roundRect: (_: number, y: number) => strokes.push({ kind: 'pill', row: row(y) }),
+    fillText(text: string, _: number, y: number) {
+      strokes.push({ kind: 'text', row: row(y), text, color: this.fillStyle });
+    },
+  };
+  canvas.getContext = (() => context) as never;
+});
+afterEach(() => {
+  document.head.replaceChildren();
+  document.body.replaceChildren();
+});
+
+/** After this turn, in which all changes are collected. */
+const painted = async () => {
+  await Promise.resolve();
+  const done = strokes;
+  strokes = [];
+  return done;
+};
+const texts = (done: readonly Stroke[]) => done.filter(({ kind }) => kind === 'text').map((s) => [s.row, s.text]);
+
+function cover(painter: ValuePainter, first = 0, count = 10, width = 150): void {
+  painter.cover(canvas, { first, count, rowHeight: ROW, width });
+}
+
+describe('values painted into a canvas', () => {
+  it('paint what has changed, each row once, and nothing for the same text', async () => {
+    const painter = new ValuePainter();
+    cover(painter);
+    strokes = [];
+    const [a, b] = [painter.row(0, 0), painter.row(3, 0)];
+    a.show('1', 'plain');
+    b.show('7', 'plain');
+    a.show('2', 'plain');
+    a.setFresh(true);
+    const done = await painted();
+    expect(texts(done)).toEqual([[0, '2'], [3, '7']]); // prettier-ignore
+    expect(done.filter(({ kind }) => kind === 'pill')).toEqual([{ kind: 'pill', row: 0 }]);
+    a.show('2', 'plain');
+    expect(await painted()).toEqual([]);
+    b.show('8', 'plain');
+    expect(texts(await painted())).toEqual([[3, '8']]);
+  });
+
+  it('have the colour of their look', async () => {
+    const painter = new ValuePainter();
+    cover(painter);
+    const tones = ['true', 'false', 'forced', 'lost'] as const;
+    tones.forEach((tone, row) => painter.row(row, 0).show(tone, tone));
+    const done = (await painted()).filter(({ kind }) => kind === 'text');
+    expect(done.map(({ text, color }) => [text, color])).toEqual(tones.map((tone) => [tone, COLORS[tone]]));
+    expect(canvas.dataset.tone).toBeUndefined();
+  });
+
+  it('are painted for covered rows only, and again when the canvas covers others', async () => {
+    const painter = new ValuePainter();
+    cover(painter, 0, 4);
+    strokes = [];
+    const far = painter.row(6, 0);
+    far.show('far', 'plain');
+    expect(await painted()).toEqual([]);
+    cover(painter, 4, 4);
+    const done = await painted();
+    // What was painted for other rows goes first.
+    expect(done[0]?.kind).toBe('clear');
+    expect(texts(done)).toEqual([[2, 'far']]);
+  });
+
+  it('leave their row empty when they go, unless another value has it', async () => {
+    const painter = new ValuePainter();
+    cover(painter);
+    const old = painter.row(1, 0);
+    old.show('old', 'plain');
+    await painted();
+    const next = painter.row(1, 0);
+    next.show('next', 'plain');
+    old.remove();
+    expect(texts(await painted())).toEqual([[1, 'next']]);
+    next.remove();
+    expect(await painted()).toEqual([{ kind: 'clear', row: 1 }]);
+  });
+
+  it('are shortened to their column', async () => {
+    const painter = new ValuePainter();
+    cover(painter, 0, 4, 8 * 10 + 16);
+    painter.row(0, 0).show('0123456789', 'plain');
+    painter.row(1, 16).show('0123456789', 'plain');
+    expect(texts(await painted())).toEqual([[0, '0123456789'], [1, '0123456…']]); // prettier-ignore
+  });
+});
