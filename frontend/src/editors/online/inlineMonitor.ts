@@ -1,7 +1,8 @@
 /**
  * Values behind the variables of the visible lines of one Monaco editor; `findUses` tells which stand in a text.
  *
- * Asks for what is on screen (and a little around it), and draws only those again whose text or look has changed.
+ * Asks for what is on screen (and a little around it). A value that keeps its width is written into the element that
+ * Monaco has drawn; only another width, or a prepared value, makes another decoration.
  */
 import type { editor, IDisposable } from 'monaco-editor/editor/editor.api';
 import type { GroupHandle, OnlineChannel } from '@/online/channel';
@@ -15,6 +16,7 @@ import type { CodeEditor } from '@/text/CodePane';
 import type { Monaco } from '@/text/monacoLoader';
 import { expressionOf, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
 import styles from './inlineMonitor.module.css';
+import { newPillName, PillElements } from './pillElements';
 import { pillOf, PillWidths } from './pills';
 
 export interface MonitorSettings {
@@ -38,6 +40,19 @@ interface ShownUse {
   readonly column: number;
 }
 
+interface DrawnPill {
+  /** Number of its decoration, and the class of its element. */
+  readonly id: string;
+  readonly name: string;
+  /** What Monaco lays out: another one needs another decoration. */
+  readonly shape: string;
+  look: string;
+}
+
+/** Classes that a pill has by turns. */
+const LOOKS: ReadonlySet<string> = new Set(
+  ['true', 'false', 'fresh', 'forced', 'lost', 'stale'].map((look) => styles[look] ?? look),
+);
 const AROUND_LINES = 20;
 const MOST_USES = 1500;
 
@@ -45,8 +60,9 @@ export class InlineMonitor {
   private uses: readonly VariableUse[] = [];
   private shown: readonly ShownUse[] = [];
   private readonly widths = new PillWidths();
-  /** What is drawn, by line and column of its place: the number of its decoration, and text and look. */
-  private readonly drawn = new Map<string, { id: string; look: string }>();
+  /** What is drawn, by line and column of its place. */
+  private readonly drawn = new Map<string, DrawnPill>();
+  private readonly elements: PillElements;
   private readonly group: GroupHandle;
   private readonly disposables: IDisposable[] = [];
   private readonly stops: (() => void)[] = [];
@@ -66,6 +82,8 @@ export class InlineMonitor {
     private readonly findUses: (text: string) => readonly VariableUse[],
   ) {
     this.group = channel.watch([], 100);
+    const lines = target.getDomNode()?.querySelector<HTMLElement>('.view-lines');
+    this.elements = new PillElements(lines ?? document.createElement('div'), styles.pill ?? 'pill', LOOKS);
     this.disposables.push(
       target.onDidScrollChange((event) => event.scrollTopChanged && this.scrolled()),
       target.onDidLayoutChange(() => this.look()),
@@ -99,6 +117,7 @@ export class InlineMonitor {
     this.stops.forEach((stop) => stop());
     this.listening.forEach((stop) => stop());
     this.group.release();
+    this.elements.dispose();
     this.target.deltaDecorations(
       [...this.drawn.values()].map(({ id }) => id),
       [],
@@ -110,7 +129,7 @@ export class InlineMonitor {
     const model = this.target.getModel();
     this.uses = model === null ? [] : this.findUses(model.getValue());
     // Decorations have moved with the text: each is set where it belongs now.
-    for (const pill of this.drawn.values()) pill.look = '';
+    for (const [place, pill] of this.drawn) this.drawn.set(place, { ...pill, shape: '' });
     this.look();
   }
 
@@ -198,7 +217,7 @@ export class InlineMonitor {
     let freshUntil = 0;
     const present = new Set<string>();
     const outdated: string[] = [];
-    const changed: { place: string; look: string; decoration: editor.IModelDeltaDecoration }[] = [];
+    const changed: { place: string; pill: Omit<DrawnPill, 'id'>; decoration: editor.IModelDeltaDecoration }[] = [];
     for (const { expression, line, column } of this.shown) {
       const live = this.channel.board.get(expression);
       if (live === null) continue;
@@ -218,16 +237,25 @@ export class InlineMonitor {
       if (pill === null) continue;
       if (pill.classes.includes('fresh')) freshUntil = Math.max(freshUntil, live.changedAt + FRESH_MS);
       const place = `${String(line)}.${String(column)}`;
-      const look = `${expression} ${pill.text} ${pill.classes.join()} ${pill.prepared ?? ''}`;
       present.add(place);
+      const classes = pill.classes.map((each) => styles[each] ?? each);
+      const look = `${pill.text} ${classes.join(' ')}`;
+      const shape = `${expression} ${String(pill.text.length)} ${pill.prepared ?? ''}`;
       const before = this.drawn.get(place);
-      if (before?.look === look) continue;
-      if (before !== undefined) outdated.push(before.id);
-      changed.push({ place, look, decoration: this.decoration({ expression }, pill, line, column) });
+      if (before?.shape === shape) {
+        if (before.look === look) continue;
+        before.look = look;
+        if (this.elements.write(before.name, pill.text, classes)) continue;
+      }
+      if (before !== undefined) this.outdate(before, outdated);
+      const name = newPillName();
+      this.elements.made(name, pill.text, classes);
+      const decoration = this.decoration({ expression }, { ...pill, classes: [...classes, name] }, line, column);
+      changed.push({ place, pill: { name, shape, look }, decoration });
     }
-    for (const [place, { id }] of this.drawn) {
+    for (const [place, pill] of this.drawn) {
       if (present.has(place)) continue;
-      outdated.push(id);
+      this.outdate(pill, outdated);
       this.drawn.delete(place);
     }
     if (outdated.length > 0 || changed.length > 0) {
@@ -235,10 +263,15 @@ export class InlineMonitor {
         outdated,
         changed.map(({ decoration }) => decoration),
       );
-      changed.forEach(({ place, look }, at) => this.drawn.set(place, { id: ids[at] ?? '', look }));
+      changed.forEach(({ place, pill }, at) => this.drawn.set(place, { ...pill, id: ids[at] ?? '' }));
     }
     clearTimeout(this.fading);
     if (freshUntil > 0) this.fading = setTimeout(this.redraw, freshUntil - now + 20);
+  }
+
+  private outdate(pill: DrawnPill, ids: string[]): void {
+    ids.push(pill.id);
+    this.elements.forget(pill.name);
   }
 
   private decoration(
@@ -260,7 +293,7 @@ export class InlineMonitor {
       options: {
         showIfCollapsed: true,
         stickiness: this.monaco.editor.TrackedRangeStickiness.NeverGrowsWhenTypingAtEdges,
-        before: injected(pill.text, pill.classes.map((name) => styles[name]).join(' ')),
+        before: injected(pill.text, pill.classes.join(' ')),
         ...(pill.prepared !== null && { after: injected(pill.prepared, styles.prepared ?? '') }),
       },
     };
