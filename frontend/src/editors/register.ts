@@ -1,14 +1,15 @@
 /** What the editors add to the workbench; their components are loaded when the first object opens. */
 import { Waypoints } from 'lucide-react';
-import { lazy } from 'react';
 import { setSymbolActs } from '@/online/symbolActs';
 import { partUri } from '@/project/partUri';
 import { registerLanguage, type LanguageDescriptor } from '@/text/languages';
+import { loadMonaco } from '@/text/monacoLoader';
 import { setImportComparison } from '@/workbench/exchange/comparison';
 import { setQuickFixSource } from '@/workbench/messages/quickFixes';
 import { setSymbolSource } from '@/workbench/palette/symbolSource';
 import { registerPanel } from '@/workbench/panels';
 import { registerTextCommands } from './text/commands';
+import { fetchBeforehand, onDemand } from '@/ui/onDemand';
 
 /** The folders of the languages, found by their place. */
 const LANGUAGES = import.meta.glob<LanguageDescriptor>('./*/index.ts', { eager: true, import: 'default' });
@@ -25,11 +26,12 @@ export function registerEditors(): void {
     id: 'crossReferences',
     title: 'panel.crossReferences',
     icon: Waypoints,
-    component: lazy(() => import('./crossReferences/CrossReferencePanel')),
+    component: onDemand(() => import('./crossReferences/CrossReferencePanel')),
     position: 'bottom',
     order: 55,
   });
   registerLanguages();
+  fetchBeforehand(loadMonaco);
   setQuickFixSource(async (message, show) => {
     const { quickFixesOfMessage } = await import('./text/quickFixes');
     return quickFixesOfMessage(message, show);

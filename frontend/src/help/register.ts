@@ -1,6 +1,6 @@
 /** Help: the panel, and F1 for what stands at the cursor. */
 import { BookOpenText, CircleHelp } from 'lucide-react';
-import { lazy } from 'react';
+import { onDemand } from '@/ui/onDemand';
 import { registerCommand } from '@/workbench/commands';
 import { registerPanel } from '@/workbench/panels';
 import { helpHere } from './context';
@@ -10,7 +10,7 @@ export function registerHelp(): void {
     id: 'help',
     title: 'help.title',
     icon: BookOpenText,
-    component: lazy(() => import('./HelpPanel')),
+    component: onDemand(() => import('./HelpPanel')),
     position: 'right',
     order: 50,
   });

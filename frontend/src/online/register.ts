@@ -1,15 +1,15 @@
 /** Registers the online room: channels follow the logins, watch lists follow the project; panels and commands. */
 import { Eye, LockKeyhole } from 'lucide-react';
-import { lazy } from 'react';
 import { useOnline } from '@/workbench/onlineSession';
 import { registerPanel } from '@/workbench/panels';
 import { useProject } from '@/project/openProject';
 import { registerValueCommands } from './commands';
 import { followSessions } from './connections';
 import { followProject, WATCH_LISTS } from './watch/lists';
+import { onDemand } from '@/ui/onDemand';
 
-const WatchPanel = lazy(() => import('./watch/WatchPanel'));
-const ForcesPanel = lazy(() => import('./watch/ForcesPanel'));
+const WatchPanel = onDemand(() => import('./watch/WatchPanel'));
+const ForcesPanel = onDemand(() => import('./watch/ForcesPanel'));
 
 function useForceCount() {
   const applicationId = useProject((state) => state.applicationId);

@@ -6,7 +6,7 @@
  * stand beside it in `en.json` and `zh.json` under fixed keys: `kind.<kind>`, `about.<kind>`, `subkind.<subkind>`.
  * A kind without a folder (a plug-in brought it) has a neutral icon, its own name as title, and a read-only view of its data.
  */
-import type { ComponentType, LazyExoticComponent } from 'react';
+import type { ComponentType } from 'react';
 import type { Check } from '@/api/objects';
 import type { ObjectOf, ObjectSummary, Schemas } from '@/api/types';
 import { textOf } from '@/i18n';
@@ -67,9 +67,9 @@ export interface ObjectKindDescriptor {
   iconOf?: (name: string) => IconComponent;
   subkinds?: Readonly<Record<string, Subkind>>;
   /** Opens in a tab; without one a double click opens or closes the row in the tree. */
-  editor?: LazyExoticComponent<ComponentType<EditorProps>>;
+  editor?: ComponentType<EditorProps>;
   /** Shown in the properties of an object, below what all objects have. */
-  properties?: LazyExoticComponent<ComponentType<{ projectId: string; objectId: string }>>;
+  properties?: ComponentType<{ projectId: string; objectId: string }>;
   role?: Role;
   /** Texts of the object, top to bottom; absent where it is no text. */
   parts?: readonly Part[];

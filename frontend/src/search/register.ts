@@ -1,11 +1,11 @@
 /** Search and replace in the project: the panel and its commands. */
 import { Search } from 'lucide-react';
-import { lazy } from 'react';
 import { panelEditor } from '@/text/focus';
 import { menuGroup, registerCommands } from '@/workbench/commands';
 import { project, when } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { showPanel } from '@/workbench/docking/dock';
+import { onDemand } from '@/ui/onDemand';
 import { registerPanel } from '@/workbench/panels';
 import { mayEdit } from '@/workbench/rights';
 import { changeForm, useSearch } from './store';
@@ -30,7 +30,7 @@ export function registerSearch(): void {
     id: 'search',
     title: 'search.title',
     icon: Search,
-    component: lazy(() => import('./SearchPanel')),
+    component: onDemand(() => import('./SearchPanel')),
     position: 'left',
     order: 4,
   });

@@ -7,7 +7,7 @@
  *       id: 'watch1',
  *       title: 'panel.watch', titleValues: { number: 1 },
  *       icon: Eye,
- *       component: lazy(() => import('./watch/WatchPanel')),
+ *       component: onDemand(() => import('./watch/WatchPanel')),
  *       props: { list: 1 },                       // reaches the component as `props.options`
  *       position: 'bottom', order: 20,
  *       initial: true,                            // part of the default layout; otherwise opened from the View menu
@@ -15,7 +15,7 @@
  *
  * The View menu gets an entry `view.<id>` for each panel by itself. `showPanel(id)` (workbench/docking/dock.ts) opens or raises one.
  */
-import type { ComponentType, LazyExoticComponent } from 'react';
+import type { ComponentType } from 'react';
 import type { TextKey, TextValues } from '@/i18n';
 import type { IconComponent } from '@/icons/IconComponent';
 
@@ -34,7 +34,7 @@ export interface PanelRegistration {
   title: TextKey;
   titleValues?: TextValues;
   icon: IconComponent;
-  component: LazyExoticComponent<ComponentType<PanelProps>> | ComponentType<PanelProps>;
+  component: ComponentType<PanelProps>;
   props?: Readonly<Record<string, unknown>>;
   position: DockPosition;
   /** Order of the tabs in the default layout and of the entries in the View menu. */

@@ -1,6 +1,5 @@
 /** What the workbench itself brings: its tool panels and the commands of the menus. */
 import { FileText, FolderTree, Layers, Library, ListChecks, ScrollText, SquareFunction, Timer } from 'lucide-react';
-import { lazy } from 'react';
 import { registerEditCommands } from './commands/edit';
 import { registerExchangeCommands } from './commands/exchange';
 import { registerFileCommands } from './commands/file';
@@ -19,6 +18,7 @@ import { followExceptions } from './online/exception';
 import { registerPanel } from './panels';
 import { registerTests } from './tests/register';
 import TreePanel from './tree/TreePanel';
+import { onDemand } from '@/ui/onDemand';
 
 export function registerWorkbench(): void {
   registerPanel({
@@ -45,7 +45,7 @@ export function registerWorkbench(): void {
     id: 'libraries',
     title: 'panel.libraries',
     icon: Library,
-    component: lazy(() => import('./libraries/LibrariesPanel')),
+    component: onDemand(() => import('./libraries/LibrariesPanel')),
     position: 'left',
     order: 3,
     initial: true,
@@ -64,7 +64,7 @@ export function registerWorkbench(): void {
     id: 'tasks',
     title: 'panel.tasks',
     icon: Timer,
-    component: lazy(() => import('./online/TasksPanel')),
+    component: onDemand(() => import('./online/TasksPanel')),
     position: 'bottom',
     order: 60,
     initial: true,
@@ -73,7 +73,7 @@ export function registerWorkbench(): void {
     id: 'callStack',
     title: 'panel.callStack',
     icon: Layers,
-    component: lazy(() => import('./online/CallStackPanel')),
+    component: onDemand(() => import('./online/CallStackPanel')),
     position: 'bottom',
     order: 50,
   });
@@ -81,7 +81,7 @@ export function registerWorkbench(): void {
     id: 'log',
     title: 'panel.log',
     icon: ScrollText,
-    component: lazy(() => import('./online/LogPanel')),
+    component: onDemand(() => import('./online/LogPanel')),
     position: 'bottom',
     order: 70,
     initial: true,
@@ -90,7 +90,7 @@ export function registerWorkbench(): void {
     id: 'libraryDoc',
     title: 'panel.libraryDoc',
     icon: FileText,
-    component: lazy(() => import('./libraries/LibraryDocPanel')),
+    component: onDemand(() => import('./libraries/LibraryDocPanel')),
     position: 'right',
     order: 40,
   });

@@ -1,6 +1,6 @@
-import { lazy } from 'react';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type { Part } from '@/project/partUri';
+import { onDemand } from '@/ui/onDemand';
 
 interface TextKind extends Omit<ObjectKindDescriptor, 'editor' | 'compiled'> {
   parts: readonly Part[];
@@ -8,5 +8,5 @@ interface TextKind extends Omit<ObjectKindDescriptor, 'editor' | 'compiled'> {
 
 /** A kind whose objects are texts: the compiler gets them, and they open in the editor of texts. */
 export function textKind(own: TextKind): ObjectKindDescriptor {
-  return { ...own, editor: lazy(() => import('./TextObjectEditor')), compiled: true };
+  return { ...own, editor: onDemand(() => import('./TextObjectEditor')), compiled: true };
 }

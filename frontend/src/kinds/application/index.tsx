@@ -1,7 +1,7 @@
-import { lazy } from 'react';
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
+import { onDemand } from '@/ui/onDemand';
 
 declare module '@/i18n' {
   interface TextTables {
@@ -18,7 +18,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="m2.7 5 5.3 3 5.3-3M8 8v6" />
     </>,
   ),
-  editor: lazy(() => import('./ApplicationEditor')),
+  editor: onDemand(() => import('./ApplicationEditor')),
   role: 'application',
   tree: { openAtFirst: true },
   add: { bringsChildren: true },

@@ -1,7 +1,7 @@
-import { lazy } from 'react';
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
+import { onDemand } from '@/ui/onDemand';
 
 declare module '@/i18n' {
   interface TextTables {
@@ -19,7 +19,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="M3.6 6h.05" strokeWidth={2} />
     </>,
   ),
-  editor: lazy(() => import('./DeviceEditor')),
+  editor: onDemand(() => import('./DeviceEditor')),
   role: 'device',
   tree: { openAtFirst: true },
   add: { bringsChildren: true },

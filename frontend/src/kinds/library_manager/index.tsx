@@ -1,7 +1,7 @@
-import { lazy } from 'react';
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
+import { onDemand } from '@/ui/onDemand';
 
 declare module '@/i18n' {
   interface TextTables {
@@ -18,7 +18,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="m8.2 3.6 3.9 9.7 1.9-.8-3.9-9.7z" />
     </>,
   ),
-  editor: lazy(() => import('./LibraryManagerEditor')),
+  editor: onDemand(() => import('./LibraryManagerEditor')),
   role: 'libraries',
   tree: { fixedName: true },
 };

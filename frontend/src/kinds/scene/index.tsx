@@ -1,7 +1,7 @@
-import { lazy } from 'react';
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
+import { onDemand } from '@/ui/onDemand';
 
 declare module '@/i18n' {
   interface TextTables {
@@ -18,7 +18,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="M2.6 4.9L8 8l5.4-3.1M8 8v6.1" />
     </>,
   ),
-  editor: lazy(() => import('./SceneEditor')),
+  editor: onDemand(() => import('./SceneEditor')),
 };
 
 export default descriptor;

@@ -1,7 +1,7 @@
-import { lazy } from 'react';
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
+import { onDemand } from '@/ui/onDemand';
 
 declare module '@/i18n' {
   interface TextTables {
@@ -18,7 +18,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="M8 4.6V8l2.3 1.6" />
     </>,
   ),
-  editor: lazy(() => import('./TaskEditor')),
+  editor: onDemand(() => import('./TaskEditor')),
   countedAs: () => 'tasks',
 };
 

@@ -1,7 +1,7 @@
-import { lazy } from 'react';
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import type en from './en.json';
+import { onDemand } from '@/ui/onDemand';
 
 declare module '@/i18n' {
   interface TextTables {
@@ -19,7 +19,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="M10.5 7.9V10l1.4.9" />
     </>,
   ),
-  editor: lazy(() => import('./TaskConfigurationEditor')),
+  editor: onDemand(() => import('./TaskConfigurationEditor')),
   tree: { openAtFirst: true, fixedName: true },
 };
 

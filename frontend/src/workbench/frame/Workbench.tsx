@@ -25,6 +25,7 @@ import { startTree } from '../tree/state';
 import { usePlacement } from '../tree/TreePanel';
 import { Button } from '@/ui/Button';
 import { Failed, Loading } from '@/ui/Empty';
+import { fetchWhileIdle } from '@/ui/onDemand';
 import { MenuBar } from './MenuBar';
 import { StatusBar } from './StatusBar';
 import { Toolbar } from './Toolbar';
@@ -72,6 +73,7 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
   );
   useEffect(() => useProject.setState({ projectName: project.name }), [project.name]);
   useActiveApplication(projectId, objects);
+  useEffect(() => fetchWhileIdle(), []);
 
   useEffect(() => {
     let gone = false;

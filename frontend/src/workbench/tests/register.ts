@@ -1,10 +1,10 @@
 /** The results of unit tests and the command that runs them. */
 import { FlaskConical, RotateCcw } from 'lucide-react';
-import { lazy } from 'react';
 import { registerCommands } from '../commands';
 import { registerPanel } from '../panels';
 import { application, engineer, idle, when, type Condition } from '../conditions';
 import { namesOfFailed, runFailedTests, runTests } from './store';
+import { onDemand } from '@/ui/onDemand';
 
 const someFailed: Condition = (context) => (namesOfFailed(context).length > 0 ? true : 'tests.noneFailed');
 
@@ -13,7 +13,7 @@ export function registerTests(): void {
     id: 'tests',
     title: 'tests.title',
     icon: FlaskConical,
-    component: lazy(() => import('./TestsPanel')),
+    component: onDemand(() => import('./TestsPanel')),
     position: 'bottom',
     order: 30,
   });
