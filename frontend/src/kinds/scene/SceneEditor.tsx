@@ -1,3 +1,4 @@
+import { useEffect, useRef } from 'react';
 import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import { ofKind } from '@/api/objects';
@@ -8,6 +9,7 @@ import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
 import { useOnline } from '@/workbench/onlineSession';
 import { Empty, Failed, Loading } from '@/ui/Empty';
+import { FrameLimit } from './frameLimit';
 import styles from './Scene.module.css';
 import { runtimeOf } from './model';
 
@@ -29,6 +31,24 @@ export default function SceneEditor({ projectId, objectId, visible }: EditorProp
     staleTime: Infinity,
     retry: false,
   });
+  const limit = useRef<FrameLimit | null>(null);
+  useEffect(() => {
+    limit.current?.pause(!visible);
+  }, [visible]);
+  useEffect(() => {
+    const yieldToInput = () => limit.current?.yieldToInput();
+    const inputs = ['keydown', 'pointerdown', 'wheel'];
+    inputs.forEach((input) => document.addEventListener(input, yieldToInput, { capture: true, passive: true }));
+    return () => {
+      inputs.forEach((input) => document.removeEventListener(input, yieldToInput, { capture: true }));
+      limit.current?.dispose();
+    };
+  }, []);
+  const loaded = (view: Window | null) => {
+    limit.current?.dispose();
+    limit.current = view === null ? null : new FrameLimit(view);
+    limit.current?.pause(!visible);
+  };
   const error = object.error ?? view.error;
   if (error) return <Failed error={error} retry={() => void view.refetch()} />;
   if (object.data?.data.elements.length === 0)
@@ -39,6 +59,7 @@ export default function SceneEditor({ projectId, objectId, visible }: EditorProp
       className={styles.view}
       src={view.data.path}
       title={object.data?.name ?? t('scene.title')}
+      onLoad={(event) => loaded(event.currentTarget.contentWindow)}
       data-testid="scene-view"
     />
   );
