@@ -26,6 +26,7 @@ const session = (more: Partial<OnlineSession> = {}): OnlineSession => ({
   relation: 'same',
   runtime: null,
   lostSince: null,
+  pacedMs: null,
   ...more,
 });
 let update: (change: { roots?: readonly OnlineRoot[]; session?: OnlineSession }) => void;

@@ -1,11 +1,16 @@
 // @vitest-environment happy-dom
-import { Suspense } from 'react';
+import { Suspense, type FunctionComponent } from 'react';
 import { flushSync } from 'react-dom';
 import { createRoot } from 'react-dom/client';
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import { fetchBeforehand, fetchWhileIdle, onDemand } from './onDemand';
+import type * as OnDemand from './onDemand';
 
-beforeEach(() => {
+let demand: typeof OnDemand;
+
+beforeEach(async () => {
+  // The kinds have asked for theirs already.
+  vi.resetModules();
+  demand = await import('./onDemand');
   vi.useFakeTimers({ toFake: ['setTimeout', 'clearTimeout'] });
   vi.stubGlobal('requestIdleCallback', (callback: () => void) => setTimeout(callback));
   vi.stubGlobal('cancelIdleCallback', (id: ReturnType<typeof setTimeout>) => clearTimeout(id));
@@ -16,10 +21,16 @@ afterEach(() => {
 });
 
 /** What one drawing shows, before anything can be waited for. */
-function drawn(Part: ReturnType<typeof onDemand>): string {
+function drawn(Part: FunctionComponent): string {
   const place = document.createElement('div');
   const root = createRoot(place);
-  flushSync(() => root.render(<Suspense fallback="wait"><Part /></Suspense>)); // prettier-ignore
+  flushSync(() =>
+    root.render(
+      <Suspense fallback="wait">
+        <Part />
+      </Suspense>,
+    ),
+  );
   const text = place.textContent;
   root.unmount();
   return text;
@@ -27,10 +38,10 @@ function drawn(Part: ReturnType<typeof onDemand>): string {
 
 it('is drawn at once when its module has been fetched while nothing else was done', async () => {
   const load = vi.fn(() => Promise.resolve({ default: () => <>editor</> }));
-  const Part = onDemand(load);
+  const Part = demand.onDemand(load);
   expect(drawn(Part)).toBe('wait');
-  const Other = onDemand(load);
-  const stop = fetchWhileIdle();
+  const Other = demand.onDemand(load);
+  const stop = demand.fetchWhileIdle();
   await vi.runAllTimersAsync();
   expect(drawn(Part)).toBe('editor');
   expect(drawn(Other)).toBe('editor');
@@ -40,7 +51,7 @@ it('is drawn at once when its module has been fetched while nothing else was don
 it('fetches one thing after the other, goes on after a failure, and stops when told', async () => {
   const began: string[] = [];
   const thing = (name: string, end: () => Promise<unknown>) =>
-    fetchBeforehand(() => {
+    demand.fetchBeforehand(() => {
       began.push(name);
       return end();
     });
@@ -48,7 +59,7 @@ it('fetches one thing after the other, goes on after a failure, and stops when t
   thing('first', () => new Promise<void>((resolve) => (first = resolve)));
   thing('second', () => Promise.reject(new Error('no network')));
   thing('third', () => Promise.resolve());
-  const stop = fetchWhileIdle();
+  const stop = demand.fetchWhileIdle();
   await vi.runAllTimersAsync();
   expect(began).toEqual(['first']);
   first?.();
