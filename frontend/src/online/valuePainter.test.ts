@@ -31,7 +31,7 @@ beforeEach(() => {
     setTransform: () => undefined,
     beginPath: () => undefined,
     fill: () => undefined,
-    measureText: () => ({ width: 8 }),
+    measureText: () => ({ width: 8, fontBoundingBoxAscent: 13, fontBoundingBoxDescent: 4 }),
     clearRect: (_: number, y: number) => strokes.push({ kind: 'clear', row: row(y) }),
     roundRect: (_: number, y: number) => strokes.push({ kind: 'pill', row: row(y) }),
     fillText(text: string, _: number, y: number) {

@@ -37,6 +37,8 @@ interface Looks {
   readonly tones: Readonly<Record<Tone | 'fresh', Look>>;
   /** Width of a digit in CSS pixels; the font has one width for all. */
   readonly digit: number;
+  /** Pixels from the middle of a line to its baseline, as the page lays out the texts beside. */
+  readonly baseline: number;
 }
 
 interface Painted {
@@ -48,6 +50,8 @@ interface Painted {
 }
 
 const PADDING_PX = 8;
+/** The line below each row. */
+const LINE_PX = 1;
 const PILL = { around: 4, height: 18, radius: 3 };
 /** Most device pixels a side that all browsers paint. */
 const MOST_PX = 32_000;
@@ -127,7 +131,7 @@ export class ValuePainter {
     const looks = (this.looks ??= this.readLooks());
     if (looks === null) return;
     context.setTransform(scale, 0, 0, scale, 0, 0);
-    context.textBaseline = 'middle';
+    context.textBaseline = 'alphabetic';
     for (const row of rows)
       context.clearRect(0, (row - covered.first) * covered.rowHeight, covered.width, covered.rowHeight);
     // By look: another font or colour for each value would cost more than its text.
@@ -135,7 +139,7 @@ export class ValuePainter {
       const shown = rows.flatMap((row): (Painted & { middle: number })[] => {
         const painted = this.rows.get(row);
         if (painted?.tone !== tone || painted.text === '') return [];
-        return [{ ...painted, middle: (row - covered.first + 0.5) * covered.rowHeight }];
+        return [{ ...painted, middle: (row - covered.first) * covered.rowHeight + (covered.rowHeight - LINE_PX) / 2 }];
       });
       if (shown.length === 0) continue;
       const room = ({ inset }: Painted) => Math.floor((covered.width - inset - 2 * PADDING_PX) / looks.digit);
@@ -151,7 +155,9 @@ export class ValuePainter {
       context.fill();
       context.font = looks.tones[tone].font;
       context.fillStyle = looks.tones[tone].color;
-      shown.forEach(({ inset, middle }, at) => context.fillText(texts[at]!, PADDING_PX + inset, middle));
+      shown.forEach(({ inset, middle }, at) =>
+        context.fillText(texts[at]!, PADDING_PX + inset, Math.round(middle + looks.baseline)),
+      );
     }
   }
 
@@ -169,7 +175,8 @@ export class ValuePainter {
     }
     delete canvas.dataset.tone;
     context.font = tones.plain.font;
-    return { tones, digit: context.measureText('0').width || 8 };
+    const { width, fontBoundingBoxAscent, fontBoundingBoxDescent } = context.measureText('0');
+    return { tones, digit: width || 8, baseline: (fontBoundingBoxAscent - fontBoundingBoxDescent) / 2 };
   }
 }
 
