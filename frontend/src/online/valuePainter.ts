@@ -1,8 +1,8 @@
 /**
  * Paints the values of a table's rows into one canvas.
  *
- * A text that changes in the page costs style, layout and paint of its box; 1,000 at 10 Hz take more than a whole
- * processor that way. Painting the same texts costs a tenth of a processor, measured in `docs/benchmarks.md`.
+ * A text that changes in the page costs style, layout and paint of its box; 1,000 at 10 Hz take a whole processor that
+ * way. Painting the same texts leaves the main thread four fifths of its time, measured in `docs/benchmarks.md`.
  * Who reads the page by other means finds each value as the label of its cell.
  */
 import type { FreshMark } from './freshMarks';
