@@ -25,10 +25,11 @@ interface DiffViewProps {
 export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false, onRight }: DiffViewProps) {
   const t = useText();
   const host = useRef<HTMLDivElement>(null);
+  const sides = useRef<HTMLDivElement>(null);
   const view = useRef<{ diff: editor.IStandaloneDiffEditor; models: editor.IDiffEditorModel } | null>(null);
-  const latest = useRef(onRight);
+  const latest = useRef({ left, right, onRight });
   useEffect(() => {
-    latest.current = onRight;
+    latest.current = { left, right, onRight };
   });
   const editable = onRight !== undefined;
   const [leftTitle, rightTitle] = titles;
@@ -50,14 +51,19 @@ export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false
       modifiedAriaLabel: rightTitle,
     });
     const models = {
-      original: monaco.editor.createModel('', IEC_TEXT),
-      modified: monaco.editor.createModel('', IEC_TEXT),
+      original: monaco.editor.createModel(latest.current.left, IEC_TEXT),
+      modified: monaco.editor.createModel(latest.current.right, IEC_TEXT),
     };
     view.current = { diff, models };
     diff.setModel(models);
-    const listener = models.modified.onDidChangeContent(() => latest.current?.(models.modified.getValue()));
+    const listener = models.modified.onDidChangeContent(() => latest.current.onRight?.(models.modified.getValue()));
+    const mine = diff.getModifiedEditor();
+    const layout = mine.onDidLayoutChange(() =>
+      sides.current?.style.setProperty('--left', `${mine.getContainerDomNode().offsetLeft}px`),
+    );
     return () => {
       view.current = null;
+      layout.dispose();
       listener.dispose();
       diff.dispose();
       models.original.dispose();
@@ -72,7 +78,17 @@ export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false
     if (models.modified.getValue() !== right) models.modified.setValue(right);
   }, [left, right, editable, monaco, ignoreWhiteSpace, leftTitle, rightTitle]);
 
-  const go = (way: 'next' | 'previous') => view.current?.diff.goToDiff(way);
+  /** Acts on the differences, which are found in the background: at once, or when they are known. */
+  const whenCompared = (act: () => void) => {
+    const diff = view.current?.diff;
+    if (diff === undefined) return;
+    if (diff.getLineChanges() !== null) return act();
+    const waiting = diff.onDidUpdateDiff(() => {
+      waiting.dispose();
+      whenCompared(act);
+    });
+  };
+  const go = (way: 'next' | 'previous') => whenCompared(() => view.current?.diff.goToDiff(way));
   /** Puts the left side's lines in the place of the block that the cursor is in, or the next one. */
   const takeBlock = () => {
     if (view.current === null) return;
@@ -89,13 +105,20 @@ export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false
 
   return (
     <div className={styles.view}>
-      <div className={styles.sides}>
+      <div ref={sides} className={styles.sides}>
         <span className={styles.title}>{leftTitle}</span>
         <span className={styles.title}>{rightTitle}</span>
         <span className={styles.tools}>
           <IconButton small icon={ArrowUp} label={t('compare.previousBlock')} onClick={() => go('previous')} />
           <IconButton small icon={ArrowDown} label={t('compare.nextBlock')} onClick={() => go('next')} />
-          {editable && <IconButton small icon={ArrowRightToLine} label={t('compare.takeBlock')} onClick={takeBlock} />}
+          {editable && (
+            <IconButton
+              small
+              icon={ArrowRightToLine}
+              label={t('compare.takeBlock')}
+              onClick={() => whenCompared(takeBlock)}
+            />
+          )}
         </span>
       </div>
       <div ref={host} className={styles.host} />
