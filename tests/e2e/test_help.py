@@ -12,7 +12,7 @@ pytestmark = pytest.mark.e2e
 
 def test_f1_explains_what_stands_at_the_cursor(page: Page) -> None:
     editor = plc_prg(page)
-    add_line(page, editor, "IF xSafe THEN END_IF")
+    add_line(page, editor, "IF xSafe THEN ; END_IF")
     for _ in range(2):
         page.keyboard.press("ArrowLeft")
     page.keyboard.press("F1")

@@ -261,6 +261,9 @@ async def test_symbols_of_a_document_and_of_all() -> None:
         }
         (first, *_) = await client.ask("workspace/symbol", {"query": "icount"})
         assert (first["name"], first["containerName"]) == ("iCount", "PLC_PRG")
+        scattered = await client.ask("workspace/symbol", {"query": "icnt"})
+        assert [symbol["name"] for symbol in scattered] == ["iCount"]
+        assert await client.ask("workspace/symbol", {"query": "tnci"}) == []
 
 
 async def test_formatting() -> None:

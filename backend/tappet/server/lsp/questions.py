@@ -132,15 +132,21 @@ def document_symbol(session: Client, params: TextDocumentParams) -> list[lsp.Doc
     return convert.document_symbols(outline.outline(session.snapshot(uri), uri), session.shown(uri))
 
 
+def _has_letters(name: str, wanted: str) -> bool:
+    """Whether the letters stand in the name in their order, others between them."""
+    letters = iter(name)
+    return all(letter in letters for letter in wanted)
+
+
 def workspace_symbol(session: Client, params: lsp.WorkspaceSymbolParams) -> list[lsp.SymbolInformation]:
-    """Objects, their members and variables, types by a part of the name, best match first."""
+    """Objects, their members and variables, types by letters of the name in their order, best match first."""
     wanted = params.query.lower()
     found: dict[tuple[str, str], lsp.SymbolInformation] = {}
 
     def collect(text_name: str, document: str, entries: list[Outline], container: str | None) -> None:
         for entry in entries:
             if (
-                wanted in entry.name.lower()
+                _has_letters(entry.name.lower(), wanted)
                 and entry.kind != "section"
                 and (wanted or entry.kind not in _MEMBERS)
             ):
@@ -163,7 +169,8 @@ def workspace_symbol(session: Client, params: lsp.WorkspaceSymbolParams) -> list
 
     def distance(symbol: lsp.SymbolInformation) -> tuple[int, str]:
         name = symbol.name.lower()
-        return (0 if name == wanted else 1 if name.startswith(wanted) else 2, name)
+        near = 0 if name == wanted else 1 if name.startswith(wanted) else 2 if wanted in name else 3
+        return (near, name)
 
     return sorted(found.values(), key=distance)[:MAX_SYMBOLS]
 

@@ -1,7 +1,6 @@
 import { hasRole, kindOf, opensEditor } from '@/project/kinds';
 import { Ban, CircleCheckBig, FilePlus2, FolderOpen, Info, ListTree, SlidersHorizontal } from 'lucide-react';
-import { api } from '@/api/client';
-import { keys, patchSummary, queryClient } from '@/api/queries';
+import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
 import { AddObjectDialog } from '../addObject/AddObjectDialog';
 import { registerCommands, type Command, type Enablement } from '../commands';
@@ -10,6 +9,7 @@ import type { CommandContext } from '../context';
 import { openDialog } from '@/ui/dialogs';
 import { openObject, showPanel } from '../docking/dock';
 import { setActiveApplication } from '@/project/openProject';
+import { excludeObjects } from '../properties/exclude';
 import { mayEdit } from '../rights';
 import { forestOf, lineage, type TreeView } from '@/project/tree';
 import { placeableKinds } from '@/project/placement';
@@ -40,19 +40,6 @@ export function showInTree(projectId: string, id: string): void {
 function excludable(context: CommandContext): Enablement {
   if (context.selection.length === 0) return 'reason.nothingSelected';
   return context.selection.every((object) => kindOf(object.kind)?.compiled) ? true : 'reason.notCompiled';
-}
-
-/** Leaves objects out of the build; when all of them are out already, takes them in again. */
-async function excludeObjects(projectId: string, objects: readonly ObjectSummary[]): Promise<void> {
-  const excluded = !objects.every((object) => object.excluded);
-  for (const { id } of objects) {
-    const changed = await api.patch('/api/v1/projects/{project_id}/objects/{object_id}', {
-      params: { path: { project_id: projectId, object_id: id } },
-      body: { excluded },
-    });
-    queryClient.setQueryData(keys.object(projectId, id), changed);
-    patchSummary(projectId, changed);
-  }
 }
 
 const commands: Command[] = [
@@ -126,7 +113,9 @@ const commands: Command[] = [
     menu: { menu: 'project', group: '1_objects', order: 4 },
     checked: (context) => context.selection.length > 0 && context.selection.every((object) => object.excluded),
     enabled: when(mayEdit, excludable),
-    run: (context) => excludeObjects(context.projectId!, context.selection),
+    // When all of them are out already, they come in again.
+    run: ({ projectId, selection: objects }) =>
+      excludeObjects(projectId!, objects, !objects.every((object) => object.excluded)),
   },
   {
     id: 'project.properties',

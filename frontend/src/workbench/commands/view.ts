@@ -1,4 +1,4 @@
-import { Command as CommandIcon, FileSearch, Maximize } from 'lucide-react';
+import { Command as CommandIcon, FileSearch, Hash, Maximize } from 'lucide-react';
 import { menuGroup, registerCommands, type Command } from '../commands';
 import { project } from '../conditions';
 import { dockApi, showPanel } from '../docking/dock';
@@ -16,6 +16,15 @@ const commands: Command[] = [
       keys: ['Ctrl+P'],
       enabled: project,
       run: () => openPalette('objects'),
+    },
+    {
+      id: 'view.goToSymbol',
+      title: 'command.goToSymbol',
+      icon: Hash,
+      // In a tab of a browser Ctrl+T belongs to the browser; in a window of its own it comes through.
+      keys: ['Ctrl+T', 'Ctrl+Alt+T'],
+      enabled: project,
+      run: () => openPalette('symbols'),
     },
     {
       id: 'view.commandPalette',

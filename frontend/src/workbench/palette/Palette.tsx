@@ -1,9 +1,9 @@
-import { ChevronRight, ListTree, Search } from 'lucide-react';
+import { ChevronRight, Hash, ListTree, Search } from 'lucide-react';
 import { Dialog as Radix } from 'radix-ui';
 import { useId, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
-import { useText } from '@/i18n';
+import { useText, type TextKey } from '@/i18n';
 import { rowAfterKey } from '@/ui/table';
 import type { IconComponent } from '@/icons/IconComponent';
 import { useRegistry } from '../commands';
@@ -17,13 +17,26 @@ import { closePalette, usePalette, type PaletteMode } from './state';
 import { useMembers, useProjectSymbols } from './symbols';
 
 const SHOWN = 80;
-const PREFIX: Readonly<Record<PaletteMode, string>> = { commands: '>', members: '@', objects: '' };
-const MODE_ICONS = { commands: ChevronRight, members: ListTree, objects: Search };
+const NAMES: Readonly<Record<PaletteMode, TextKey>> = {
+  commands: 'command.palette',
+  symbols: 'command.goToSymbol',
+  members: 'palette.members',
+  objects: 'command.quickOpen',
+};
+const PREFIX: Readonly<Record<PaletteMode, string>> = { commands: '>', symbols: '#', members: '@', objects: '' };
+const MODE_ICONS = { commands: ChevronRight, symbols: Hash, members: ListTree, objects: Search };
 const NO_OBJECTS: readonly ObjectSummary[] = [];
 
+/** What is looked for, by the first character. */
+function modeOf(text: string): PaletteMode {
+  const prefixed = (['commands', 'symbols', 'members'] as const).find((mode) => text.startsWith(PREFIX[mode]));
+  return prefixed ?? 'objects';
+}
+
 /**
- * The command palette and quick open: one field, one list. A `>` at the beginning changes to commands, an `@` to what
- * the active object declares. Quick open finds objects first, then the members of all of them.
+ * The command palette and quick open: one field, one list. A `>` at the beginning changes to commands, a `#` to the
+ * symbols of the project, an `@` to what the active object declares. Quick open finds objects first, then the members
+ * of all of them.
  */
 export function Palette() {
   const mode = usePalette((state) => state.mode);
@@ -36,17 +49,19 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
   const list = useRef<HTMLDivElement>(null);
   const [text, setText] = useState(PREFIX[initial]);
   const [at, setAt] = useState(0);
-  const mode = text.startsWith('>') ? 'commands' : text.startsWith('@') ? 'members' : 'objects';
+  const mode = modeOf(text);
   const query = text.slice(PREFIX[mode].length);
   const commands = useRegistry((state) => state.commands);
   const projectId = useProject((state) => state.projectId);
   const { data } = useObjects(projectId);
   const objects = data ?? NO_OBJECTS;
-  const symbols = useProjectSymbols(projectId, mode === 'objects' ? query : '', objects);
+  const asksProject = mode === 'objects' || mode === 'symbols';
+  const symbols = useProjectSymbols(projectId, asksProject ? query : '', objects, mode === 'symbols');
   const members = useMembers(mode === 'members', projectId, objects);
   const items = useMemo(() => {
     if (mode === 'commands') return commandItems(commands.values(), commandContext());
     if (mode === 'objects') return objectItems(objects);
+    if (mode === 'symbols') return [];
     const below = objects.filter((object) => object.parent_id === members.object?.id);
     return [...members.items, ...objectItems(members.object === null ? [] : below)];
   }, [mode, commands, objects, members]);
@@ -54,9 +69,7 @@ function OpenPalette({ initial }: { initial: PaletteMode }) {
     () => [items, symbols].flatMap((entries) => search(query, entries, (item) => item.text)).slice(0, SHOWN),
     [query, items, symbols],
   );
-  const name = t(
-    mode === 'commands' ? 'command.palette' : mode === 'objects' ? 'command.quickOpen' : 'palette.members',
-  );
+  const name = t(NAMES[mode]);
   const hint = t(`palette.${mode}`);
 
   const ModeIcon = MODE_ICONS[mode];

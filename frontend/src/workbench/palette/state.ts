@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-export type PaletteMode = 'commands' | 'objects' | 'members';
+export type PaletteMode = 'commands' | 'objects' | 'symbols' | 'members';
 
 export const usePalette = create<{ mode: PaletteMode | null }>(() => ({ mode: null }));
 

@@ -44,12 +44,13 @@ function item(
   };
 }
 
-/** Symbols as entries; what is an object of the tree is in the list of objects already. */
-function symbolItems(found: readonly ProjectSymbol[], objects: readonly ObjectSummary[]): PaletteItem[] {
+/** Symbols as entries; `all` of them, or without what is in the list of objects already. */
+function symbolItems(found: readonly ProjectSymbol[], objects: readonly ObjectSummary[], all: boolean): PaletteItem[] {
   return found.flatMap((symbol) => {
     const address = parsePartUri(symbol.location.uri);
     const object = objects.find((candidate) => candidate.id === address?.objectId);
-    if (address === null || object === undefined || object.name.toUpperCase() === symbol.name.toUpperCase()) return [];
+    if (address === null || object === undefined) return [];
+    if (!all && object.name.toUpperCase() === symbol.name.toUpperCase()) return [];
     const { line, character } = symbol.location.range.start;
     const target = { objectId: object.id, part: address.part, line: line + 1, column: character + 1 };
     return [item(symbol.name, symbol.kind, objectPath(objects, object.id), target, objects)];
@@ -93,6 +94,7 @@ export function useProjectSymbols(
   projectId: string | null,
   query: string,
   objects: readonly ObjectSummary[],
+  all: boolean,
 ): readonly PaletteItem[] {
   const wanted = query.trim().length >= SHORTEST ? query.trim() : '';
   const [found, setFound] = useState<{ query: string; symbols: readonly ProjectSymbol[] }>({ query: '', symbols: [] });
@@ -113,7 +115,7 @@ export function useProjectSymbols(
       clearTimeout(timer);
     };
   }, [projectId, wanted]);
-  return wanted === '' ? [] : symbolItems(found.symbols, objects);
+  return wanted === '' ? [] : symbolItems(found.symbols, objects, all);
 }
 
 /** Members of the object whose editor is in front. */
