@@ -97,14 +97,14 @@ def _comparisons(page: Page) -> Iterator[str]:
     page.keyboard.press("Delete")
     page.get_by_role("dialog").get_by_role("button", name="Delete").click()
     expect(tree_item(page, "GVL_IO")).to_have_count(0)
-    choose_menu(page, "Project", "History")
+    choose_menu(page, "Project", "Deleted objects")
     dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("row").filter(has_text="GVL_IO")).to_be_visible()
+    yield "deleted objects"
+    dialog.get_by_role("tab", name="Revisions").click()
     expect(dialog.get_by_role("tree").get_by_role("treeitem").last).to_be_visible()
     page.wait_for_timeout(500)
     yield "history"
-    dialog.get_by_role("tab", name="Deleted objects").click()
-    expect(dialog.get_by_role("row").filter(has_text="GVL_IO")).to_be_visible()
-    yield "deleted objects"
     page.keyboard.press("Escape")
     choose_menu(page, "Project", "Compare")
     page.wait_for_timeout(300)

@@ -57,7 +57,7 @@ function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeDat
       'editor.background': token('--bg'),
       'editor.foreground': token('--fg'),
       'editorGutter.background': token('--bg'),
-      'editorLineNumber.foreground': token('--fg-disabled'),
+      'editorLineNumber.foreground': token('--fg-muted'),
       'editorLineNumber.activeForeground': token('--fg'),
       'editor.lineHighlightBackground': token('--bg-hover'),
       'editor.lineHighlightBorder': '#00000000',
