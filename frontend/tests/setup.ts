@@ -1,4 +1,5 @@
 import fc from 'fast-check';
+import '@/i18n/workbenchTexts';
 import { registerKinds } from '@/kinds/register';
 
 registerKinds();

@@ -5,6 +5,7 @@
 import { registerCompare } from '@/compare/register';
 import { registerEditors } from '@/editors/register';
 import { registerHelp } from '@/help/register';
+import '@/i18n/workbenchTexts';
 import { registerOnline } from '@/online/register';
 import { registerSearch } from '@/search/register';
 import { Workbench } from '@/workbench/frame/Workbench';

@@ -2,7 +2,8 @@
  * Texts of the user interface, English and Chinese.
  *
  * One JSON file per room and language: `en/workbench.json`, `zh/workbench.json` and so on; the folders of kinds and of
- * languages have theirs beside their code and are found by their place. Flat keys, `{{name}}` for values,
+ * languages have theirs beside their code and are found by their place. What only the workbench shows comes with it
+ * (`workbenchTexts.ts`), so that the first page is small. Flat keys, `{{name}}` for values,
  * `_one`/`_other` suffixes where a count decides (Chinese has `_other` only).
  * `i18n.test.ts` fails on a key that is missing in one language or used nowhere.
  */
@@ -38,10 +39,14 @@ export interface TextTables {
 }
 
 type Table = Readonly<Record<string, string>>;
-const ENGLISH = import.meta.glob<Table>(['./en/*.json', '../{kinds,editors}/*/en.json'], {
-  eager: true,
-  import: 'default',
-});
+/** Those of every page; `workbenchTexts.ts` has the others. */
+const ENGLISH = import.meta.glob<Table>(
+  ['./en/{exchange,libraries,objects,online,workbench}.json', '../kinds/*/en.json'],
+  {
+    eager: true,
+    import: 'default',
+  },
+);
 
 type WithoutPlural<Key> = Key extends `${infer Base}_one` | `${infer Base}_other` ? Base : Key;
 
@@ -58,6 +63,11 @@ void i18next.init({
   interpolation: { escapeValue: false },
   initAsync: false,
 });
+
+/** Adds English texts of a part of the front end that is fetched later. */
+export function addTexts(tables: Readonly<Record<string, Table>>): void {
+  for (const table of Object.values(tables)) i18next.addResourceBundle('en', 'translation', table, true, true);
+}
 
 /** The text of a key that is built from the name of a kind or language; null where there is none. */
 export function textOf(key: string): string | null {
