@@ -1,4 +1,4 @@
-"""The boot application: the package that a runtime starts when its process begins, and what it keeps."""
+"""The boot application: the package that a runtime loads and starts when its process begins."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from pathlib import Path
 
 from tappet.codegen.package import CodePackage, PackageError
 from tappet.disk_full import is_disk_full
-from tappet.runtime.application import LoadedApplication
 from tappet.runtime.errors import DiskFullError
 from tappet.runtime.logbook import Logbook
-from tappet.runtime.retain import Kept, load_retain
 from tappet.whole_file import PRIVATE, replace_file, replacing_file
 
 FILE = "boot.tappet"
@@ -67,16 +65,3 @@ def load_boot(folder: Path) -> CodePackage | None:
 def remove_boot(folder: Path) -> None:
     """Forget it (reset origin)."""
     (folder / FILE).unlink(missing_ok=True)
-
-
-def persistent_of(old: LoadedApplication | None, package: CodePackage, folder: Path | None) -> Kept:
-    """Persistent values survive a download of the application of the same name (PERS-05); ends its tasks."""
-    if old is not None:
-        if old.package.application != package.application:
-            return {}
-        old.tasks.stop()
-        return old.kept_values(retain=False)
-    if folder is None:
-        return {}
-    kept, _ = load_retain(folder)  # left by a boot application that could not be loaded
-    return {path: value for path, value in kept.items() if value.persistent}

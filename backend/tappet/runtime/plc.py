@@ -22,7 +22,6 @@ from tappet.runtime.boot import (
     BootError,
     create_boot,
     load_boot,
-    persistent_of,
     remove_boot,
     storing_boot,
 )
@@ -39,7 +38,7 @@ from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.reports import build_report
-from tappet.runtime.retain import Kept, load_retain, matching, remove_retain
+from tappet.runtime.retain import Kept, load_retain, matching, persistent_of, remove_retain
 from tappet.runtime.retain_groups import check_room
 from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
 from tappet.runtime.state import ResetKind, RuntimeInfo, State

@@ -19,12 +19,13 @@ from typing import TYPE_CHECKING
 
 import msgpack
 
-from tappet.codegen.package import RemanentRange
+from tappet.codegen.package import CodePackage, RemanentRange
 from tappet.runtime.executive.records import Block, Record
 from tappet.runtime.posix import Mapping, map_memory, read_memory, write_memory
 from tappet.whole_file import PRIVATE, replace_file, sync_folder
 
 if TYPE_CHECKING:
+    from tappet.runtime.application import LoadedApplication
     from tappet.runtime.executive.loader import Executive
 
 MAGIC = b"TAPPETRT"
@@ -300,3 +301,16 @@ def matching(
             restored.append((r.variable, value.data))
             used.add(key)
     return restored, [path for path in kept if path not in used]
+
+
+def persistent_of(old: LoadedApplication | None, package: CodePackage, folder: Path | None) -> Kept:
+    """Persistent values survive a download of the application of the same name (PERS-05); ends its tasks."""
+    if old is not None:
+        if old.package.application != package.application:
+            return {}
+        old.tasks.stop()
+        return old.kept_values(retain=False)
+    if folder is None:
+        return {}
+    kept, _ = load_retain(folder)  # left by a boot application that could not be loaded
+    return {path: value for path, value in kept.items() if value.persistent}
