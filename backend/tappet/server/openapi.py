@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from fastapi import FastAPI
@@ -37,6 +38,10 @@ SOCKET_SHAPES: dict[str, Any] = {
 """Shapes that no REST route mentions, by the name the client knows them under."""
 
 
+_CONVERTER = re.compile(r":\w+(?=})")
+"""What a path says of a parameter besides its name: `{word:path}`."""
+
+
 def _extra_schemas() -> dict[str, Any]:
     schemas: dict[str, Any] = {}
     for name, shape in SOCKET_SHAPES.items():
@@ -52,7 +57,8 @@ def _state_roles(app: FastAPI, paths: dict[str, Any]) -> None:
     """Each operation says which role it needs, by its cookie or token; or that it needs none."""
     for route in iter_route_contexts(app.routes):
         for method in route.methods or ():
-            operation = paths.get(route.path or "", {}).get(method.lower())
+            path = _CONVERTER.sub("", route.path or "")
+            operation = paths.get(path, {}).get(method.lower())
             if operation is not None:
                 role = least_role(route.dependant)
                 operation["security"] = [] if role is None else [{way: [role.value]} for way in WAYS_IN]
