@@ -36,8 +36,8 @@ async def main():
 asyncio.run(main())
 """
 ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries"}
-LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "source"}
-"""The table of messages, and what reports of other processes consist of."""
+LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "reference", "source"}
+"""The tables of messages and of help, and what reports of other processes consist of."""
 CODE = {"display", "literals", "package", "symbol_map", "symbol_types", "values"}
 """How a package and the values in a running one are read."""
 UNWANTED = {

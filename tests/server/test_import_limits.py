@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from tappet.server.exchange import import_process
-from tappet.server.exchange.uploads import Upload
+from tappet.server.exchange import import_process, uploads
 from tappet.server.services import Services
 
 API = "/api/v1"
@@ -99,15 +98,15 @@ def test_a_project_may_change_while_files_are_read(
     """Reading held the database, and with it all who write."""
     project = admin.post(f"{API}/projects", json={"name": "Press"}).json()["id"]
     reads = []
-    really = Upload.imported
+    really = uploads.imported
 
-    def imported(self: Upload, *given: Any, **named: Any) -> Any:
+    def imported(*given: Any, **named: Any) -> Any:
         reads.append(1)
         if len(reads) == 1:
             services.store.add(project, "ann", None, "folder", "Meanwhile")
-        return really(self, *given, **named)
+        return really(*given, **named)
 
-    monkeypatch.setattr(Upload, "imported", imported)
+    monkeypatch.setattr(uploads, "imported", imported)
     answer = admin.post(f"{API}/projects/{project}/import-files", files={"files": ("a.st", FAN)})
     assert answer.status_code == 200, answer.text
     assert len(reads) == 2
@@ -119,14 +118,14 @@ def test_a_project_that_never_rests_is_not_overwritten(
     admin: TestClient, services: Services, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = admin.post(f"{API}/projects", json={"name": "Press"}).json()["id"]
-    really = Upload.imported
+    really = uploads.imported
     made: list[str] = []
 
-    def imported(self: Upload, *given: Any, **named: Any) -> Any:
+    def imported(*given: Any, **named: Any) -> Any:
         made.append(services.store.add(project, "ann", None, "folder", f"F{len(made)}").name)
-        return really(self, *given, **named)
+        return really(*given, **named)
 
-    monkeypatch.setattr(Upload, "imported", imported)
+    monkeypatch.setattr(uploads, "imported", imported)
     answer = admin.post(f"{API}/projects/{project}/import-files", files={"files": ("a.st", FAN)})
     assert (answer.status_code, answer.json()["type"]) == (409, "urn:tappet:problem:project-busy")
     names = {item["name"] for item in admin.get(f"{API}/projects/{project}/objects").json()}
