@@ -58,6 +58,9 @@ export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false
     diff.setModel(models);
     const listener = models.modified.onDidChangeContent(() => latest.current.onRight?.(models.modified.getValue()));
     const mine = diff.getModifiedEditor();
+    // Titles of both sides come as labels of their text areas, too.
+    diff.getOriginalEditor().updateOptions({ ariaLabel: leftTitle });
+    mine.updateOptions({ ariaLabel: rightTitle });
     const layout = mine.onDidLayoutChange(() =>
       sides.current?.style.setProperty('--left', `${mine.getContainerDomNode().offsetLeft}px`),
     );
