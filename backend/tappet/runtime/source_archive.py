@@ -126,7 +126,7 @@ class SourceStore:
         begin = len(start) + length
         try:
             head = msgspec.json.decode(self._bytes(len(start), length), type=_Head)
-        except msgspec.MsgspecError:
+        except (msgspec.MsgspecError, UnicodeDecodeError):
             return None
         return (head, begin) if begin + head.size == self._size() else None
 
