@@ -2,6 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
+import { themeFrom } from '@/text/theme';
 
 const css = readFileSync(join(import.meta.dirname, '../src/app/tokens.css'), 'utf8');
 
@@ -67,6 +68,22 @@ describe.each(['light', 'dark'])('%s theme', (theme) => {
         4.5,
       );
     }
+  });
+});
+
+describe.each(['light', 'dark'])('%s theme of texts', (theme) => {
+  const all = tokens(theme);
+  const { rules, colors } = themeFrom((name) => all[name.slice(2)]!, theme === 'dark');
+
+  it('has colours that the editor takes', () => {
+    for (const [name, colour] of Object.entries(colors)) expect(colour, name).toMatch(/^#[0-9a-f]{6}([0-9a-f]{2})?$/i);
+  });
+
+  it.each(['inserted', 'removed'])('is readable in lines and words that were %s', (change) => {
+    const line = over(colors[`diffEditor.${change}LineBackground`]!, over(all.bg!, [0, 0, 0]));
+    const word = over(colors[`diffEditor.${change}TextBackground`]!, line);
+    for (const { token, foreground } of rules)
+      expect(contrast(over(`#${foreground!}`, word), word), token).toBeGreaterThanOrEqual(4.5);
   });
 });
 

@@ -13,7 +13,15 @@ function longHex(colour: string): string {
   return /^#[0-9a-f]{3,4}$/i.test(colour) ? `#${[...colour.slice(1)].map((digit) => digit + digit).join('')}` : colour;
 }
 
-function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeData {
+/** A colour that lets twice as much through: lines and the words in them are coloured on top of each other. */
+function half(colour: string): string {
+  const alpha = colour.length === 9 ? parseInt(colour.slice(7), 16) : 0xff;
+  return `${colour.slice(0, 7)}${Math.round(alpha / 2)
+    .toString(16)
+    .padStart(2, '0')}`;
+}
+
+export function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeData {
   const token = (name: string) => longHex(read(name));
   const plain = (name: string) => token(name).replace('#', '');
   const rule = (scope: string, name: string, fontStyle = ''): editor.ITokenThemeRule => ({
@@ -122,10 +130,10 @@ function themeFrom(read: TokenReader, dark: boolean): editor.IStandaloneThemeDat
       'peekViewTitleLabel.foreground': token('--fg'),
       'peekViewTitleDescription.foreground': token('--fg-muted'),
       'peekView.border': token('--accent'),
-      'diffEditor.insertedTextBackground': `${token('--ok-soft')}80`,
-      'diffEditor.removedTextBackground': `${token('--error-soft')}80`,
-      'diffEditor.insertedLineBackground': `${token('--ok-soft')}80`,
-      'diffEditor.removedLineBackground': `${token('--error-soft')}80`,
+      'diffEditor.insertedTextBackground': half(token('--ok-soft')),
+      'diffEditor.removedTextBackground': half(token('--error-soft')),
+      'diffEditor.insertedLineBackground': half(token('--ok-soft')),
+      'diffEditor.removedLineBackground': half(token('--error-soft')),
       'diffEditor.border': token('--line'),
       'scrollbarSlider.background': token('--scroll'),
       'scrollbarSlider.hoverBackground': token('--scroll-hover'),
