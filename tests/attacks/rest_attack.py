@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -26,8 +26,6 @@ NOBODY = "anybody"
 PHASES = ("coverage", "fuzzing", "stateful")
 AWAY = "urn:tappet:problem:runtime-not-connected"
 """Some make runtimes of addresses where none is."""
-SHADED = [f"/api/v1/projects/{name}" for name in ("import", "import-files", "preview-files")]
-"""Addresses that would be projects to other methods. A revert names a revision, which a new project lacks."""
 KNOWN = 0.8
 """How often a parameter of an address names what is there."""
 PLACES = {
@@ -168,8 +166,31 @@ def _variables(boss: Script) -> Iterator[str]:
             yield variable["path"]
 
 
+def _shaded(document: Mapping[str, Any]) -> list[str]:
+    """Addresses that another template of the document takes as well.
+
+    `/objects/delete` is an object by its id to GET: `Allow` names more than the operations of the address.
+    """
+    paths = {path: path.split("/") for path in document["paths"]}
+
+    def covers(general: list[str], special: list[str]) -> bool:
+        return len(general) == len(special) and all(map(_takes, general, special))
+
+    return [
+        path
+        for path, parts in paths.items()
+        if any(path != other and covers(general, parts) for other, general in paths.items())
+    ]
+
+
+def _takes(general: str, special: str) -> bool:
+    """Whether one part of an address is the same, or any."""
+    return general == special or general.startswith("{")
+
+
 def _schema(team: Team, *, seed: int, examples: int, phases: Sequence[str], operations: str) -> BaseSchema:
     boss = team.boss
+    document = boss.get("/openapi.json")
     objects = boss.get(f"{boss.project}/objects")
     words = {
         "project_id": [team.project_id],
@@ -203,8 +224,11 @@ def _schema(team: Team, *, seed: int, examples: int, phases: Sequence[str], oper
                 "positive_data_acceptance": {"enabled": False},  # names that are taken, files that are none
             },
             "operations": [
-                {"include-path": SHADED, "checks": {"allow_header_conformance": {"enabled": False}}},
                 {
+                    "include-path": _shaded(document),
+                    "checks": {"allow_header_conformance": {"enabled": False}},
+                },
+                {  # names a revision, which a new project lacks
                     "include-path-regex": "/revert$",
                     "checks": {"ensure_resource_availability": {"enabled": False}},
                 },
@@ -212,6 +236,6 @@ def _schema(team: Team, *, seed: int, examples: int, phases: Sequence[str], oper
             "phases": {name: {"enabled": name in phases} for name in ("examples", *PHASES)},
         }
     )
-    schema = schemathesis.openapi.from_dict(boss.get("/openapi.json"), config=config)
+    schema = schemathesis.openapi.from_dict(document, config=config)
     schema.config.update(base_url=team.plant.origin)
     return schema.include(operation_id_regex=operations) if operations else schema

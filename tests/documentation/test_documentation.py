@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from datetime import datetime
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -15,7 +16,7 @@ from tappet.documentation import pdf
 from tappet.documentation.compose import Printing, compose, with_all_below
 from tappet.documentation.document import Document, printable
 from tappet.documentation.html import write_html
-from tappet.documentation.pdf import MissingGlyphsError, write_pdf
+from tappet.documentation.pdf import MissingGlyphsError, PdfError, write_pdf
 from tappet.documentation.variables import Declared, declared_variables
 from tappet.project import edit
 from tappet.project.model import Project
@@ -78,19 +79,26 @@ def test_any_text_is_text_in_html(body: str, description: str) -> None:
         assert solid(printable(line)) in solid(text)
 
 
-@settings(max_examples=25, deadline=None)
-@given(LATIN)
-def test_any_text_is_text_in_a_pdf(body: str) -> None:
-    text = solid(pdf_text(printed(body, variables=False, contents=False)))
+def lines(of: st.SearchStrategy[str]) -> st.SearchStrategy[list[str]]:
+    """Several texts for one PDF, which takes long to make."""
+    return st.lists(of, min_size=4, max_size=12)
+
+
+@settings(max_examples=5, deadline=None)
+@given(lines(LATIN))
+def test_any_text_is_text_in_a_pdf(body: list[str]) -> None:
     # soft hyphens and combining marks are placed by their own rules
-    wanted = solid(printable(body)).replace("\u00ad", "")
-    assert wanted in text.replace("\u00ad", "")
+    text = solid(pdf_text(printed("\n".join(body), variables=False, contents=False))).replace("\u00ad", "")
+    for line in body:
+        assert solid(printable(line)).replace("\u00ad", "") in text
 
 
-@settings(max_examples=30, deadline=None)
-@given(st.text(st.sampled_from("#*_`$<>@[]{}\\/~='\"-+%&;:. ab1"), max_size=80))
-def test_what_would_be_markup_is_text_in_a_pdf(body: str) -> None:
-    assert solid(body) in solid(pdf_text(printed(body, variables=False, contents=False)))
+@settings(max_examples=5, deadline=None)
+@given(lines(st.text(st.sampled_from("#*_`$<>@[]{}\\/~='\"-+%&;:. ab1"), max_size=80)))
+def test_what_would_be_markup_is_text_in_a_pdf(body: list[str]) -> None:
+    text = solid(pdf_text(printed("\n".join(body), variables=False, contents=False)))
+    for line in body:
+        assert solid(line) in text
 
 
 def test_markup_in_every_place_is_text() -> None:
@@ -116,18 +124,35 @@ def test_pages_have_contents_numbers_and_tables() -> None:
     assert "实现 (ST)" in chinese
 
 
-def test_characters_without_a_glyph_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_characters_without_a_glyph_are_named() -> None:
     """With the fonts of typst alone, as on a machine without Chinese ones."""
-    import typst
-
-    compiled = typst.compile
-    monkeypatch.setattr(typst, "compile", lambda *a, **k: compiled(*a, **k, ignore_system_fonts=True))
     with pytest.raises(
         MissingGlyphsError, match=r"No font of this machine can print 中文 \(2 different"
     ) as raised:
-        write_pdf(printed("// 中文中"))
+        write_pdf(printed("// 中文中"), system_fonts=False)
     assert raised.value.characters == "中文"
     assert "Noto Sans CJK" in str(raised.value)
+
+
+def resident_mib() -> int:
+    status = Path("/proc/self/status").read_text()
+    return int(status.partition("VmRSS:")[2].split()[0]) // 1024
+
+
+def test_documentations_leave_no_memory_in_use() -> None:
+    """Typst keeps its layouts: 100 MiB more after each of these, if a server loaded it."""
+    document = printed("\n".join(f"a{line} := b * {line}; // {line}" for line in range(1000)))
+    write_pdf(document)
+    before = resident_mib()
+    for _ in range(2):
+        assert len(write_pdf(document)) > 20_000
+    assert resident_mib() < before + 30
+
+
+def test_a_typesetting_that_ends_early_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.executable", "/bin/false")
+    with pytest.raises(PdfError, match="its process ended with 1; HTML always can"):
+        write_pdf(printed("a := 1;"))
 
 
 def test_chosen_objects_only() -> None:

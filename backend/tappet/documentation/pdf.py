@@ -1,4 +1,4 @@
-"""A documentation as PDF, by typst: one wheel without libraries of the system, loaded when it is needed.
+"""A documentation as PDF, by typst (one wheel without libraries of the system) in a process of its own.
 
 The texts of the project are strings of a JSON file that the page reads; none of them is markup. The page sees
 its own folder only, and there is no network.
@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tappet.documentation.document import Document, Listing, Table
+from tappet.documentation.typesetting import PAGE, TypesettingError, typeset
 from tappet.project.errors import ProjectError
 
 _MISSING = re.compile(r"the text `\"(?P<text>(?:[^\"\\]|\\.)*)\"` could not be displayed")
@@ -44,25 +45,23 @@ class MissingGlyphsError(PdfError):
         self.characters = characters
 
 
-def write_pdf(document: Document) -> bytes:
-    """The file. Raises MissingGlyphsError, which names the characters, and PdfError."""
-    import typst
+def write_pdf(document: Document, *, system_fonts: bool = True) -> bytes:
+    """The file, with the fonts of this machine or those of typst alone.
 
-    page = files("tappet.documentation").joinpath("page.typ").read_bytes()
+    Raises MissingGlyphsError, which names the characters, and PdfError.
+    """
+    page = files("tappet.documentation").joinpath(PAGE).read_bytes()
     with tempfile.TemporaryDirectory(prefix="tappet-document-") as name:
         folder = Path(name)
         (folder / "data.json").write_text(json.dumps(_data(document)), encoding="utf-8")
-        (folder / "page.typ").write_bytes(page)
+        (folder / PAGE).write_bytes(page)
         try:
-            # the archive standard PDF/A-2u refuses characters without a glyph instead of drawing boxes
-            made = typst.compile(folder / "page.typ", root=folder, pdf_standards=["a-2u"], pdf_tags=False)
-        except typst.TypstError as error:
+            return typeset(folder, system_fonts=system_fonts)
+        except TypesettingError as error:
             lost = "".join(json.loads(f'"{match}"') for match in _MISSING.findall(error.diagnostic))
             if lost:
                 raise MissingGlyphsError("".join(sorted(set(lost)))) from error
             raise PdfError(f"The PDF could not be made: {error.message}; HTML always can") from error
-    assert isinstance(made, bytes), "one document is one file"
-    return made
 
 
 def _data(document: Document) -> dict[str, Any]:
