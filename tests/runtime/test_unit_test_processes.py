@@ -11,6 +11,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
+from unread_answers import ends_quietly
 
 from tappet.cli.inputs import applications
 from tappet.codegen.build import BuildOptions
@@ -42,6 +43,12 @@ def deadly() -> Report:
     return run_in_process(
         order(application.name, application.sources, application.tasks, libraries, limits=limits)
     )
+
+
+def test_tests_whose_server_was_killed_end_quietly() -> None:
+    program = "PROGRAM P\nEND_PROGRAM"
+    with Attempts(order_of(program, TestLimits())) as attempts:
+        ends_quietly(attempts.command, attempts.order, attempts.pass_fds)
 
 
 def test_each_deadly_test_has_its_error_and_the_others_run_on(deadly: Report) -> None:

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from unread_answers import ends_quietly
 
 from tappet.codegen.generate import Generator
 from tappet.iec.places import Segment, SourceMap
 from tappet.iec.source import Source
-from tappet.server.builds.builder import Application, Builder
-from tappet.server.builds.messages import CANCEL
+from tappet.server.builds.builder import WORKER, Application, Builder
+from tappet.server.builds.messages import CANCEL, pack_frame
 from tappet.server.builds.packages import KEEP, PackageStore
 from tappet.server.builds.worker import Compiler
 from tappet.server.problems import Problem
@@ -96,6 +97,10 @@ def test_a_cancelled_build_leaves_the_session(monkeypatch: pytest.MonkeyPatch, t
     again = compiler.outcome(compile_order("a := 4;") | {"cache": str(tmp_path)})
     assert "layout" not in again["timings"]
     assert len({first["code_id"], after["code_id"], again["code_id"]}) == 3
+
+
+def test_a_compiler_without_its_server_ends_quietly(tmp_path: Path) -> None:
+    ends_quietly(WORKER, pack_frame(compile_order("a := 1;") | {"cache": str(tmp_path)}))
 
 
 def test_an_online_change_takes_the_short_way(tmp_path: Path) -> None:

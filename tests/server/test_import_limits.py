@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import pickle
+import sys
 from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
+from unread_answers import ends_quietly
 
 from tappet.server.exchange import import_process, uploads
+from tappet.server.exchange.import_order import ImportOrder
 from tappet.server.services import Services
 
 API = "/api/v1"
@@ -131,3 +135,8 @@ def test_a_project_that_never_rests_is_not_overwritten(
     names = {item["name"] for item in admin.get(f"{API}/projects/{project}/objects").json()}
     assert set(made) <= names
     assert "FB_Fan" not in names
+
+
+def test_an_import_whose_server_was_killed_ends_quietly() -> None:
+    order = ImportOrder({"a.st": PUMP}, None, None, "Pumps", None)
+    ends_quietly([sys.executable, "-m", import_process.WORKER, "2048", "60"], pickle.dumps(order))

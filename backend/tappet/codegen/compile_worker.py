@@ -7,6 +7,7 @@ eight bytes and the text. The answer is a status byte (0 = object, 1 = error mes
 from __future__ import annotations
 
 import json
+import signal
 import sys
 from typing import BinaryIO
 
@@ -30,4 +31,5 @@ def serve(source: BinaryIO, sink: BinaryIO) -> None:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # ends quietly when the builder was killed
     serve(sys.stdin.buffer, sys.stdout.buffer)

@@ -107,6 +107,8 @@ def main() -> None:
         sys.exit(FRESH)
     except MemoryError:
         sys.exit(NO_MEMORY)
+    except BrokenPipeError:
+        pass  # who asked was killed: nobody wants to know
     os._exit(0)  # all is written; giving back the trees of the program one by one takes as long as the tests
 
 

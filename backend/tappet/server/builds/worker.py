@@ -163,8 +163,11 @@ def main() -> None:
     signal.signal(CANCEL, compiler.cancel)
     gc.disable()  # looking for garbage in large trees takes longer than a small build: done between builds
     while (order := read_frame(sys.stdin.buffer)) is not None:
-        output.write(pack_frame(compiler.outcome(order)))
-        output.flush()
+        try:
+            output.write(pack_frame(compiler.outcome(order)))
+            output.flush()
+        except BrokenPipeError:
+            os._exit(0)  # the server was killed: there is nobody to answer
         del order
         compiler.tidy()
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import pickle
 import resource
+import signal
 import sys
 from contextlib import suppress
 
@@ -27,6 +28,7 @@ def main() -> None:
     output = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever prints in here must not get into the answer
     memory, seconds = int(sys.argv[1]) << 20, int(sys.argv[2])
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # ends quietly when the server was killed
     with suppress(OSError, ValueError):
         os.nice(BEHIND_OTHERS)
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
