@@ -19,6 +19,7 @@ const ROOMS = [
   'workbench',
   'text',
   'search',
+  'bookmarks',
   'compare',
   'lsp',
   'help',

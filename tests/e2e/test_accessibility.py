@@ -17,6 +17,7 @@ from .workbench import (
     open_object,
     open_panel,
     open_project,
+    show_panel,
     tree_item,
 )
 
@@ -63,6 +64,12 @@ def _tools(page: Page) -> Iterator[str]:
     search.get_by_label("Search for").fill("(")
     expect(search.get_by_role("alert")).to_be_visible()
     yield "Search with a fault"
+    open_object(page, "PLC_PRG")
+    implementation(page).locator(".view-line").first.click()
+    page.keyboard.press("Control+F12")
+    show_panel(page, "Bookmarks")
+    expect(page.get_by_role("tabpanel", name="Bookmarks").get_by_role("row").last).to_be_visible()
+    yield "Bookmarks"
 
 
 def _help(page: Page) -> Iterator[str]:

@@ -111,6 +111,12 @@ def choose_menu(page: Page, menu: str, *entries: str) -> None:
         page.get_by_role("menuitem", name=re.compile(f"^{re.escape(entry)}", re.IGNORECASE)).last.click()
 
 
+def show_panel(page: Page, title: str) -> None:
+    """The entry of the View menu that shows a tool panel."""
+    page.get_by_role("menuitem", name=re.compile(r"^(View|视图)")).first.click()
+    page.get_by_role("menuitemcheckbox", name=re.compile(f"^{re.escape(title)}")).first.click()
+
+
 def answer_to(page: Page, path: str) -> AbstractContextManager[Any]:
     """What the server answers to the next request whose path ends so."""
     return page.expect_response(lambda answer: urlsplit(answer.url).path.endswith(path))

@@ -2,6 +2,7 @@
  * The workbench with everything that registers itself with it, in the order of the rooms; components load when first
  * shown. The kinds of objects are known before: the start page shows them, too.
  */
+import { registerBookmarks } from '@/bookmarks/register';
 import { registerCompare } from '@/compare/register';
 import { registerEditors } from '@/editors/register';
 import { registerHelp } from '@/help/register';
@@ -15,6 +16,7 @@ registerWorkbench();
 registerCompare();
 registerOnline();
 registerSearch();
+registerBookmarks();
 registerHelp();
 registerEditors();
 registerPanelCommands();

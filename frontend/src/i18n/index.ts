@@ -10,6 +10,7 @@
 import i18next from 'i18next';
 import { useSyncExternalStore } from 'react';
 import type analysis from './en/analysis.json';
+import type bookmarks from './en/bookmarks.json';
 import type compare from './en/compare.json';
 import type editors from './en/editors.json';
 import type exchange from './en/exchange.json';
@@ -26,6 +27,7 @@ export type Language = 'en' | 'zh';
 /** The tables of texts; a folder that has one of its own adds its type here by `declare module '@/i18n'`. */
 export interface TextTables {
   analysis: typeof analysis;
+  bookmarks: typeof bookmarks;
   compare: typeof compare;
   editors: typeof editors;
   exchange: typeof exchange;

@@ -1,5 +1,6 @@
 import { useCallback, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
+import { useBookmarkMarks } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
 import { useObjectSession } from '@/online/useObjectSession';
@@ -59,6 +60,7 @@ function DeclarationText(props: DeclarationPaneProps) {
   useShorthand(monaco, projectId, editor);
   useOnlineView({ ...props, part: 'declaration', editor });
   useFaultLine(projectId, object, 'declaration', editor);
+  useBookmarkMarks(object.id, 'declaration', editor);
   const onEditor = useCallback(
     (made: CodeEditor | null) => {
       if (made === null) removePanelEditor(panelId, 'declaration');

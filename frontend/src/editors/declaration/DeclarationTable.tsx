@@ -1,6 +1,7 @@
 import { ArrowDown, ArrowUp, ListPlus, TextInitial, Trash2 } from 'lucide-react';
 import { useCallback, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import type { ObjectSummary } from '@/api/types';
+import { useBookmarkedLines } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
 import { goToDefinition } from '@/lsp/definition';
 import type { Position } from '@/lsp/protocol';
@@ -25,7 +26,7 @@ import styles from './DeclarationTable.module.css';
 import { HeaderLine } from './HeaderLine';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { placeOf, problemText } from './problemText';
-import { DRAFT_KEY, displayOrder, type Draft, type Sorting } from './tableModel';
+import { DRAFT_KEY, displayOrder, rowsInLines, type Draft, type Sorting } from './tableModel';
 import { cellContent, tableColumns } from './tableView';
 import { useTableActs } from './useTableActs';
 
@@ -42,6 +43,8 @@ export function DeclarationTable(props: DeclarationTableProps) {
   const t = useText();
   const text = useModelText(document.models.declaration);
   const model = useMemo(() => parseDeclaration(text), [text]);
+  const lines = useBookmarkedLines({ objectId: object.id, part: 'declaration' });
+  const bookmarked = useMemo(() => rowsInLines(model, lines), [model, lines]);
   const locked = useEditingLock(object, null);
   const [editing, setEditing] = useState<GridEditing | null>(null);
   const [draft, setDraft] = useState<Draft | null>(null);
@@ -223,7 +226,7 @@ export function DeclarationTable(props: DeclarationTableProps) {
             columns={columns}
             count={shown.length}
             keyOf={(row) => (shown[row] === DRAFT_KEY ? 'draft' : String(shown[row]))}
-            cell={(row, column) => cellContent(t, model, shown[row] ?? -1, draft, column.id)}
+            cell={(row, column) => cellContent({ t, model, draft, bookmarked }, shown[row] ?? -1, column.id)}
             hint={(row, column) => acts.hint(row, column.id)}
             selected={selection.selected}
             cursor={selection.cursor}

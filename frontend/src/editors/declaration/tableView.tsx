@@ -1,4 +1,5 @@
 import type { ReactNode } from 'react';
+import { RowMark } from '@/bookmarks/RowMark';
 import type { t as Text } from '@/i18n';
 import type { GridColumn } from '@/ui/grid/Grid';
 import styles from './DeclarationTable.module.css';
@@ -29,14 +30,16 @@ export function tableColumns(t: typeof Text, model: DeclarationModel): readonly 
   }));
 }
 
+interface TableView {
+  t: typeof Text;
+  model: DeclarationModel;
+  draft: Draft | null;
+  /** Rows in lines with a bookmark. */
+  bookmarked: ReadonlySet<number>;
+}
+
 /** How a cell looks while it is not edited. */
-export function cellContent(
-  t: typeof Text,
-  model: DeclarationModel,
-  index: number,
-  draft: Draft | null,
-  column: string,
-): ReactNode {
+export function cellContent({ t, model, draft, bookmarked }: TableView, index: number, column: string): ReactNode {
   if (index === DRAFT_KEY) {
     if (column === 'scope') return <span className={styles.scope}>{draft?.scope}</span>;
     if (column === 'type') return <span className={styles.type}>{draft?.type}</span>;
@@ -44,7 +47,13 @@ export function cellContent(
   }
   const row = model.rows[index];
   if (row === undefined) return null;
-  if (column === 'number') return <span className={styles.number}>{index + 1}</span>;
+  if (column === 'number')
+    return (
+      <>
+        {bookmarked.has(index) && <RowMark />}
+        <span className={styles.number}>{index + 1}</span>
+      </>
+    );
   const text = cellText(model, row, column);
   if (column === 'scope') return <span className={styles.scope}>{text}</span>;
   if (column === 'type') return <span className={styles.type}>{text}</span>;

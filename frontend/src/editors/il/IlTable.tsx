@@ -1,5 +1,6 @@
 import { useEffect, useMemo, useRef, useState, type ClipboardEvent, type KeyboardEvent } from 'react';
 import type { ObjectSummary } from '@/api/types';
+import { useBookmarkedLines } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
 import { LostBar } from '@/online/LostBar';
 import online from '@/online/OnlineTable.module.css';
@@ -59,6 +60,8 @@ export function IlTable(props: IlTableProps) {
   const messages = useRowMessages(monaco, model, rows);
   const values = useRowValues(monitored.ready ? monitored.settings : null, text, rows, range);
   const prepare = usePrepare(runtimeId);
+  const bookmarked = useBookmarkedLines({ objectId: object.id, part: 'implementation' });
+  const marked = useMemo(() => new Set(bookmarked.map((line) => rowAt(rows, line))), [bookmarked, rows]);
   const fault = faultLine(session?.runtime?.exception, object.id, 'implementation');
 
   const { cursor, selected } = selection;
@@ -151,7 +154,8 @@ export function IlTable(props: IlTableProps) {
   const view = (row: number) => {
     const shown = rows[row]!;
     const name = operandName(shown).toUpperCase();
-    return { t, row: shown, facts: facts.get(name) ?? null, messages: messages.get(row) ?? NO_MESSAGES };
+    const found = messages.get(row) ?? NO_MESSAGES;
+    return { t, row: shown, facts: facts.get(name) ?? null, messages: found, bookmark: marked.has(row) };
   };
   const valueCell = (row: number) => {
     if (runtimeId === null || rows[row] === undefined) return null;

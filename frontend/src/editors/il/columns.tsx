@@ -1,5 +1,6 @@
 import { CircleAlert, Info, TriangleAlert } from 'lucide-react';
 import type { ReactNode } from 'react';
+import { RowMark } from '@/bookmarks/RowMark';
 import type { t as Text } from '@/i18n';
 import type { GridColumn } from '@/ui/grid/Grid';
 import { isOperator } from './instructionList';
@@ -51,14 +52,16 @@ interface CellView {
   row: IlRow;
   facts: OperandFacts | null;
   messages: readonly RowMessage[];
+  bookmark: boolean;
 }
 
 /** How a cell looks while it is not edited; values come from elsewhere. */
-export function cellContent({ t, row, facts, messages }: CellView, column: ColumnId): ReactNode {
+export function cellContent({ t, row, facts, messages, bookmark }: CellView, column: ColumnId): ReactNode {
   switch (column) {
     case 'line':
       return (
         <>
+          {bookmark && <RowMark />}
           <Mark messages={messages} />
           <span className={styles.line}>{row.line}</span>
         </>

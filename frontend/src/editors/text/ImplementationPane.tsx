@@ -1,5 +1,6 @@
 import { useCallback, useMemo, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
+import { useBookmarkMarks } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
 import type { EditorProps } from '@/project/editorProps';
@@ -37,6 +38,7 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
   useAutoDeclare(panel, editor);
   useOnlineView({ ...props, part: 'implementation', editor });
   useFaultLine(projectId, object, 'implementation', editor);
+  useBookmarkMarks(object.id, 'implementation', editor);
   return (
     <TextMenu panelId={panelId}>
       <CodePane

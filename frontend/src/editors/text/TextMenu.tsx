@@ -16,6 +16,7 @@ const TEXT_COMMANDS = [
   'st.renameSymbol',
   'st.format',
   'st.comment',
+  'bookmarks.toggle',
   null,
   'edit.cut',
   'edit.copy',
@@ -31,7 +32,7 @@ export function symbolCommands(): readonly (string | null)[] {
 
 /** Entries for the symbol at the cursor of a table, with a line behind them. */
 export function symbolEntries(): MenuEntry[] {
-  const commands = [...symbolCommands(), 'st.renameSymbol'];
+  const commands = [...symbolCommands(), 'st.renameSymbol', 'bookmarks.toggle'];
   return [
     ...entriesOf(commands, useRegistry.getState().commands, commandContext()),
     { kind: 'line', key: 'line-symbol' },

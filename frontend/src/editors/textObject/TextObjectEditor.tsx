@@ -2,6 +2,7 @@ import { useEffect, useMemo } from 'react';
 import { useStore } from 'zustand';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
+import { useFollowedBookmarks } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
 import { partsOf } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
@@ -54,6 +55,7 @@ function StPanes(props: EditorProps & OpenText & { object: ObjectSummary }) {
   useHandlers(panelId, handlers);
   useEffect(() => registerQuickFixCommand(monaco), [monaco]);
   useReveal(panelId, reveal);
+  useFollowedBookmarks(document);
 
   const parts = partsOf(object.kind);
   const declaration = parts.includes('declaration') && <DeclarationPane {...props} />;

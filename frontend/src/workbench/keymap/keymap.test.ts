@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { registerBookmarks } from '@/bookmarks/register';
 import { registerEditCommands } from '../commands/edit';
 import { registerHelpCommands } from '../commands/help';
 import { registerOnlineCommands } from '../commands/online';
@@ -75,6 +76,7 @@ describe('a keymap', () => {
 });
 
 describe('presets', () => {
+  registerBookmarks();
   registerEditCommands();
   registerHelpCommands();
   registerOnlineCommands();
@@ -93,7 +95,7 @@ describe('presets', () => {
   });
 
   it.each(PRESETS)('%s names commands of the workbench that exist', (preset) => {
-    const rooms = ['edit', 'build', 'online', 'debug', 'project', 'file', 'window', 'tools'];
+    const rooms = ['bookmarks', 'edit', 'build', 'online', 'debug', 'project', 'file', 'window', 'tools'];
     const named = Object.keys(PRESET_KEYS[preset]).filter((id) => rooms.includes(id.split('.')[0]!));
     expect(named.filter((id) => findCommand(id) === undefined)).toEqual([]);
   });

@@ -24,5 +24,9 @@ export const PRESET_KEYS: Readonly<Record<Preset, KeyTable>> = {
     'st.renameSymbol': ['F2'],
     'st.inputAssistant': ['Ctrl+I'],
     'view.messages': ['Ctrl+Shift+M'],
+    // As the extension Bookmarks has them.
+    'bookmarks.toggle': ['Ctrl+Alt+K'],
+    'bookmarks.next': ['Ctrl+Alt+L'],
+    'bookmarks.previous': ['Ctrl+Alt+J'],
   },
 };

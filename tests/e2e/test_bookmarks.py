@@ -1,0 +1,90 @@
+"""Bookmarks: lines that one comes back to, in texts and in tables."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from .workbench import (
+    add_line,
+    choose_menu,
+    implementation,
+    open_object,
+    plc_prg,
+    show_panel,
+    tree_item,
+)
+
+pytestmark = pytest.mark.e2e
+
+TOGGLE = "Control+F12"
+NEXT = "Control+Alt+PageDown"
+
+
+def _go_to_line(page: Page, editor: Locator, number: int) -> None:
+    editor.locator(".view-line").first.click()
+    page.keyboard.press("Control+Home")
+    for _ in range(number - 1):
+        page.keyboard.press("ArrowDown")
+
+
+def _marks(editor: Locator) -> Locator:
+    return editor.locator(".margin [class*=mark]")
+
+
+def _panel(page: Page) -> Locator:
+    show_panel(page, "Bookmarks")
+    return page.get_by_role("tabpanel", name="Bookmarks")
+
+
+def test_bookmarks_follow_their_lines_and_outlast_the_page(page: Page) -> None:
+    editor = plc_prg(page)
+    expect(_panel(page)).to_contain_text("The project has no bookmarks")
+    _go_to_line(page, editor, 3)
+    page.keyboard.press(TOGGLE)
+    expect(_marks(editor)).to_have_count(1)
+    panel = page.get_by_role("tabpanel", name="Bookmarks")
+    row = panel.get_by_role("row").filter(has_text="PLC_PRG")
+    expect(row.get_by_role("gridcell").nth(2)).to_have_text("3")
+    marked = row.get_by_role("gridcell").nth(3).inner_text()
+    add_line(page, editor, "// above")
+    expect(row.get_by_role("gridcell").nth(2)).to_have_text("4")
+    expect(row.get_by_role("gridcell").nth(3)).to_have_text(marked)
+    page.reload()
+    expect(tree_item(page, "Application")).to_be_visible()
+    expect(row.get_by_role("gridcell").nth(2)).to_have_text("4")
+    expect(_marks(implementation(page))).to_have_count(1)
+
+
+def test_next_bookmark_goes_through_the_project(page: Page) -> None:
+    editor = plc_prg(page)
+    _go_to_line(page, editor, 2)
+    page.keyboard.press(TOGGLE)
+    open_object(page, "GVL_IO")
+    declaration = implementation(page)
+    _go_to_line(page, declaration, 3)
+    page.keyboard.press(TOGGLE)
+    active = page.locator(".dv-active-group .dv-active-tab")
+    for name, position in (("PLC_PRG", "Ln 2"), ("GVL_IO", "Ln 3"), ("PLC_PRG", "Ln 2")):
+        page.keyboard.press(NEXT)
+        expect(active.filter(has_text=name)).to_be_visible()
+        expect(page.locator("footer[role=status]")).to_contain_text(position)
+    page.keyboard.press(TOGGLE)
+    expect(_marks(implementation(page))).to_have_count(0)
+    panel = _panel(page)
+    row = panel.get_by_role("row").filter(has_text="GVL_IO")
+    row.dblclick()
+    expect(active.filter(has_text="GVL_IO")).to_be_visible()
+    choose_menu(page, "Edit", "Bookmarks", "Clear All Bookmarks")
+    expect(panel).to_contain_text("The project has no bookmarks")
+
+
+def test_rows_of_a_declaration_table_have_bookmarks(page: Page) -> None:
+    plc_prg(page)
+    page.get_by_role("button", name="Declaration as table").click()
+    table = page.get_by_role("grid", name="Declaration of PLC_PRG as table")
+    table.get_by_role("row").nth(2).get_by_role("gridcell").nth(2).click()
+    page.keyboard.press(TOGGLE)
+    expect(table.get_by_role("row").nth(2).get_by_role("img", name="Bookmark")).to_be_visible()
+    page.keyboard.press(TOGGLE)
+    expect(table.get_by_role("img", name="Bookmark")).to_have_count(0)
