@@ -1,7 +1,9 @@
-"""The events socket: changes of others and who is here (seam 6)."""
+"""The events socket: changes of others and who is here."""
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Iterable
 from typing import Any
 
 import pytest
@@ -12,7 +14,10 @@ from starlette.testclient import WebSocketDenialResponse
 from starlette.websockets import WebSocketDisconnect
 
 from tappet.server import sockets
+from tappet.server.events import presence
 from tappet.server.events import service as project_events
+from tappet.server.events.presence import ProjectPresence
+from tappet.server.events.shapes import Presence, PresenceChanged
 
 API = "/api/v1"
 
@@ -34,11 +39,6 @@ def test_changes_reach_all_who_have_the_project_open(
     main = next(item for item in admin.get(objects).json() if item["name"] == "PLC_PRG")
     other = admin.post(f"{API}/projects", json={"name": "Other"}).json()["id"]
     with connect(admin, pid) as socket, connect(as_role["viewer"], other) as elsewhere:
-        assert socket.receive_json() == {
-            "op": "presence",
-            "users": [{"username": "admin", "object_id": None}],
-        }
-        elsewhere.receive_json()
         data = {"declaration": "PROGRAM PLC_PRG", "implementation": "x;"}
         saved = (
             as_role["engineer"].put(f"{objects}/{main['id']}", json={"base_revision": 1, "data": data}).json()
@@ -71,21 +71,107 @@ def test_changes_reach_all_who_have_the_project_open(
         assert elsewhere.receive_json()["op"] == "presence"
 
 
+def look(socket: Any, object_id: str | None = None) -> None:
+    socket.send_json({"op": "open", "object_id": object_id})
+
+
 def test_presence(admin: TestClient, as_role: dict[str, TestClient], pid: str) -> None:
     with connect(admin, pid) as first:
-        first.receive_json()
+        look(first)
+        (me,) = first.receive_json()["users"]
+        assert (me["username"], me["object_id"]) == ("admin", None)
         with connect(as_role["viewer"], pid) as second:
-            both = [{"username": "admin", "object_id": None}] * 2
-            assert first.receive_json()["users"] == second.receive_json()["users"] == both
-            second.send_json({"op": "open", "object_id": "abc"})
-            assert first.receive_json()["users"][1] == {"username": "admin", "object_id": "abc"}
-        assert first.receive_json()["users"] == both[:1]
+            look(second, "abc")
+            both = second.receive_json()
+            assert both["op"] == "presence"
+            assert [user["object_id"] for user in both["users"]] == [None, "abc"]
+            assert both["users"][0] == me
+            other = both["users"][1]["id"]
+            came = first.receive_json()
+            assert came["op"] == "presence_changed"
+            seen = {user["id"]: user["object_id"] for user in came["present"]}
+            if seen != {other: "abc"}:  # the connection and what it opens were two batches
+                assert seen == {other: None}
+                assert first.receive_json()["present"][0]["object_id"] == "abc"
+        assert first.receive_json() == {"op": "presence_changed", "present": [], "left": [other]}
+
+
+def test_who_has_not_asked_hears_nothing_of_others(
+    admin: TestClient, as_role: dict[str, TestClient], pid: str
+) -> None:
+    with connect(admin, pid) as silent, connect(as_role["viewer"], pid) as asking:
+        look(asking)
+        assert len(asking.receive_json()["users"]) == 2
+        admin.post(
+            f"{API}/projects/{pid}/objects", json={"parent_id": None, "kind": "device", "name": "Second"}
+        )
+        assert silent.receive_json()["op"] == "object"
+
+
+class Counted:
+    """Presence that counts what it would send to each socket."""
+
+    def __init__(self) -> None:
+        self.sent: dict[int, list[Presence | PresenceChanged]] = {}
+        self.presence = ProjectPresence(self._deliver)
+
+    def _deliver(self, numbers: Iterable[int], message: Presence | PresenceChanged) -> None:
+        for number in numbers:
+            self.sent.setdefault(number, []).append(message)
+
+    def enter(self, numbers: Iterable[int]) -> None:
+        for number in numbers:
+            self.presence.enter(number, f"user {number}")
+            self.presence.look(number, None)
+
+    async def messages(self) -> int:
+        """How many are sent in all, once the loop has nothing left to do."""
+        for _ in range(3):
+            await asyncio.sleep(0)
+        return sum(map(len, self.sent.values()))
+
+
+async def test_many_that_come_and_go_at_once_are_one_message_for_each_that_stays() -> None:
+    counted = Counted()
+    counted.enter([1])
+    assert await counted.messages() == 1
+    counted.presence._earliest = 0.0  # the time between two batches is over
+    counted.enter(range(2, 502))
+    for number in range(2, 502):
+        for seen in "abc":
+            counted.presence.look(number, seen)
+    assert await counted.messages() == 1 + 501, "the list to each that came, one change to the first"
+    counted.presence._earliest = 0.0
+    for number in range(2, 301):
+        counted.presence.leave(number)
+    counted.presence.enter(999, "short")
+    counted.presence.leave(999)
+    assert await counted.messages() == 502 + 202
+    (list_, came, left) = counted.sent[1]
+    assert isinstance(list_, Presence)
+    assert isinstance(came, PresenceChanged)
+    assert isinstance(left, PresenceChanged)
+    assert [user.object_id for user in came.present] == ["c"] * 500
+    assert (left.present, left.left) == ([], list(range(2, 301)))
+
+
+async def test_batches_keep_their_distance(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(presence, "BATCHES_PER_S", 1 / 3600)
+    counted = Counted()
+    counted.enter([1])
+    assert await counted.messages() == 1
+    for number in range(2, 50):
+        counted.enter([number])
+        assert await counted.messages() == 1, "the next batch is due in an hour"
+    for number in range(2, 50):
+        counted.presence.leave(number)
+    assert await counted.messages() == 1
+    counted.presence.close()
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"op": "close"}', '{"op": "open"}', "{"])
 def test_messages_that_are_not_understood_close_the_socket(admin: TestClient, pid: str, text: str) -> None:
     with connect(admin, pid) as socket:
-        socket.receive_json()
         socket.send_text(text)
         with pytest.raises(WebSocketDisconnect) as closed:
             socket.receive_json()
@@ -103,7 +189,6 @@ def test_a_socket_that_cannot_follow_is_closed(
 ) -> None:
     monkeypatch.setattr(project_events, "LONGEST_QUEUE", 3)
     with connect(admin, pid) as socket:
-        socket.receive_json()
         admin.post(
             f"{API}/projects/{pid}/objects", json={"parent_id": None, "kind": "device", "name": "Second"}
         )
@@ -117,7 +202,6 @@ def test_the_end_of_the_session_closes_the_socket(
 ) -> None:
     monkeypatch.setattr(sockets, "CHECK_EVERY_S", 0.02)
     with connect(admin, pid) as socket:
-        socket.receive_json()
         leaving = browser(app)
         leaving.cookies = admin.cookies
         assert leaving.post(f"{API}/auth/logout").status_code in (200, 204)

@@ -3099,7 +3099,7 @@ export interface components {
         };
         /**
          * OpenObject
-         * @description Shows the other users which object this one has open; null for none.
+         * @description Shows the other users which object this one has open; null for none. The first asks who is there.
          */
         EventClientMessage: {
             /** Object Id */
@@ -3110,7 +3110,7 @@ export interface components {
              */
             op: "open";
         };
-        EventServerMessage: components["schemas"]["ObjectChanged"] | components["schemas"]["Presence"];
+        EventServerMessage: components["schemas"]["ObjectChanged"] | components["schemas"]["Presence"] | components["schemas"]["PresenceChanged"];
         /**
          * Existing
          * @description The object of the project that has the name of an imported one.
@@ -4662,7 +4662,7 @@ export interface components {
         };
         /**
          * Presence
-         * @description All who have the project open.
+         * @description All who have the project open, once to a page that has asked.
          */
         Presence: {
             /**
@@ -4674,10 +4674,27 @@ export interface components {
             users: components["schemas"]["PresentUser"][];
         };
         /**
+         * PresenceChanged
+         * @description Who has come or opened something else, and who has left, since the last message of this kind.
+         */
+        PresenceChanged: {
+            /** Left */
+            left: number[];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            op: "presence_changed";
+            /** Present */
+            present: components["schemas"]["PresentUser"][];
+        };
+        /**
          * PresentUser
-         * @description Somebody who has the project open.
+         * @description Somebody who has the project open, in one page or program.
          */
         PresentUser: {
+            /** Id */
+            id: number;
             /** Object Id */
             object_id: string | null;
             /** Username */

@@ -9,11 +9,7 @@ import type { ObjectSummary } from '@/api/types';
 import { revisionMade } from '@/project/authors';
 import { applyChange, type ObjectEvent } from '@/project/changes';
 import { useSession } from '@/session/session';
-
-export interface PresentUser {
-  username: string;
-  object_id: string | null;
-}
+import { withChange, type PresenceChange, type PresentUser } from './presence';
 
 interface Presence {
   users: readonly PresentUser[];
@@ -22,7 +18,8 @@ interface Presence {
 
 export const usePresence = create<Presence>(() => ({ users: [], connected: false }));
 
-type EventMessage = ObjectEvent | { op: 'presence'; users: PresentUser[] };
+type EventMessage =
+  ObjectEvent | { op: 'presence'; users: readonly PresentUser[] } | ({ op: 'presence_changed' } & PresenceChange);
 
 export interface ProjectEvents {
   /** Shows the other users which object is open; null for none. */
@@ -60,6 +57,10 @@ export function openEvents(projectId: string, objectChanged: () => void): Projec
 function receive(projectId: string, message: EventMessage): void {
   if (message.op === 'presence') {
     usePresence.setState({ users: message.users });
+    return;
+  }
+  if (message.op === 'presence_changed') {
+    usePresence.setState(({ users }) => ({ users: withChange(users, message) }));
     return;
   }
   const { id, revision } = message.object;

@@ -7,11 +7,11 @@ sockets of the project. A socket that cannot follow is closed: its page reconnec
 from __future__ import annotations
 
 import asyncio
-from collections import defaultdict
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
+from itertools import count
 
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket
@@ -19,7 +19,8 @@ from starlette.websockets import WebSocket
 from tappet.project.store import Store
 from tappet.project.store.records import ChangeEvent
 from tappet.server import sockets
-from tappet.server.events.shapes import ObjectChanged, OpenObject, Presence, PresentUser
+from tappet.server.events.presence import ProjectPresence
+from tappet.server.events.shapes import ObjectChanged, OpenObject
 from tappet.server.objects.replies import object_summary
 
 LONGEST_QUEUE = 2000
@@ -33,10 +34,19 @@ NOT_UNDERSTOOD = 1003
 class _Member:
     """One socket that has a project open."""
 
-    username: str
-    object_id: str | None
-    queue: asyncio.Queue[str]
-    overrun: asyncio.Event
+    queue: asyncio.Queue[str] = field(default_factory=asyncio.Queue)
+    overrun: asyncio.Event = field(default_factory=asyncio.Event)
+
+
+class _Room:
+    """The sockets of one project."""
+
+    def __init__(self) -> None:
+        self.members: dict[int, _Member] = {}
+        self.presence = ProjectPresence(self._deliver)
+
+    def _deliver(self, numbers: Iterable[int], message: BaseModel) -> None:
+        _queue((self.members[number] for number in numbers), [message])
 
 
 class ProjectEvents:
@@ -44,12 +54,15 @@ class ProjectEvents:
 
     def __init__(self, store: Store) -> None:
         self._loop = asyncio.get_running_loop()
-        self._members: dict[str, list[_Member]] = defaultdict(list)
+        self._rooms: dict[str, _Room] = {}
+        self._numbers = count(1)
         self._stop = store.listen(self._stored)
 
     def close(self) -> None:
-        """Hear no more of the store."""
+        """Hear no more of the store, and tell nobody."""
         self._stop()
+        for room in self._rooms.values():
+            room.presence.close()
 
     async def serve(
         self,
@@ -60,32 +73,23 @@ class ProjectEvents:
     ) -> None:
         """Serve one socket until it closes. Never raises for what the browser sends or how it leaves."""
         await socket.accept()
-        member = _Member(username, None, asyncio.Queue(), asyncio.Event())
-        self._members[project_id].append(member)
-        self._publish_presence(project_id)
+        room = self._rooms.setdefault(project_id, _Room())
+        number, member = next(self._numbers), _Member()
+        room.members[number] = member
+        room.presence.enter(number, username)
         try:
             await sockets.until_one_ends(
-                partial(self._read, socket, project_id, member),
+                partial(_read, socket, room.presence, number),
                 partial(_send, socket, member),
                 partial(_close_overrun, socket, member),
                 partial(sockets.close_with_session, socket, session),
             )
         finally:
-            self._members[project_id].remove(member)
-            if not self._members[project_id]:
-                del self._members[project_id]
-            self._publish_presence(project_id)
-
-    async def _read(self, socket: WebSocket, project_id: str, member: _Member) -> None:
-        while True:
-            try:
-                message = OpenObject.model_validate_json(await socket.receive_text())
-            except (ValidationError, KeyError):
-                await socket.close(NOT_UNDERSTOOD, 'send {"op": "open", "object_id": ...}')
-                return
-            if message.object_id != member.object_id:
-                member.object_id = message.object_id
-                self._publish_presence(project_id)
+            del room.members[number]
+            room.presence.leave(number)
+            if not room.members:
+                room.presence.close()
+                del self._rooms[project_id]
 
     def _stored(self, event: ChangeEvent) -> None:
         """Called by the store in any thread."""
@@ -93,19 +97,24 @@ class ProjectEvents:
             self._loop.call_soon_threadsafe(self._publish_change, event)
 
     def _publish_change(self, event: ChangeEvent) -> None:
-        members = self._members.get(event.project_id, ())
-        if not members:
+        room = self._rooms.get(event.project_id)
+        if room is None:
             return
         messages = (
             ObjectChanged(change=change.action, object=object_summary(change.summary), author=event.author)
             for change in event.objects
         )
-        _queue(members, messages)
+        _queue(room.members.values(), messages)
 
-    def _publish_presence(self, project_id: str) -> None:
-        members = self._members.get(project_id, ())
-        users = [PresentUser(username=member.username, object_id=member.object_id) for member in members]
-        _queue(members, [Presence(users=users)])
+
+async def _read(socket: WebSocket, presence: ProjectPresence, number: int) -> None:
+    while True:
+        try:
+            message = OpenObject.model_validate_json(await socket.receive_text())
+        except (ValidationError, KeyError):
+            await socket.close(NOT_UNDERSTOOD, 'send {"op": "open", "object_id": ...}')
+            return
+        presence.look(number, message.object_id)
 
 
 def _queue(members: Iterable[_Member], messages: Iterable[BaseModel]) -> None:

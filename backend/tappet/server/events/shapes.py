@@ -11,7 +11,7 @@ from tappet.server.shapes import Reply, Request
 
 
 class OpenObject(Request):
-    """Shows the other users which object this one has open; null for none."""
+    """Shows the other users which object this one has open; null for none. The first asks who is there."""
 
     op: Literal["open"]
     object_id: Annotated[str, StringConstraints(max_length=64)] | None
@@ -27,17 +27,28 @@ class ObjectChanged(Reply):
 
 
 class PresentUser(Reply):
-    """Somebody who has the project open."""
+    """Somebody who has the project open, in one page or program."""
 
+    id: int
+    """Of the connection."""
     username: str
     object_id: str | None
 
 
 class Presence(Reply):
-    """All who have the project open."""
+    """All who have the project open, once to a page that has asked."""
 
     op: Literal["presence"] = "presence"
     users: list[PresentUser]
 
 
-EventMessage = Annotated[ObjectChanged | Presence, Field(discriminator="op")]
+class PresenceChanged(Reply):
+    """Who has come or opened something else, and who has left, since the last message of this kind."""
+
+    op: Literal["presence_changed"] = "presence_changed"
+    present: list[PresentUser]
+    left: list[int]
+    """Ids of connections."""
+
+
+EventMessage = Annotated[ObjectChanged | Presence | PresenceChanged, Field(discriminator="op")]
