@@ -86,7 +86,7 @@ def test_a_revision_is_shown_beside_the_present_text_and_taken_back(page: Page) 
     add_line(page, editor, "nothing := 4711;")
     saved(page)
     tree_item(page, "PLC_PRG").click()
-    choose_menu(page, "Project", "History")
+    choose_menu(page, "Project", "Object history")
     dialog = page.get_by_role("dialog", name="History of 'PLC_PRG'")
     expect(dialog.get_by_role("option").nth(1)).to_have_attribute("aria-selected", "true")
     expect(difference(dialog, "PLC_PRG")).to_contain_text("changed")
@@ -99,6 +99,18 @@ def test_a_revision_is_shown_beside_the_present_text_and_taken_back(page: Page) 
     expect(dialog.get_by_role("option").first).to_contain_text("go back")
     dialog.get_by_role("button", name="Close").last.click()
     expect(editor).not_to_contain_text("4711")
+
+
+def test_the_history_of_the_project_is_there_whatever_is_selected(page: Page) -> None:
+    editor = plc_prg(page)
+    add_line(page, editor, "nothing := 4711;")
+    saved(page)
+    tree_item(page, "GVL_IO").click()
+    choose_menu(page, "Project", "Project history")
+    dialog = page.get_by_role("dialog", name="Project history")
+    expect(dialog.get_by_role("option").first).to_contain_text("PLC_PRG")
+    expect(difference(dialog, "PLC_PRG")).to_contain_text("changed")
+    expect(dialog.get_by_role("button", name="Take over", exact=True)).to_be_disabled()
 
 
 def test_differences_of_another_project_are_taken_over(page: Page, server: Server) -> None:

@@ -37,7 +37,12 @@ export const keys = {
   log: (runtimeId: string) => ['runtimes', runtimeId, 'log'] as const,
 };
 
-export const projectsQuery = queryOptions({ queryKey: keys.projects, queryFn: () => api.get('/api/v1/projects') });
+/** Asked again wherever it is shown: no event tells of the projects that others make. */
+export const projectsQuery = queryOptions({
+  queryKey: keys.projects,
+  queryFn: () => api.get('/api/v1/projects'),
+  staleTime: 0,
+});
 
 export function projectQuery(projectId: string) {
   return queryOptions({

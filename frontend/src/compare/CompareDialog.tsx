@@ -148,7 +148,7 @@ function ComparedDialog({ projectId, projectName, opened, close }: ComparedDialo
           )}
           <Button onClick={close}>{t('action.close')}</Button>
           <Button variant="primary" disabledReason={refused} onClick={() => void merge()}>
-            {t('compare.take', { count })}
+            {count > 0 ? t('compare.takeSome', { count }) : t('compare.take')}
           </Button>
         </>
       }

@@ -70,7 +70,7 @@ export function ComparisonView(props: ComparisonViewProps) {
           </FilterToggles>
         </div>
         {comparison.differences.length === 0 ? (
-          <div className={styles.tree}>
+          <div className={styles.same}>
             <Empty title={t('compare.same')} />
           </div>
         ) : (

@@ -190,7 +190,7 @@ function Revisions({ projectId, object, foot }: Omit<HistoryDialogProps, 'close'
       </div>
       <Footer place={foot}>
         <Button disabledReason={refused} onClick={() => void merge()}>
-          {t('compare.take', { count })}
+          {count > 0 ? t('compare.takeSome', { count }) : t('compare.take')}
         </Button>
         <Button variant="primary" disabledReason={noWay} onClick={() => void revert()}>
           {t('history.revert')}

@@ -1,10 +1,11 @@
 /** The commands of history and comparison; their dialogs are loaded when they are first asked for. */
 import { ArchiveRestore, GitCompareArrows, History } from 'lucide-react';
+import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { useProject } from '@/project/openProject';
 import { openDialog } from '@/ui/dialogs';
 import { registerCommands, type Command } from '@/workbench/commands';
-import { project } from '@/workbench/conditions';
+import { project, when } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { saveEditors } from '@/workbench/docking/close';
 
@@ -19,10 +20,20 @@ async function openHistory(context: CommandContext, object: ObjectSummary | null
 const commands: Command[] = [
   {
     id: 'project.history',
-    title: 'command.history',
+    title: 'command.projectHistory',
     icon: History,
     menu: { menu: 'project', group: '3_project', order: 1 },
     enabled: project,
+    run: (context) => openHistory(context, null),
+  },
+  {
+    id: 'object.history',
+    title: 'command.history',
+    icon: History,
+    menu: { menu: 'project', group: '3_project', order: 1.1 },
+    enabled: when(project, ({ selection, activeEditor }) =>
+      selection.length === 1 || activeEditor ? true : 'reason.selectOne',
+    ),
     run: (context, object) => openHistory(context, (object as ObjectSummary | undefined) ?? chosen(context)),
   },
   {
@@ -54,8 +65,11 @@ const commands: Command[] = [
   },
 ];
 
-function chosen(context: CommandContext): ObjectSummary | null {
-  return context.selection.length === 1 ? context.selection[0]! : null;
+/** The object selected in the tree, or that of the editor in use. */
+function chosen({ projectId, selection, activeEditor }: CommandContext): ObjectSummary | null {
+  if (selection.length === 1) return selection[0]!;
+  const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId!)) ?? [];
+  return objects.find((object) => object.id === activeEditor?.objectId) ?? null;
 }
 
 export function registerCompare(): void {

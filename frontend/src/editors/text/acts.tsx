@@ -169,7 +169,7 @@ export async function showCrossReferences({ projectId }: TextPanel, editor: Text
 
 /** The history of the object, its text with it. */
 export async function revisions({ object }: TextPanel): Promise<void> {
-  await runCommand('project.history', object);
+  await runCommand('object.history', object);
 }
 
 /** The variable at the cursor, or those of the selection, go to the watch list shown last. */

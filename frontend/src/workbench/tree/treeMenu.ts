@@ -47,7 +47,7 @@ export function treeEntries({ view, forest, rules, paste }: TreeMenuOptions): Me
     ...entriesOf(edit, commands, context),
     pasteEntry,
     ...entriesOf(
-      ['edit.delete', 'edit.rename', null, 'project.exclude', 'project.history', 'project.properties'],
+      ['edit.delete', 'edit.rename', null, 'project.exclude', 'object.history', 'project.properties'],
       commands,
       context,
     ),
