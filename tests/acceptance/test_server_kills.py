@@ -23,7 +23,7 @@ import httpx
 import pytest
 from live_server import RUNTIME, Script, Station, process, station, until
 
-FEW, MANY = 3, int(os.environ.get("TAPPET_KILLS", "500"))
+FEW, MANY = 2, int(os.environ.get("TAPPET_KILLS", "500"))
 PASSWORD = "an old horse eats hay"
 DECLARATION = """PROGRAM PLC_PRG
 VAR RETAIN count, twin : LINT; END_VAR

@@ -11,7 +11,7 @@ from live_team import ROLES, Team, team
 from rest_attack import NOBODY, attack
 
 ALL = (NOBODY, *ROLES)
-SERVED = {NOBODY: 2, "viewer": 35, "operator": 40, "engineer": 50, "admin": 55}
+SERVED = {NOBODY: 2, "viewer": 40, "operator": 45, "engineer": 65, "admin": 70}
 """So many operations must have been served at least once: an attack that is always refused shows nothing."""
 
 
@@ -23,7 +23,7 @@ def attacked(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Team]:
 
 @pytest.mark.parametrize("role", [NOBODY, "engineer"])
 def test_no_request_by_the_document_is_a_find(attacked: Team, role: str) -> None:
-    result = attack(attacked, role, seed=1, examples=2, phases=("fuzzing",))
+    result = attack(attacked, role, seed=1, examples=1, phases=("fuzzing",))
     assert not result.finds, result.report()
     assert len(result.served) >= SERVED[role]
     attacked.check_running()

@@ -8,8 +8,9 @@ import pytest
 from door_targets import DOORS
 from targets import TARGETS
 
-RUNS = {"compiler": 60, "checker": 120, "il": 120, "editor": 30, "messages": 30, "archive": 100}
-RUNS |= dict.fromkeys(DOORS, 30)
+FEW = 60
+MANY = {"compiler": 1200, "checker": 2400, "il": 2400, "editor": 600, "messages": 600, "archive": 2000}
+MANY |= dict.fromkeys(DOORS, 600)
 
 
 def fuzz(name: str, start: int, count: int) -> None:
@@ -27,10 +28,10 @@ def fuzz(name: str, start: int, count: int) -> None:
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_nothing_escapes(name: str) -> None:
-    fuzz(name, 0, RUNS.get(name, 200))
+    fuzz(name, 0, min(FEW, MANY.get(name, 4000) // 20))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TARGETS)
 def test_nothing_escapes_for_long(name: str) -> None:
-    fuzz(name, 100_000, 20 * RUNS.get(name, 200))
+    fuzz(name, 100_000, MANY.get(name, 4000))

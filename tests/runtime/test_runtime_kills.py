@@ -31,7 +31,7 @@ from tappet.runtime.operations.life_cycle import GetInfo, Start
 from tappet.runtime.operations.reports import GetException
 from tappet.runtime.operations.values import Read
 
-FEW, MANY = 6, int(os.environ.get("TAPPET_KILLS", "500"))
+FEW, MANY = 4, int(os.environ.get("TAPPET_KILLS", "500"))
 SLOTS = 400
 TEXT = f"""PROGRAM PLC_PRG
 VAR RETAIN count : LINT; words : ARRAY[1..{SLOTS}] OF LINT; END_VAR

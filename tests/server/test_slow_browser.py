@@ -19,7 +19,7 @@ from tappet.server.auth.roles import Role
 from tappet.server.settings import ServerSettings
 
 EXPRESSIONS = ["PLC_PRG.sName"] * 4900
-FRAMES = 1500
+FRAMES = 600
 
 
 def _token(db: Connection) -> str:
