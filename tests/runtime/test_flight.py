@@ -249,6 +249,7 @@ def test_stopped_cycles_are_not_recorded() -> None:
         assert runtime.flight_history() == before
         runtime.start()
         runtime.run(cycles=20)
+        runtime.flight_freeze(True)  # what is read below must not be overwritten meanwhile
         after = runtime.flight_history()
         assert after[: len(before)] == before
         values = [runtime.flight_read(c, "PLC_PRG.n") for c, _ in after]

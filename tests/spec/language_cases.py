@@ -7,6 +7,7 @@ import json
 import math
 import os
 import re
+import resource
 import select
 import signal
 from collections.abc import Callable
@@ -23,8 +24,10 @@ from tappet.lang.source import Scope, Source
 
 DATA = Path(__file__).parent / "data" / "language_examples.json"
 CYCLE_NS = 10_000_000
-PATIENCE_S = 1.0
-"""A cycle that runs longer than this counts as endless."""
+PATIENCE_S = 2
+"""A case that computes longer than this counts as endless, however busy the machine is."""
+BLOCKED_S = 300
+"""A case that neither ends nor computes."""
 
 
 def load_cases() -> list[dict[str, Any]]:
@@ -95,6 +98,7 @@ def guarded(work: Callable[[], Outcome]) -> Outcome:
     child = os.fork()
     if child == 0:
         os.close(reader)
+        resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE_S, 2 * PATIENCE_S))
         try:
             outcome = work()
             text = json.dumps(vars(outcome), default=str)
@@ -103,16 +107,14 @@ def guarded(work: Callable[[], Outcome]) -> Outcome:
         os.write(writer, text.encode())
         os._exit(0)
     os.close(writer)
-    ready, _, _ = select.select([reader], [], [], PATIENCE_S)
-    data = b""
-    if ready:
-        while chunk := os.read(reader, 65536):
-            data += chunk
-    else:
+    if not select.select([reader], [], [], BLOCKED_S)[0]:
         os.kill(child, signal.SIGKILL)
+    data = b""
+    while chunk := os.read(reader, 65536):
+        data += chunk
     os.close(reader)
     _, status = os.waitpid(child, 0)
-    if not ready:
+    if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
         return Outcome([], [], "watchdog", {})
     if not data:
         return Outcome([], [], f"signal {os.WTERMSIG(status)}", {})
