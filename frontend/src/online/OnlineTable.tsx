@@ -16,6 +16,7 @@ import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection
 import type { MenuEntry } from '@/ui/Menu';
 import { ContextMenu } from '@/ui/Menu';
 import type { OnlineSession } from '@/workbench/onlineSession';
+import { copyChosen } from './copyRows';
 import { NameCell } from './NameCell';
 import styles from './OnlineTable.module.css';
 import { PreparedCell, PreparedEditor } from './PreparedCell';
@@ -41,6 +42,8 @@ export interface OnlineTableProps {
   empty?: ReactNode;
   /** Called when the table gets the focus, with a way to ask for the selected expressions. */
   onFocus?: (chosen: () => readonly string[]) => void;
+  /** Whether its panel is in front: no value is asked for in one that is not. */
+  visible?: boolean;
 }
 
 /** Variables with type, value and prepared value; structured ones open. The table of watch lists and declarations. */
@@ -61,7 +64,7 @@ export function OnlineTable(props: OnlineTableProps) {
   const children = useChildren(session, typed, open);
   const rows = useMemo(() => flatten(typed, open, children), [typed, open, children]);
   const selection = useGridSelection(rows.length);
-  const chosen = [...selection.selected].flatMap((index) => rows[index] ?? []);
+  const chosen = [...selection.selected].sort((a, b) => a - b).flatMap((index) => rows[index] ?? []);
   const chosenNow = useRef(chosen);
   useEffect(() => {
     chosenNow.current = chosen;
@@ -94,6 +97,7 @@ export function OnlineTable(props: OnlineTableProps) {
     const cursor = selection.cursor;
     const row = cursor === null ? undefined : rows[cursor.row];
     if (symbolKey(event, row)) return true;
+    if (isCopyKey(event) && chosen.length > 0) return (event.preventDefault(), copyChosen(runtimeId, chosen), true);
     if (cursor === null || row === undefined) return false;
     if (columnOf(cursor) === 'expression' && isExpandable(row)) {
       if (event.key === 'ArrowRight' && row.open === false)
@@ -140,9 +144,9 @@ export function OnlineTable(props: OnlineTableProps) {
         case 'prepared':
           return <PreparedCell runtimeId={runtimeId} row={row} />;
         case 'address':
-          return <span>{row.address}</span>;
+          return row.address === undefined ? null : <span>{row.address}</span>;
         case 'comment':
-          return <span className={styles.muted}>{row.comment?.split('\n')[0]}</span>;
+          return row.comment === undefined ? null : <span className={styles.muted}>{row.comment.split('\n')[0]}</span>;
         default:
           return null;
       }
@@ -164,7 +168,7 @@ export function OnlineTable(props: OnlineTableProps) {
         className={styles.table}
         onFocus={() => props.onFocus?.(() => chosenNow.current.map((row) => row.expression))}
       >
-        <OnScreen ref={onScreen} runtimeId={runtimeId} rows={rows} />
+        <OnScreen ref={onScreen} runtimeId={props.visible === false ? null : runtimeId} rows={rows} />
         <Grid
           label={props.label}
           columns={columns}
@@ -190,6 +194,10 @@ export function OnlineTable(props: OnlineTableProps) {
       </div>
     </ContextMenu>
   );
+}
+
+function isCopyKey({ key, ctrlKey, metaKey, shiftKey, altKey }: KeyboardEvent): boolean {
+  return key.toLowerCase() === 'c' && (ctrlKey || metaKey) && !shiftKey && !altKey;
 }
 
 interface OnScreenHandle {

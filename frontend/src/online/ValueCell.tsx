@@ -9,6 +9,7 @@ import { isLeaf, valueKind } from './item';
 import styles from './OnlineTable.module.css';
 import { isExpandable, type OnlineRow } from './treeRows';
 import { useForced, useLiveItem } from './useLive';
+import { labelValue, unlabelValue } from './valueLabels';
 import type { Tone, ValuePainter, ValuePlace } from './valuePainter';
 
 interface ValueCellProps {
@@ -143,9 +144,14 @@ function inCanvas(shell: HTMLElement, painted: ValuePlace): ValuePlace {
     show: (text, tone) => {
       if (node.data !== text) {
         node.data = text;
-        shell.setAttribute('aria-label', text);
+        labelValue(shell, text);
       }
       painted.show(text, tone);
+    },
+    remove: () => {
+      node.data = '';
+      unlabelValue(shell);
+      painted.remove();
     },
   };
 }

@@ -5,6 +5,7 @@ import type { t as Text } from '@/i18n';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { runCommand } from '@/workbench/run';
 import type { MenuEntry } from '@/ui/Menu';
+import { copyChosen } from './copyRows';
 import { prepare, preparedLiteral } from './prepared';
 import { actOnSymbol } from './symbolActs';
 import type { OnlineRow } from './treeRows';
@@ -86,6 +87,14 @@ export function commonEntries(t: typeof Text, session: OnlineSession | null, row
         disabledReason: none,
         run: () => addToList(list, expressions),
       })),
+    },
+    {
+      kind: 'item',
+      key: 'copyRows',
+      text: t('watch.copyWithValues'),
+      shortcut: 'Ctrl+C',
+      disabledReason: none ?? offline,
+      run: () => copyChosen(runtimeId, rows),
     },
     {
       kind: 'item',

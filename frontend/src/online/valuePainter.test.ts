@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { ValuePainter } from './valuePainter';
 
 /** What has been painted: texts by row, in the order of painting. */
@@ -55,7 +55,7 @@ const painted = async () => {
 const texts = (done: readonly Stroke[]) => done.filter(({ kind }) => kind === 'text').map((s) => [s.row, s.text]);
 
 function cover(painter: ValuePainter, first = 0, count = 10, width = 150): void {
-  painter.cover(canvas, { first, count, rowHeight: ROW, width });
+  painter.cover(canvas, { first, count, rowHeight: ROW, left: 0, width });
 }
 
 describe('values painted into a canvas', () => {
@@ -113,6 +113,48 @@ describe('values painted into a canvas', () => {
     expect(texts(await painted())).toEqual([[1, 'next']]);
     next.remove();
     expect(await painted()).toEqual([{ kind: 'clear', row: 1 }]);
+  });
+
+  it('are painted each into the canvas that covers its row, and no other canvas is painted', async () => {
+    const painter = new ValuePainter();
+    const lower = document.body.appendChild(document.createElement('canvas'));
+    const paintedBelow: unknown[] = [];
+    const below = { ...canvas.getContext('2d'), fillText: (text: string) => paintedBelow.push(text) };
+    lower.getContext = (() => below) as never;
+    cover(painter, 0, 4);
+    const rows = { first: 4, count: 4, rowHeight: ROW, left: 0, width: 150 };
+    painter.cover(lower, rows);
+    strokes = [];
+    const [above, under] = [painter.row(1, 0), painter.row(5, 0)];
+    under.show('5', 'plain');
+    expect(await painted()).toEqual([{ kind: 'clear', row: 1 }]);
+    above.show('1', 'plain');
+    expect(texts(await painted())).toEqual([[1, '1']]);
+    expect(paintedBelow).toEqual(['5']);
+    // Rows that scroll into view have a canvas of their own; those of the others are painted already.
+    painter.uncover(canvas);
+    above.show('2', 'plain');
+    expect(texts(await painted())).toEqual([]);
+    expect(paintedBelow).toEqual(['5']);
+  });
+
+  it('stand on canvases of whole device pixels at every zoom, without gaps', () => {
+    for (const ratio of [0.8, 0.9, 1, 1.1, 1.25, 1.5, 1.75, 2]) {
+      vi.stubGlobal('devicePixelRatio', ratio);
+      const painter = new ValuePainter();
+      let end = 0;
+      for (const first of [0, 16, 32, 48]) {
+        painter.cover(canvas, { first, count: 16, rowHeight: ROW, left: 333, width: 151 });
+        const { left, top, width, height } = canvas.style;
+        const device = [left, top, width, height].map((px) => Number.parseFloat(px) * ratio);
+        device.forEach((pixels) => expect(pixels).toBeCloseTo(Math.round(pixels), 4));
+        expect([canvas.width, canvas.height]).toEqual(device.slice(2).map(Math.round));
+        expect(device[1]).toBeCloseTo(end, 4);
+        expect(Math.abs(device[1]! - first * ROW * ratio)).toBeLessThan(0.501);
+        end = device[1]! + device[3]!;
+      }
+      vi.unstubAllGlobals();
+    }
   });
 
   it('are shortened to their column', async () => {

@@ -1,5 +1,5 @@
 /**
- * Paints the values of a table's rows into one canvas.
+ * Paints the values of a table's rows into canvases, each of which covers some rows.
  *
  * A text that changes in the page costs style, layout and paint of its box; 1,000 at 10 Hz take a whole processor that
  * way. Painting the same texts leaves the main thread four fifths of its time, measured in `docs/benchmarks.md`.
@@ -20,11 +20,13 @@ export interface ValuePlace extends FreshMark {
   remove: () => void;
 }
 
-/** The rows that a canvas covers, in CSS pixels. */
+/** The rows that a canvas covers; sizes in CSS pixels. */
 export interface CanvasRows {
   readonly first: number;
   readonly count: number;
   readonly rowHeight: number;
+  /** From the left edge of the table. */
+  readonly left: number;
   readonly width: number;
 }
 
@@ -49,21 +51,26 @@ interface Painted {
   readonly inset: number;
 }
 
+/** A canvas and what it covers. */
+interface Surface {
+  readonly context: CanvasRenderingContext2D;
+  /** The font last set: setting one costs more than a text in it. */
+  font: string;
+  readonly rows: CanvasRows;
+  /** Device pixels of a CSS pixel. */
+  readonly scale: number;
+}
+
 const PADDING_PX = 8;
 /** The line below each row. */
 const LINE_PX = 1;
 const PILL = { around: 4, height: 18, radius: 3 };
-/** Most device pixels a side that all browsers paint. */
-const MOST_PX = 32_000;
 
 export class ValuePainter {
   private readonly rows = new Map<number, Painted>();
   /** Rows to be painted at the end of this turn: all that change in a frame at once, each once. */
   private readonly outdated = new Set<number>();
-  private canvas: HTMLCanvasElement | null = null;
-  private context: CanvasRenderingContext2D | null = null;
-  private covered: CanvasRows = { first: 0, count: 0, rowHeight: 0, width: 0 };
-  private scale = 1;
+  private readonly surfaces = new Map<HTMLCanvasElement, Surface>();
   private looks: Looks | null = null;
 
   /** A place for the value of a row; the marks of the cell take `inset` pixels in front of it. */
@@ -91,31 +98,45 @@ export class ValuePainter {
 
   /** Paints into `canvas`, which covers these rows from now on. */
   cover(canvas: HTMLCanvasElement, rows: CanvasRows): void {
-    if (this.canvas !== canvas) this.looks = null;
-    this.canvas = canvas;
-    this.context = canvas.getContext('2d');
-    this.covered = rows;
-    const height = rows.count * rows.rowHeight;
-    const ratio = canvas.ownerDocument.defaultView?.devicePixelRatio ?? 1;
-    this.scale = Math.min(ratio, MOST_PX / Math.max(1, height, rows.width));
+    const context = canvas.getContext('2d');
+    if (context === null) return;
+    const scale = canvas.ownerDocument.defaultView?.devicePixelRatio ?? 1;
+    const top = rows.first * rows.rowHeight;
+    // Only one that begins and ends between device pixels is shown as it was painted: another is stretched and blurred.
+    const whole = (px: number) => Math.round(px * scale);
+    const size = { width: whole(rows.width), height: whole(top + rows.count * rows.rowHeight) - whole(top) };
+    const px = (devicePixels: number) => `${String(devicePixels / scale)}px`;
+    Object.assign(canvas.style, {
+      left: px(whole(rows.left)),
+      top: px(whole(top)),
+      width: px(size.width),
+      height: px(size.height),
+    });
     // A canvas of a new size is empty; one that keeps its size is not made anew.
-    const size = { width: Math.ceil(rows.width * this.scale), height: Math.ceil(height * this.scale) };
     if (canvas.width !== size.width) canvas.width = size.width;
     if (canvas.height !== size.height) canvas.height = size.height;
-    this.paintAll();
+    // Its state goes with its old size.
+    const surface = { context, font: '', rows, scale };
+    this.surfaces.set(canvas, surface);
+    this.paintAll(surface);
+  }
+
+  /** Paints into `canvas` no more, which gives its memory back. */
+  uncover(canvas: HTMLCanvasElement): void {
+    this.surfaces.delete(canvas);
+    canvas.width = canvas.height = 0;
   }
 
   /** Colours or fonts have changed. */
   restyle(): void {
     this.looks = null;
-    this.paintAll();
+    for (const surface of this.surfaces.values()) this.paintAll(surface);
   }
 
-  private paintAll(): void {
-    const { context, covered, scale } = this;
-    context?.setTransform(scale, 0, 0, scale, 0, 0);
-    context?.clearRect(0, 0, covered.width, covered.count * covered.rowHeight);
-    for (const row of this.rows.keys()) this.invalidate(row);
+  private paintAll({ context, rows, scale }: Surface): void {
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, rows.width, rows.count * rows.rowHeight);
+    for (let row = rows.first; row < rows.first + rows.count; row += 1) if (this.rows.has(row)) this.invalidate(row);
   }
 
   private invalidate(row: number): void {
@@ -124,12 +145,19 @@ export class ValuePainter {
   }
 
   private paint(): void {
-    const { context, covered, scale } = this;
-    const rows = [...this.outdated].filter((row) => row >= covered.first && row < covered.first + covered.count);
+    const outdated = [...this.outdated];
     this.outdated.clear();
-    if (rows.length === 0 || context === null || covered.width <= 0) return;
     const looks = (this.looks ??= this.readLooks());
     if (looks === null) return;
+    for (const surface of this.surfaces.values()) {
+      const { first, count, width } = surface.rows;
+      const rows = outdated.filter((row) => row >= first && row < first + count);
+      if (rows.length > 0 && width > 0) this.paintRows(surface, rows, looks);
+    }
+  }
+
+  private paintRows(surface: Surface, rows: readonly number[], looks: Looks): void {
+    const { context, rows: covered, scale } = surface;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.textBaseline = 'alphabetic';
     for (const row of rows)
@@ -144,28 +172,32 @@ export class ValuePainter {
       if (shown.length === 0) continue;
       const room = ({ inset }: Painted) => Math.floor((covered.width - inset - 2 * PADDING_PX) / looks.digit);
       const texts = shown.map((each) => shortened(each.text, Math.max(1, room(each))));
-      context.beginPath();
-      shown.forEach(({ fresh, inset, middle }, at) => {
-        if (!fresh || tone === 'lost') return;
-        const width = texts[at]!.length * looks.digit + 2 * PILL.around;
-        const left = PADDING_PX + inset - PILL.around;
-        context.roundRect(left, middle - PILL.height / 2, width, PILL.height, PILL.radius);
-      });
-      context.fillStyle = looks.tones.fresh.color;
-      context.fill();
-      context.font = looks.tones[tone].font;
-      context.fillStyle = looks.tones[tone].color;
+      if (tone !== 'lost' && shown.some(({ fresh }) => fresh)) {
+        context.beginPath();
+        shown.forEach(({ fresh, inset, middle }, at) => {
+          if (!fresh) return;
+          const width = texts[at]!.length * looks.digit + 2 * PILL.around;
+          const left = PADDING_PX + inset - PILL.around;
+          context.roundRect(left, middle - PILL.height / 2, width, PILL.height, PILL.radius);
+        });
+        context.fillStyle = looks.tones.fresh.color;
+        context.fill();
+      }
+      const { color, font } = looks.tones[tone];
+      if (surface.font !== font) context.font = surface.font = font;
+      context.fillStyle = color;
       shown.forEach(({ inset, middle }, at) =>
-        context.fillText(texts[at]!, PADDING_PX + inset, Math.round(middle + looks.baseline)),
+        context.fillText(texts[at]!, PADDING_PX + inset, Math.round((middle + looks.baseline) * scale) / scale),
       );
     }
   }
 
-  /** Colours and fonts as the style sheet gives them to the canvas; null while it is on no page. */
+  /** Colours and fonts as the style sheet gives them to a canvas; null while none is on a page. */
   private readLooks(): Looks | null {
-    const { canvas, context } = this;
+    const [canvas, surface] = [...this.surfaces].find(([each]) => each.isConnected) ?? [];
     const view = canvas?.ownerDocument.defaultView;
-    if (canvas?.isConnected !== true || context === null || view == null) return null;
+    if (canvas === undefined || surface === undefined || view == null) return null;
+    const { context } = surface;
     const tones = {} as Record<Tone | 'fresh', Look>;
     const style = view.getComputedStyle(canvas);
     for (const tone of LOOKS) {
@@ -174,7 +206,7 @@ export class ValuePainter {
       tones[tone] = { color: style.color, font };
     }
     delete canvas.dataset.tone;
-    context.font = tones.plain.font;
+    context.font = surface.font = tones.plain.font;
     const { width, fontBoundingBoxAscent, fontBoundingBoxDescent } = context.measureText('0');
     return { tones, digit: width || 8, baseline: (fontBoundingBoxAscent - fontBoundingBoxDescent) / 2 };
   }

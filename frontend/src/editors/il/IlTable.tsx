@@ -58,7 +58,7 @@ export function IlTable(props: IlTableProps) {
   }, [monaco, projectId]);
   const facts = useOperandFacts(monaco, document, rows);
   const messages = useRowMessages(monaco, model, rows);
-  const values = useRowValues(monitored.ready ? monitored.settings : null, text, rows, range);
+  const values = useRowValues(monitored.ready && props.visible ? monitored.settings : null, text, rows, range);
   const prepare = usePrepare(runtimeId);
   const bookmarked = useBookmarkedLines({ objectId: object.id, part: 'implementation' });
   const marked = useMemo(() => new Set(bookmarked.map((line) => rowAt(rows, line))), [bookmarked, rows]);

@@ -121,6 +121,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
           columns={columns}
           menu={(rows) => commonEntries(t, session, rows)}
           onFocus={(chosen) => setPanelChosen(panelId, chosen)}
+          visible={visible}
           empty={<Empty title={t('decl.empty')} />}
         />
       </div>

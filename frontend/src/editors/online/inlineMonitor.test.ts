@@ -99,6 +99,8 @@ let board: ValueBoard;
 let shown: Editor;
 let monitor: InlineMonitor;
 let frames: (() => void)[] = [];
+/** What the monitor asks the runtime for. */
+let watched: readonly string[] = [];
 
 /** A frame of values as the server sends it, and the pictures that follow. */
 async function receive(count: number, step: number, done: boolean): Promise<void> {
@@ -121,7 +123,9 @@ beforeEach(async () => {
   board = new ValueBoard({ now: () => performance.now(), soon: (callback) => void frames.push(callback) });
   board.open(1, ITEMS);
   shown = new Editor();
-  const channel = { board, watch: () => ({ update: () => undefined, release: () => undefined }) };
+  watched = [];
+  const update = (expressions: readonly string[]) => (watched = expressions);
+  const channel = { board, watch: () => ({ update, release: () => undefined }) };
   monitor = new InlineMonitor(MONACO, shown.target(), channel as unknown as OnlineChannel, usesOf.implementation);
   monitor.set(SETTINGS);
   await receive(10, 5, false);
@@ -165,6 +169,21 @@ describe('values behind the variables of a text', () => {
     await pictures();
     expect(shown.shown()).toEqual(['42', '42', '6', 'TRUE']);
     expect(shown.set).toBe(0);
+  });
+
+  it('are not asked for while another editor is in front', async () => {
+    expect(new Set(watched)).toEqual(new Set(['PRG.count', 'PRG.step', 'PRG.done']));
+    monitor.setVisible(false);
+    expect(watched).toEqual([]);
+    board.close(1);
+    await pictures();
+    expect(frames).toEqual([]);
+    monitor.setVisible(true);
+    expect(watched).toContain('PRG.count');
+    board.open(2, ITEMS);
+    board.receive({ subscription: 2, flags: 0, cycle: 2n, timestampNs: 0n, values: new Uint8Array([7, 0, 6, 0, 1]) });
+    await pictures();
+    expect(shown.shown().sort()).toEqual(['6', '7', '7', 'TRUE']);
   });
 
   it('get another decoration where a wrapped line has cut their element', async () => {

@@ -74,6 +74,7 @@ export class InlineMonitor {
   private lookedAt = { first: 0, last: 0 };
   /** Nothing is shown before the first settings. */
   private settings: MonitorSettings | null = null;
+  private visible = true;
 
   constructor(
     private readonly monaco: Monaco,
@@ -99,6 +100,13 @@ export class InlineMonitor {
 
   set(settings: MonitorSettings): void {
     this.settings = settings;
+    this.look();
+  }
+
+  /** Whether the editor is in front of its group: no value is asked for in one that is not. */
+  setVisible(visible: boolean): void {
+    if (this.visible === visible) return;
+    this.visible = visible;
     this.look();
   }
 
@@ -180,8 +188,9 @@ export class InlineMonitor {
       if (shown.length >= MOST_USES) break;
     }
     this.shown = shown;
-    this.group.update(wanted);
-    this.listen(wanted, settings.scope);
+    const watched = this.visible ? wanted : [];
+    this.group.update(watched);
+    this.listen(watched, settings.scope);
     this.redraw();
   }
 

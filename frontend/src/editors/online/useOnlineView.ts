@@ -78,7 +78,7 @@ type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; part: P
 
 /** Values behind the variables of a text while logged in; a click on one prepares a value. */
 export function useOnlineView(props: OnlineViewProps): void {
-  const { monaco, editor, panelId, part } = props;
+  const { monaco, editor, panelId, part, visible } = props;
   const { runtimeId, settings: monitored, ready } = useMonitored(props);
   // Which lines run is known of the body; a name is declared in the running program, or has no value.
   const settings = useMemo(
@@ -110,6 +110,7 @@ export function useOnlineView(props: OnlineViewProps): void {
 
   // After the effect above: a monitor that has just been made gets its settings here.
   useEffect(() => {
+    monitor.current?.setVisible(visible);
     if (settings !== null) monitor.current?.set(settings);
-  }, [settings, editor, runtimeId, ready, monaco]);
+  }, [settings, editor, runtimeId, ready, monaco, visible]);
 }

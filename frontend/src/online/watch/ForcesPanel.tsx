@@ -5,6 +5,7 @@ import { guard } from '@/ui/notices';
 import { useOnline } from '@/workbench/onlineSession';
 import { useActiveSession } from '@/workbench/online/session';
 import { useProject } from '@/project/openProject';
+import type { PanelProps } from '@/workbench/panels';
 import { Button } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
 import type { MenuEntry } from '@/ui/Menu';
@@ -20,7 +21,7 @@ import { useComments } from '../useComments';
 const NONE: readonly string[] = [];
 
 /** All forced variables of the active application; release keeps the value or restores the one before (WAT-08, WAT-09). */
-export default function ForcesPanel() {
+export default function ForcesPanel({ visible }: PanelProps) {
   const t = useText();
   const session = useActiveSession() ?? null;
   const projectId = useProject((state) => state.projectId);
@@ -86,6 +87,7 @@ export default function ForcesPanel() {
           columns={columns}
           onKey={onKey}
           menu={menu}
+          visible={visible}
         />
       </div>
     </div>

@@ -30,7 +30,7 @@ import {
 const NEW = 'new';
 
 /** One of the watch lists: any variables of the application, structured ones to open (WAT-02 .. WAT-12). */
-export default function WatchPanel({ options }: PanelProps) {
+export default function WatchPanel({ options, visible }: PanelProps) {
   const list = options.list as WatchList;
   const t = useText();
   const session = useActiveSession() ?? null;
@@ -120,6 +120,7 @@ export default function WatchPanel({ options }: PanelProps) {
           expressionEditor={editor}
           onKey={onKey}
           menu={menu}
+          visible={visible}
           empty={<Empty icon={Eye} title={t('watch.empty')} />}
         />
         {entries.length === 0 && (
