@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -17,7 +16,6 @@ import pytest
 from playwright.sync_api import (
     APIRequestContext,
     Browser,
-    CDPSession,
     Page,
     WebSocket,
     expect,
@@ -25,6 +23,7 @@ from playwright.sync_api import (
 )
 
 from .conftest import BROWSERS, CHROMIUM_FLAGS, Server
+from .main_thread import PAINTED, SECONDS, Load, PlainTable, compare_scrolling
 from .workbench import implementation, log_in, open_object, open_panel, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
@@ -32,36 +31,7 @@ pytestmark = [pytest.mark.e2e, pytest.mark.slow]
 PROJECT = "Thousand values"
 VARIABLES = 1000
 ROW_PX = 26
-SECONDS = 5.0
 NUMBER = re.compile(r"\d+")
-FRAMES = """
-async ([selector, px]) => {
-  const target = selector === null ? null : document.querySelector(selector);
-  let frames = 0;
-  const began = performance.now();
-  while (performance.now() - began < %d) {
-    if (target !== null) target.scrollTop += px;
-    await new Promise(requestAnimationFrame);
-    frames += 1;
-  }
-  return (frames * 1000) / (performance.now() - began);
-}
-"""
-
-WHEEL = """
-async () => {
-  const editors = [...document.querySelectorAll('.monaco-editor .editor-scrollable')];
-  const editor = editors.filter((each) => each.checkVisibility()).at(-1);
-  const began = performance.now();
-  let frames = 0;
-  while (performance.now() - began < %d) {
-    editor.dispatchEvent(new WheelEvent('wheel', { deltaY: 40, bubbles: true, cancelable: true }));
-    await new Promise(requestAnimationFrame);
-    frames += 1;
-  }
-  return (frames * 1000) / (performance.now() - began);
-}
-"""
 OPENED = """
 async ([name, shown]) => {
   const rows = [...document.querySelectorAll('[role=treeitem]')];
@@ -101,6 +71,8 @@ EDITORS = [
 ]
 
 
+SCREEN_4K = 3840 * 2160
+
 BIG_LINES = 5000
 """Lines of the body of the large text."""
 ADDED = {"SmallIl": "IL", "LargeSt": "ST", "AnotherSt": "ST"}
@@ -118,34 +90,6 @@ def browser() -> Iterator[Browser]:
         chromium = playwright.chromium.launch(executable_path=found, args=flags)
         yield chromium
         chromium.close()
-
-
-class Load:
-    """Measures the page's main thread."""
-
-    def __init__(self, page: Page) -> None:
-        self._page = page
-        self._session: CDPSession = page.context.new_cdp_session(page)
-        self._session.send("Performance.enable", {"timeDomain": "threadTicks"})
-
-    def busy(self, name: str, *, scrolled: str | None = None, px: int = 40) -> None:
-        """Prints the share of the main thread and the frames a second, while `scrolled` is scrolled."""
-        before, began = self._counters(), time.monotonic()
-        script = WHEEL if scrolled == "text" else FRAMES
-        rate = self._page.evaluate(script % int(SECONDS * 1000), [scrolled, px])
-        after = self._counters()
-        wall = time.monotonic() - began
-        parts = ("TaskDuration", "ScriptDuration", "RecalcStyleDuration", "LayoutDuration")
-        task, scripts, style, layout = (100.0 * (after[part] - before[part]) / wall for part in parts)
-        print(
-            f"\n{name}: main thread {task:.0f} %"
-            f" (script {scripts:.0f}, style {style:.0f}, layout {layout:.0f}), {rate:.0f} frames/s",
-            end="",
-        )
-
-    def _counters(self) -> dict[str, float]:
-        answer = self._session.send("Performance.getMetrics")
-        return {metric["name"]: metric["value"] for metric in answer["metrics"]}
 
 
 class Subscriptions:
@@ -238,10 +182,34 @@ def test_a_thousand_values_on_screen(page: Page, subscriptions: Subscriptions) -
     load.busy("table, 1,000 rows in a window of 1,200 px")
     assert cell.text_content() != first
     assert 0 < sum(subscriptions.asked.values()) < 200
-    load.busy("table, scrolled", scrolled="[role=treegrid]")
+    plain = PlainTable(page, VARIABLES, ROW_PX, table.evaluate("table => table.clientHeight"))
+    compare_scrolling(load, plain, "table, scrolled", "[role=treegrid]")
     page.set_viewport_size({"width": 1440, "height": int(VARIABLES * ROW_PX * 1.6)})
     expect(table.get_by_role("row")).to_have_count(VARIABLES + 1)
     load.busy("table, 1,000 values on screen")
+    painted = page.evaluate(PAINTED, SECONDS * 1000)
+    print(f"\n  each value is painted {painted / VARIABLES:.1f} times a second", end="")
+    assert painted > VARIABLES
+    plain.resize(VARIABLES * ROW_PX)
+    plain.busy("a plain table, 1,000 texts changed at 10 Hz", changing=True)
+    plain.page.close()
+
+
+def test_a_thousand_values_on_the_pixels_of_one_screen(page: Page, subscriptions: Subscriptions) -> None:
+    """The 1,000 rows again, so small that they have the pixels of a 4K screen."""
+    size = {"width": 1440, "height": int(VARIABLES * ROW_PX * 1.6)}
+    metrics = {"deviceScaleFactor": (SCREEN_4K / (size["width"] * size["height"])) ** 0.5, "mobile": False}
+    open_object(page, "GVL_Values")
+    session = page.context.new_cdp_session(page)
+    session.send("Emulation.setDeviceMetricsOverride", {**size, **metrics})
+    table = page.get_by_role("treegrid").filter(has_text="v0000").first
+    expect(table.get_by_role("row")).to_have_count(VARIABLES + 1)
+    page.wait_for_timeout(3000)
+    Load(page).busy("table, 1,000 values on the pixels of a 4K screen")
+    painted = page.evaluate(PAINTED, SECONDS * 1000)
+    print(f"\n  each value is painted {painted / VARIABLES:.1f} times a second", end="")
+    assert painted > VARIABLES
+    session.send("Emulation.clearDeviceMetricsOverride")
 
 
 def test_a_thousand_values_in_a_watch_list(page: Page, subscriptions: Subscriptions) -> None:
@@ -254,7 +222,9 @@ def test_a_thousand_values_in_a_watch_list(page: Page, subscriptions: Subscripti
     page.wait_for_timeout(3000)
     load = Load(page)
     load.busy("watch list of 1,000 rows, some on screen")
-    load.busy("watch list, scrolled", scrolled="[aria-label='Watch 1'][role=treegrid]")
+    plain = PlainTable(page, VARIABLES, ROW_PX, table.evaluate("table => table.clientHeight"))
+    compare_scrolling(load, plain, "watch list, scrolled", "[aria-label='Watch 1'][role=treegrid]")
+    plain.page.close()
     print(f"\n  expressions asked for: {sum(subscriptions.asked.values())}", end="")
 
 
