@@ -12,6 +12,7 @@ SECONDS = 5.0
 FRAMES = """
 async ([selector, px]) => {
   const target = selector === null ? null : document.querySelector(selector);
+  if (target !== null) target.scrollTop = 0;
   let frames = 0;
   const began = performance.now();
   while (performance.now() - began < %d) {
