@@ -4,7 +4,7 @@ import styles from './OnlineTable.module.css';
 import type { ValuePainter } from './valuePainter';
 
 /** Rows of a canvas. None moves or is painted again when the table scrolls: further ones come and go. */
-const ROWS = 16;
+const ROWS = 64;
 
 /** The canvases over the values of a table. */
 export function ValueLayer({ painter, place }: { painter: ValuePainter; place: LayerPlace }) {
