@@ -212,7 +212,7 @@ def test_edit_compiles_one_module_again(tmp_path: Path):
     def sources(constant: int) -> list[Source]:
         block = (
             "FUNCTION_BLOCK FB{n}\nVAR a : ARRAY [0..9] OF INT; i : INT; END_VAR\n"
-            + "FOR i := 0 TO 9 DO a[i] := a[i] * 3 + i - {c}; END_FOR\n" * 120
+            + "FOR i := 0 TO 9 DO a[i] := a[i] * 3 + i - {c}; END_FOR\n" * 40
             + "END_FUNCTION_BLOCK"
         )
         blocks = [Source(f"FB{n}", block.format(n=n, c=constant if n == 3 else 1)) for n in range(10)]

@@ -25,12 +25,8 @@ EDITS = st.lists(
 )
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
-@given(EDITS, st.lists(EDITS, min_size=8, max_size=12))
-def test_every_edit_leads_to_what_a_full_analysis_knows(
-    begin: list[tuple[str, int]], edits: list[list[tuple[str, int]]]
-) -> None:
-    """Messages, types, values, layout and what every name stands for are the same after each of the edits."""
+def compared_after_each(begin: list[tuple[str, int]], edits: list[list[tuple[str, int]]]) -> None:
+    """Messages, types, values, layout and what every name stands for are those of a full analysis."""
     chosen = dict(begin)
     units = units_of(chosen)
     analysis = analyse(list(units.values()))
@@ -43,6 +39,24 @@ def test_every_edit_leads_to_what_a_full_analysis_knows(
         assert _differences(messages(analysis), messages(full)) == []
         known = knowledge(analysis, units.values())
         assert _differences(known, knowledge(full, fresh.values())) == []
+
+
+SEVERAL = st.lists(EDITS, min_size=8, max_size=12)
+
+
+@settings(max_examples=10, deadline=None, derandomize=True)
+@given(EDITS, SEVERAL)
+def test_every_edit_leads_to_what_a_full_analysis_knows(
+    begin: list[tuple[str, int]], edits: list[list[tuple[str, int]]]
+) -> None:
+    compared_after_each(begin, edits)
+
+
+@pytest.mark.slow
+@settings(max_examples=150, deadline=None)
+@given(EDITS, SEVERAL)
+def test_so_do_many(begin: list[tuple[str, int]], edits: list[list[tuple[str, int]]]) -> None:
+    compared_after_each(begin, edits)
 
 
 @settings(max_examples=15, deadline=None, derandomize=True)
