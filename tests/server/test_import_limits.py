@@ -19,8 +19,8 @@ PUMP = b"FUNCTION_BLOCK FB_Pump\nVAR_INPUT\n  bOn : BOOL;\nEND_VAR\nEND_FUNCTION
 FAN = PUMP.replace(b"Pump", b"Fan")
 HEAD = b'<project xmlns="http://www.plcopen.org/xml/tc6_0201"><fileHeader/><types><pous>'
 TAIL = b"</pous></types></project>"
-MANY = HEAD + b"<pou/>" * 600_000 + TAIL
-"""3.6 MB that become some 300 MB of objects."""
+MANY = HEAD + b"<pou/>" * 300_000 + TAIL
+"""1.8 MB that become some 150 MB of objects."""
 
 
 @pytest.fixture
@@ -72,10 +72,10 @@ def test_a_process_fills_a_project(admin: TestClient, always: pytest.MonkeyPatch
 
 
 def test_too_much_memory_ends_the_process_only(admin: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(import_process, "MEMORY_MIB", 250)
+    monkeypatch.setattr(import_process, "MEMORY_MIB", 150)
     answer = preview(admin, "a.xml", MANY)
     assert (answer.status_code, answer.json()["type"]) == (413, "urn:tappet:problem:import-too-large")
-    assert "250 MiB" in answer.json()["detail"]
+    assert "150 MiB" in answer.json()["detail"]
     assert preview(admin, "a.st", PUMP).status_code == 200
 
 
