@@ -80,6 +80,46 @@ describe('texts', () => {
     for (const key of counted) for (const form of forms) expect(en, key).toHaveProperty([`${base(key)}_${form}`]);
   });
 
+  it('call a thing by one word in Chinese', () => {
+    // Words that mean two things in English, by the keys of the other meaning.
+    const other = new Set([
+      'addObject.access',
+      'properties.access',
+      'crossReferences.address',
+      'exchange.all',
+      'help.back',
+      'properties.changed',
+      'log.component',
+      'tasks.status.created',
+      'project.created',
+      'decl.headerKind',
+      'ruleGroup.S10',
+      'application.source.never',
+      'role.operator',
+      'il.column.operator',
+      'toolbar.reset',
+      'tab.restore',
+      'libraryDoc.returns',
+      'exchange.save',
+      'crossReferences.refresh',
+      'crossReferences.busy',
+      'ruleGroup.S13',
+      'start.begin',
+      'exchange.scope',
+      'format.lower',
+      'format.upper',
+    ]);
+    const words = new Map<string, Set<string>>();
+    const plain = (text: string) => text.replace(/…$/, '').trim().toLowerCase();
+    for (const [key, text] of Object.entries(en)) {
+      const chinese = zh[key];
+      if (chinese === undefined || other.has(key)) continue;
+      words.set(plain(text), (words.get(plain(text)) ?? new Set()).add(plain(chinese)));
+    }
+    const several = [...words].filter(([, chinese]) => chinese.size > 1).map(([text, chinese]) => [text, ...chinese]);
+    expect(several).toEqual([]);
+  });
+
   it('are not empty', () => {
     for (const [key, text] of [...Object.entries(en), ...Object.entries(zh)]) expect(text.trim(), key).not.toBe('');
   });

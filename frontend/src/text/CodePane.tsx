@@ -92,7 +92,6 @@ export function CodePane({ monaco, model, label, readOnly, onEditor }: CodePaneP
       ...EDITOR_OPTIONS,
       ...indentation(useEditorSettings.getState()),
       model,
-      ariaLabel: label,
       overflowWidgetsDomNode: overflowWidgets(),
     });
     const state = viewStates.get(uri);
@@ -106,14 +105,12 @@ export function CodePane({ monaco, model, label, readOnly, onEditor }: CodePaneP
       instance.current = null;
       made.dispose();
     };
-    // The label only names the editor when it is made.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [monaco, model]);
 
   const tabFocusMode = useEditorSettings((settings) => settings.tabMovesFocus);
   useEffect(() => {
-    instance.current?.updateOptions({ readOnly, tabFocusMode });
-  }, [readOnly, tabFocusMode, monaco, model]);
+    instance.current?.updateOptions({ readOnly, tabFocusMode, ariaLabel: label });
+  }, [readOnly, tabFocusMode, label, monaco, model]);
 
   return <div ref={host} className={styles.pane} />;
 }

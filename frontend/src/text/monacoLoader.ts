@@ -1,9 +1,9 @@
 /** Monaco is large: it is fetched when the first text editor opens, from our own server, with its texts translated. */
 import type * as api from 'monaco-editor/editor/editor.api';
-import { language } from '@/i18n';
 import { loadCodeFont } from './font';
 import { languageConfiguration } from './iecText';
 import { textForms } from './languages';
+import { followLanguage, loadEditorTexts } from './monacoTexts';
 
 export type Monaco = typeof api;
 
@@ -11,7 +11,7 @@ let loading: Promise<Monaco> | null = null;
 
 async function load(): Promise<Monaco> {
   // The editor reads its texts while its modules are evaluated, so the language pack comes first.
-  if (language() === 'zh') await import('monaco-editor/nls/lang/zh-cn');
+  await loadEditorTexts();
   // Monaco measures characters once: what it measures in another font is off when this one comes.
   const [{ monaco }] = await Promise.all([import('./monaco'), loadCodeFont()]);
   await Promise.all(
@@ -21,6 +21,7 @@ async function load(): Promise<Monaco> {
       monaco.languages.setMonarchTokensProvider(id, await tokens());
     }),
   );
+  followLanguage();
   return monaco;
 }
 

@@ -2,7 +2,7 @@
 
 const AREAS = '[role="menubar"], [role="toolbar"], [data-panel-id], footer[role="status"]';
 const FOCUSABLE =
-  '[data-autofocus], textarea.inputarea, [tabindex="0"], input:not(:disabled), select, button:not([tabindex="-1"]), [role="menuitem"]';
+  '[data-autofocus], textarea.inputarea, [tabindex="0"], input:not(:disabled), select, button:not([tabindex="-1"]), [role="menuitem"], iframe';
 
 /** What takes the keyboard focus when it moves into a part of the page. */
 export function firstFocusable(part: Element): HTMLElement | null {

@@ -14,10 +14,13 @@ import { registerViewCommands } from './commands/view';
 import { registerWindowCommands } from './commands/window';
 import { useMessageBadge } from './messages/badge';
 import MessagesPanel from './messages/MessagesPanel';
+import { translateMessages } from './messages/store';
 import { followExceptions } from './online/exception';
 import { registerPanel } from './panels';
 import { registerTests } from './tests/register';
 import TreePanel from './tree/TreePanel';
+import { onLanguageChange } from '@/i18n';
+import { guard } from '@/ui/notices';
 import { onDemand } from '@/ui/onDemand';
 
 export function registerWorkbench(): void {
@@ -107,6 +110,7 @@ export function registerWorkbench(): void {
   registerWindowCommands();
   registerHelpCommands();
   followExceptions();
+  onLanguageChange(() => void guard(translateMessages));
 }
 
 /** The entries of the View menu; after all rooms have registered their panels. */

@@ -9,6 +9,8 @@ import {
   isMended,
   pathParts,
   presentMessages,
+  publishDiagnostics,
+  translateMessages,
   useMessages,
   type BuildResult,
 } from './store';
@@ -41,6 +43,28 @@ describe('messages', () => {
       new Map([['x', [message('x', 'info', 'new')]]]),
     );
     expect(shown.map((one) => one.message)).toEqual(['m', 'new']);
+  });
+
+  it('come in another language from where they came, and those of open texts from their editors', async () => {
+    const again = () => Promise.resolve(build(message('x', 'error', '错误')).report);
+    buildFinished({ ...build(message('x', 'error', 'fault')), again });
+    publishDiagnostics('y', [message('y', 'warning', 'old')]);
+    await translateMessages();
+    const { build: now, live } = useMessages.getState();
+    expect(presentMessages(now, live).map((one) => one.message)).toEqual(['错误']);
+  });
+
+  it('of a build that has been replaced meanwhile are not translated', async () => {
+    const late = build(message('x', 'error', '晚'));
+    buildFinished({
+      ...build(message('x', 'error', 'fault')),
+      again: () => {
+        buildFinished(build(message('x', 'error', 'new')));
+        return Promise.resolve(late.report);
+      },
+    });
+    await translateMessages();
+    expect(useMessages.getState().build?.report.diagnostics.map((one) => one.message)).toEqual(['new']);
   });
 
   it('without an object stay until the next build', () => {

@@ -13,6 +13,8 @@ export interface BuildResult {
   report: BuildReport;
   /** Milliseconds since 1970. */
   at: number;
+  /** Asks the server for the same once more: its messages are in the language of the request. */
+  again?: () => Promise<BuildReport>;
 }
 
 interface MessagesState {
@@ -44,6 +46,16 @@ export function clearMessages(): void {
   const { build } = useMessages.getState();
   const cleared = build && { ...build, report: { ...build.report, diagnostics: [] } };
   useMessages.setState({ build: cleared, live: new Map(), current: null });
+}
+
+/** The user has switched the language: messages come in the new one, those of open texts from their editors. */
+export async function translateMessages(): Promise<void> {
+  const { build } = useMessages.getState();
+  useMessages.setState({ live: new Map(), current: null });
+  if (!build?.again || build.report.diagnostics.length === 0) return;
+  const { diagnostics } = await build.again();
+  if (useMessages.getState().build !== build) return;
+  useMessages.setState({ build: { ...build, report: { ...build.report, diagnostics } } });
 }
 
 /** Another project is opened: nothing of it has been built. */

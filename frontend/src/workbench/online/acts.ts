@@ -105,7 +105,7 @@ function applicationPath({ projectId, applicationId }: CommandContext) {
   return { project_id: projectId!, application_id: applicationId! };
 }
 
-function inLanguage(context: CommandContext, signal: AbortSignal) {
+function inLanguage(context: CommandContext, signal?: AbortSignal) {
   return { params: { path: applicationPath(context), query: { language: language() } }, signal };
 }
 
@@ -126,7 +126,8 @@ export async function build(context: CommandContext, how: keyof typeof BUILDS = 
     const report = await busy(t('busy.build', { name: applicationName }), (signal) =>
       api.post(BUILDS[how], inLanguage(context, signal)),
     );
-    buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
+    const again = () => api.post(BUILDS.build, inLanguage(context));
+    buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now(), again });
     if (!report.ok) showPanel('messages', false);
     if (report.ok && context.online) await refreshRelation(context);
     return report;
@@ -142,13 +143,13 @@ export async function analyse(context: CommandContext): Promise<BuildReport | nu
   if (!(await saveEditors(context.dirtyPanels))) return null;
   const applicationName = nameOf(context);
   try {
-    const report = await busy(t('busy.analysis', { name: applicationName }), (signal) =>
+    const ask = (signal?: AbortSignal) =>
       api.post(
         '/api/v1/projects/{project_id}/applications/{application_id}/static-analysis',
         inLanguage(context, signal),
-      ),
-    );
-    buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now() });
+      );
+    const report = await busy(t('busy.analysis', { name: applicationName }), ask);
+    buildFinished({ applicationId: applicationId!, applicationName, report, at: Date.now(), again: () => ask() });
     showPanel('messages', false);
     return report;
   } catch (error) {
