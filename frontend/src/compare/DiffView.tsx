@@ -38,6 +38,8 @@ export function DiffView({ monaco, left, right, titles, ignoreWhiteSpace = false
     if (host.current === null) return;
     const diff = monaco.editor.createDiffEditor(host.current, {
       ...EDITOR_OPTIONS,
+      // The sides stand in dialogs, whose buttons Tab leads to; no status bar could say another rule.
+      tabFocusMode: true,
       readOnly: !editable,
       originalEditable: false,
       renderSideBySide: true,

@@ -21,7 +21,7 @@ const useDialogs = create<{ open: readonly OpenDialog[] }>(() => ({ open: [] }))
 let serial = 0;
 
 export function openDialog<Answer = true>(render: (close: Close<Answer>) => ReactElement): Promise<Answer | undefined> {
-  const before = document.activeElement instanceof HTMLElement ? document.activeElement : null;
+  const before = placeOfFocus();
   return new Promise((resolve) => {
     const mine = ++serial;
     const close: Close<Answer> = (answer) => {
@@ -34,6 +34,14 @@ export function openDialog<Answer = true>(render: (close: Close<Answer>) => Reac
     };
     useDialogs.setState((state) => ({ open: [...state.open, { serial: mine, element: render(close) }] }));
   });
+}
+
+/** What has the focus; of an entry of a menu, which is gone when the dialog is, the button that opened the menu. */
+function placeOfFocus(): HTMLElement | null {
+  let place = document.activeElement;
+  for (let menu = place?.closest('[role="menu"]'); menu; menu = place?.closest('[role="menu"]'))
+    place = document.getElementById(menu.getAttribute('aria-labelledby') ?? '');
+  return place instanceof HTMLElement ? place : null;
 }
 
 export interface Question {

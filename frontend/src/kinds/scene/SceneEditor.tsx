@@ -9,6 +9,7 @@ import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
 import { useOnline } from '@/workbench/onlineSession';
 import { Empty, Failed, Loading } from '@/ui/Empty';
+import { passKeysOn } from './frameKeys';
 import { FrameLimit } from './frameLimit';
 import styles from './Scene.module.css';
 import { runtimeOf } from './model';
@@ -44,10 +45,12 @@ export default function SceneEditor({ projectId, objectId, visible }: EditorProp
       limit.current?.dispose();
     };
   }, []);
-  const loaded = (view: Window | null) => {
+  const loaded = (frame: HTMLIFrameElement) => {
+    const view = frame.contentWindow;
     limit.current?.dispose();
     limit.current = view === null ? null : new FrameLimit(view);
     limit.current?.pause(!visible);
+    if (view !== null) passKeysOn(view, frame);
   };
   const error = object.error ?? view.error;
   if (error) return <Failed error={error} retry={() => void view.refetch()} />;
@@ -59,7 +62,7 @@ export default function SceneEditor({ projectId, objectId, visible }: EditorProp
       className={styles.view}
       src={view.data.path}
       title={object.data?.name ?? t('scene.title')}
-      onLoad={(event) => loaded(event.currentTarget.contentWindow)}
+      onLoad={(event) => loaded(event.currentTarget)}
       data-testid="scene-view"
     />
   );

@@ -31,16 +31,16 @@ export function ProgramList({ pous, programs, readOnly, onChange }: ProgramListP
   const known = (name: string) => programs.find((program) => program.name.toUpperCase() === name.toUpperCase());
   const none = selected ? null : t('task.chooseProgram');
 
-  const pick = async (title: string) =>
-    openDialog<string>((close) => <ProgramPicker title={title} programs={programs} close={close} />);
+  const pick = async (replacing: boolean) =>
+    openDialog<string>((close) => <ProgramPicker replacing={replacing} programs={programs} close={close} />);
   const add = async () => {
-    const name = await pick(t('task.addProgram'));
+    const name = await pick(false);
     if (!name) return;
     onChange([...pous.slice(0, at + 1), { name, comment: '' }, ...pous.slice(at + 1)]);
     setChosen(at + 1);
   };
   const replace = async () => {
-    const name = await pick(t('task.replaceProgram'));
+    const name = await pick(true);
     if (name) onChange(pous.map((pou, index) => (index === at ? { ...pou, name } : pou)));
   };
   const remove = () => onChange(pous.filter((_, index) => index !== at));

@@ -10,7 +10,8 @@ import { rowAfterKey } from '@/ui/table';
 import styles from './ProgramList.module.css';
 
 interface ProgramPickerProps {
-  title: string;
+  /** The chosen one takes the place of another. */
+  replacing: boolean;
   programs: readonly ObjectSummary[];
   close: (name?: string) => void;
 }
@@ -18,8 +19,9 @@ interface ProgramPickerProps {
 const ProgramIcon = objectIcon('pou', 'program');
 
 /** Input assistant for programs. */
-export function ProgramPicker({ title, programs, close }: ProgramPickerProps) {
+export function ProgramPicker({ replacing, programs, close }: ProgramPickerProps) {
   const t = useText();
+  const title = t(replacing ? 'task.replaceProgram' : 'task.addProgram');
   const [query, setQuery] = useState('');
   const [at, setAt] = useState(0);
   const hits = search(query, programs, (program) => program.name);
