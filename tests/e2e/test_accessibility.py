@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from .axe import serious
 from .conftest import Server, new_profile, start_page
 from .workbench import (
     choose_menu,
@@ -22,21 +22,6 @@ from .workbench import (
 )
 
 pytestmark = pytest.mark.e2e
-
-AXE = Path(__file__).parents[2] / "frontend/node_modules/axe-core/axe.min.js"
-RUN = """async (part) => {
-    const options = {
-        runOnly: {type: 'tag', values: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']},
-        resultTypes: ['violations'],
-    };
-    // The 3D scene is a page of its own and not ours.
-    const here = part !== null && document.querySelector(part) !== null ? {include: [[part]]} : {};
-    const found = await axe.run({...here, exclude: [['iframe']]}, options);
-    return found.violations
-        .filter(({impact}) => impact === 'serious' || impact === 'critical')
-        .flatMap(({id, help, nodes}) => nodes.map((node) => `${id}: ${help}: ${node.html.slice(0, 160)} `
-            + `${node.any.map(({message}) => message).join('; ').slice(0, 200)}`));
-}"""
 
 
 def _objects(page: Page) -> Iterator[str]:
@@ -169,13 +154,6 @@ def _every_menu(page: Page) -> Iterator[str]:
         page.keyboard.press("Escape")
 
 
-def _serious(page: Page, part: str | None = None) -> list[str]:
-    # Evaluated from outside: the policy of the page lets no foreign script in.
-    page.evaluate(f"() => {{ if (!('axe' in window)) {{ {AXE.read_text(encoding='utf-8')} }} }}")
-    found: list[str] = page.evaluate(RUN, part)
-    return found
-
-
 @pytest.mark.parametrize("theme", ["dark", "light"])
 @pytest.mark.parametrize(
     "views",
@@ -186,10 +164,10 @@ def test_nothing_serious(
     browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]
 ) -> None:
     with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
-        found = [f"start page: {line}" for line in _serious(page)]
+        found = [f"start page: {line}" for line in serious(page)]
         open_project(page)
         for name in views(page):
-            found += [f"{name}: {line}" for line in _serious(page)]
+            found += [f"{name}: {line}" for line in serious(page)]
     assert found == [], "\n".join(found)
 
 
@@ -211,5 +189,5 @@ def test_nothing_serious_anywhere(
             # What floats lies over the rest, which has been looked at.
             floating = "[role=dialog], [role=menu]"
             part = floating if page.locator(floating).count() else "main"
-            found += [f"{name}: {line}" for line in _serious(page, part)]
+            found += [f"{name}: {line}" for line in serious(page, part)]
     assert found == [], "\n".join(found)

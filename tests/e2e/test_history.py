@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from .api import example, fetch, write
 from .conftest import Server
 from .workbench import (
     add_line,
@@ -20,29 +19,6 @@ from .workbench import (
 )
 
 pytestmark = pytest.mark.e2e
-
-
-def fetch(page: Page, server: Server, method: str, path: str, **body: Any) -> Any:
-    """An answer of the API, as a script of the same user gets it."""
-    headers = {"X-Tappet-Client": "1", "Origin": server.address}
-    answer = page.request.fetch(f"{server.address}/api/v1{path}", method=method, headers=headers, **body)
-    assert answer.ok, answer.text()
-    return answer.json() if "json" in answer.headers["content-type"] else answer.body()
-
-
-def example(page: Page, server: Server) -> str:
-    projects = fetch(page, server, "GET", "/projects")
-    return f"/projects/{next(one['id'] for one in projects if one['name'] == 'Bottling line')}"
-
-
-def write(page: Page, server: Server, project: str, name: str, old: str, new: str) -> None:
-    """A change of a text that somebody else makes."""
-    item = next(one for one in fetch(page, server, "GET", f"{project}/objects") if one["name"] == name)
-    path = f"{project}/objects/{item['id']}"
-    data = fetch(page, server, "GET", path)["data"]
-    field = next(field for field in ("implementation", "declaration") if old in data.get(field, ""))
-    data[field] = data[field].replace(old, new, 1)
-    fetch(page, server, "PUT", path, data={"base_revision": item["revision"], "data": data})
 
 
 def saved(page: Page) -> None:

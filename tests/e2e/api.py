@@ -1,0 +1,34 @@
+"""What a script of the same user does over the API while the browser shows the workbench."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from playwright.sync_api import Page
+
+from .conftest import Server
+
+
+def fetch(page: Page, server: Server, method: str, path: str, **body: Any) -> Any:
+    """An answer of the API, as a script of the same user gets it."""
+    headers = {"X-Tappet-Client": "1", "Origin": server.address}
+    answer = page.request.fetch(f"{server.address}/api/v1{path}", method=method, headers=headers, **body)
+    assert answer.ok, answer.text()
+    if answer.status == 204:
+        return None
+    return answer.json() if "json" in answer.headers["content-type"] else answer.body()
+
+
+def example(page: Page, server: Server) -> str:
+    projects = fetch(page, server, "GET", "/projects")
+    return f"/projects/{next(one['id'] for one in projects if one['name'] == 'Bottling line')}"
+
+
+def write(page: Page, server: Server, project: str, name: str, old: str, new: str) -> None:
+    """A change of a text that somebody else makes."""
+    item = next(one for one in fetch(page, server, "GET", f"{project}/objects") if one["name"] == name)
+    path = f"{project}/objects/{item['id']}"
+    data = fetch(page, server, "GET", path)["data"]
+    field = next(field for field in ("implementation", "declaration") if old in data.get(field, ""))
+    data[field] = data[field].replace(old, new, 1)
+    fetch(page, server, "PUT", path, data={"base_revision": item["revision"], "data": data})
