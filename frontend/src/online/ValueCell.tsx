@@ -137,19 +137,14 @@ function inCell(shell: HTMLElement): ValuePlace {
 
 /** Paints a value; its cell holds the text for assistive technology, which sees the canvas as a picture, and is not laid out. */
 function inCanvas(shell: HTMLElement, painted: ValuePlace): ValuePlace {
-  const node = textIn(shell);
   shell.setAttribute('role', 'img');
   return {
     ...painted,
     show: (text, tone) => {
-      if (node.data !== text) {
-        node.data = text;
-        labelValue(shell, text);
-      }
+      labelValue(shell, text);
       painted.show(text, tone);
     },
     remove: () => {
-      node.data = '';
       unlabelValue(shell);
       painted.remove();
     },

@@ -34,6 +34,7 @@ describe('names of painted values', () => {
     expect(vi.getTimerCount()).toBe(1);
     vi.advanceTimersByTime(LABEL_MS);
     expect([nameOf(shown), nameOf(other)]).toEqual(['29', '-29']);
+    expect(shown.textContent).toBe('29');
     vi.advanceTimersByTime(2 * LABEL_MS);
     expect(vi.getTimerCount()).toBe(0);
   });
@@ -44,7 +45,7 @@ describe('names of painted values', () => {
     labelValue(shown, '2');
     unlabelValue(shown);
     vi.advanceTimersByTime(2 * LABEL_MS);
-    expect(nameOf(shown)).toBeNull();
+    expect([nameOf(shown), shown.textContent]).toEqual([null, '']);
     labelValue(shown, '3');
     expect(nameOf(shown)).toBe('3');
   });

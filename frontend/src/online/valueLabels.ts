@@ -1,7 +1,6 @@
 /**
- * Names of elements whose value is painted, for who reads the page by other means; each changes once a second at most.
- *
- * More cost as much as the painting, and a screen reader that follows a cell would never finish a number.
+ * Names and texts of elements whose value is painted, for who reads the page by other means; each changes once a second
+ * at most: more would cost as much as the painting, and a screen reader that follows a cell would never finish a number.
  */
 
 /** Least time between two names of an element, in ms. */
@@ -17,6 +16,7 @@ export function labelValue(element: Element, text: string): void {
     waiting.set(element, text);
     return;
   }
+  if (element.getAttribute('aria-label') === text) return;
   name(element, text);
   timer ??= setTimeout(writeWaiting, LABEL_MS);
 }
@@ -26,10 +26,12 @@ export function unlabelValue(element: Element): void {
   recent.delete(element);
   waiting.delete(element);
   element.removeAttribute('aria-label');
+  element.textContent = '';
 }
 
 function name(element: Element, text: string): void {
   element.setAttribute('aria-label', text);
+  element.textContent = text;
   recent.add(element);
 }
 

@@ -173,15 +173,15 @@ export class ValuePainter {
       const room = ({ inset }: Painted) => Math.floor((covered.width - inset - 2 * PADDING_PX) / looks.digit);
       const texts = shown.map((each) => shortened(each.text, Math.max(1, room(each))));
       if (tone !== 'lost' && shown.some(({ fresh }) => fresh)) {
-        context.beginPath();
+        context.fillStyle = looks.tones.fresh.color;
         shown.forEach(({ fresh, inset, middle }, at) => {
           if (!fresh) return;
           const width = texts[at]!.length * looks.digit + 2 * PILL.around;
           const left = PADDING_PX + inset - PILL.around;
+          context.beginPath();
           context.roundRect(left, middle - PILL.height / 2, width, PILL.height, PILL.radius);
+          context.fill();
         });
-        context.fillStyle = looks.tones.fresh.color;
-        context.fill();
       }
       const { color, font } = looks.tones[tone];
       if (surface.font !== font) context.font = surface.font = font;
