@@ -72,6 +72,7 @@ def _help(page: Page) -> Iterator[str]:
 def _dialogs(page: Page) -> Iterator[str]:
     for menu, entry in (
         ("Project", "Add object"),
+        ("Project", "Project settings"),
         ("Project", "Project information"),
         ("File", "Print"),
         ("Help", "About"),

@@ -8,8 +8,8 @@
  */
 import type { ComponentType } from 'react';
 import type { Check } from '@/api/objects';
-import type { ObjectOf, ObjectSummary, Schemas } from '@/api/types';
-import { textOf } from '@/i18n';
+import type { ObjectOf, ObjectSummary, ProjectObject, Schemas } from '@/api/types';
+import { textOf, type TextKey } from '@/i18n';
 import type { ACCESS_SPECIFIERS } from '@/iec/grammar';
 import type { IconComponent } from '@/icons/IconComponent';
 import { NeutralIcon } from '@/icons/shape';
@@ -60,6 +60,22 @@ export interface Subkind {
 
 export type ContentGroup = 'programs' | 'blocks' | 'functions' | 'types' | 'lists' | 'tasks';
 
+export interface SettingsProps {
+  /** With the changes made in the dialog. */
+  object: ProjectObject;
+  /** Why nothing can be changed, or null. */
+  readOnly: string | null;
+  change: (data: ProjectObject['data']) => void;
+}
+
+/** A page of the project settings. */
+export interface SettingsPage {
+  title: TextKey;
+  component: ComponentType<SettingsProps>;
+  /** Whether the server would take the data; true where the page lets nothing else be chosen. */
+  canStore?: (object: ProjectObject) => boolean;
+}
+
 export interface ObjectKindDescriptor {
   kind: string;
   icon: IconComponent;
@@ -70,6 +86,8 @@ export interface ObjectKindDescriptor {
   editor?: ComponentType<EditorProps>;
   /** Shown in the properties of an object, below what all objects have. */
   properties?: ComponentType<{ projectId: string; objectId: string }>;
+  /** Pages of the project settings, for each object of the kind. */
+  settings?: readonly SettingsPage[];
   role?: Role;
   /** Texts of the object, top to bottom; absent where it is no text. */
   parts?: readonly Part[];

@@ -117,6 +117,8 @@ const SHOWN: Record<string, string> = {
   arrowleft: '←',
   arrowright: '→',
   enter: 'Enter',
+  pageup: 'PageUp',
+  pagedown: 'PageDown',
 };
 
 /** As menus show it; on a Mac with its symbols. */

@@ -7,7 +7,7 @@ import type { DeclarationModel } from '@/iec/declaration/model';
 import { cellText, columnsFor, DRAFT_KEY, scopeText, type ColumnId, type Draft } from './tableModel';
 
 const LOOK: Readonly<Record<ColumnId, Omit<GridColumn, 'id' | 'title'>>> = {
-  number: { width: 40, align: 'right', sortable: true },
+  number: { width: 48, align: 'right', sortable: true },
   scope: { width: 104, sortable: true },
   name: { width: 150, grow: true, code: true, sortable: true },
   address: { width: 76, code: true, sortable: true },

@@ -1,5 +1,6 @@
 /** The settings of the memory that __NEW takes from: what may be entered. Pure functions. */
-import type { Schemas } from '@/api/types';
+import { ofKind } from '@/api/objects';
+import type { ProjectObject, Schemas } from '@/api/types';
 import type { TextKey } from '@/i18n';
 
 type ApplicationData = Schemas['ApplicationData'];
@@ -18,4 +19,9 @@ export function limitFault(limit: number): TextKey | null {
 /** Whether the server takes the data. */
 export function canStore(application: ApplicationData): boolean {
   return limitFault((application.heap ?? USUAL_HEAP).limit_kib) === null;
+}
+
+/** The same of an object as the project settings have it. */
+export function hasUsableHeap(object: ProjectObject): boolean {
+  return !ofKind('application')(object) || canStore(object.data);
 }

@@ -1,5 +1,7 @@
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
+import { hasUsableHeap } from './heap';
+import { hasUsablePrefixes } from './rules';
 import type en from './en.json';
 import { onDemand } from '@/ui/onDemand';
 
@@ -19,6 +21,14 @@ const descriptor: ObjectKindDescriptor = {
     </>,
   ),
   editor: onDemand(() => import('./ApplicationEditor')),
+  settings: [
+    {
+      title: 'application.memoryAndSource',
+      component: onDemand(() => import('./SettingsPage')),
+      canStore: hasUsableHeap,
+    },
+    { title: 'analysis.rules', component: onDemand(() => import('./RulesPage')), canStore: hasUsablePrefixes },
+  ],
   role: 'application',
   tree: { openAtFirst: true },
   add: { bringsChildren: true },

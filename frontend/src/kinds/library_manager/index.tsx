@@ -19,6 +19,7 @@ const descriptor: ObjectKindDescriptor = {
     </>,
   ),
   editor: onDemand(() => import('./LibraryManagerEditor')),
+  settings: [{ title: 'libraryParameters.title', component: onDemand(() => import('./ParametersPage')) }],
   role: 'libraries',
   tree: { fixedName: true },
 };

@@ -1,5 +1,5 @@
 import { hasRole, kindOf, opensEditor } from '@/project/kinds';
-import { Ban, CircleCheckBig, FilePlus2, FolderOpen, Info, ListTree, SlidersHorizontal } from 'lucide-react';
+import { Ban, CircleCheckBig, FilePlus2, FolderOpen, Info, ListTree, Settings2, SlidersHorizontal } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary, PlacementRule, ProjectObject } from '@/api/types';
 import { AddObjectDialog } from '../addObject/AddObjectDialog';
@@ -11,6 +11,7 @@ import { openObject, showPanel } from '../docking/dock';
 import { setActiveApplication } from '@/project/openProject';
 import { excludeObjects } from '../properties/exclude';
 import { mayEdit } from '../rights';
+import { reasonText } from '../run';
 import { forestOf, lineage, type TreeView } from '@/project/tree';
 import { placeableKinds } from '@/project/placement';
 import { revealInTree } from '../tree/state';
@@ -129,6 +130,24 @@ const commands: Command[] = [
       const { PropertiesDialog } = await import('../properties/PropertiesDialog');
       await openDialog((close) => (
         <PropertiesDialog projectId={context.projectId!} object={context.selection[0]!} close={() => close()} />
+      ));
+    },
+  },
+  {
+    id: 'project.settings',
+    title: 'command.projectSettings',
+    icon: Settings2,
+    menu: { menu: 'project', group: '3_project', order: 1 },
+    enabled: project,
+    run: async (context) => {
+      const { ProjectSettingsDialog } = await import('../projectSettings/ProjectSettingsDialog');
+      const allowed = mayEdit(context);
+      await openDialog((close) => (
+        <ProjectSettingsDialog
+          projectId={context.projectId!}
+          readOnly={allowed === true ? null : reasonText(allowed)}
+          close={() => close()}
+        />
       ));
     },
   },

@@ -13,7 +13,7 @@ import { Dialog } from '@/ui/Dialog';
 import { FormDialog } from '@/ui/FormDialog';
 import { Failed, Loading } from '@/ui/Empty';
 import { Facts } from '@/ui/Facts';
-import { Field, TextArea, TextInput } from '@/ui/Field';
+import { ProjectFields } from './ProjectFields';
 
 /** Name, description and size of the project. */
 export function ProjectInfoDialog({ projectId, close }: { projectId: string; close: () => void }) {
@@ -59,14 +59,13 @@ function InfoForm({ project, close }: { project: ProjectSummary; close: () => vo
       action={t('action.save')}
       disabledReason={fault ?? (mayChange ? null : t('reason.engineer'))}
     >
-      <Field label={t('project.name')} error={fault}>
-        {(attributes) => <TextInput {...attributes} value={name} onValue={setName} readOnly={!mayChange} />}
-      </Field>
-      <Field label={t('project.description')}>
-        {(attributes) => (
-          <TextArea {...attributes} value={description} readOnly={!mayChange} onValue={setDescription} />
-        )}
-      </Field>
+      <ProjectFields
+        name={name}
+        description={description}
+        readOnly={!mayChange}
+        onName={setName}
+        onDescription={setDescription}
+      />
       <Facts>
         <dt>{t('project.created')}</dt>
         <dd>{secondText(project.created)}</dd>

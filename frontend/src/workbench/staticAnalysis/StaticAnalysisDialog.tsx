@@ -1,21 +1,17 @@
-import { useQuery } from '@tanstack/react-query';
-import { ChevronRight, Search } from 'lucide-react';
-import { useRef, useState } from 'react';
-import { api } from '@/api/client';
+import { useState } from 'react';
 import { shaped } from '@/api/objects';
 import { objectQuery, queryClient, saveObject, useObject } from '@/api/queries';
 import type { CodingRule, ObjectOf, ObjectSummary, Schemas, StaticAnalysisData } from '@/api/types';
-import { useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
 import { ofRole } from '@/project/kinds';
 import { guard } from '@/ui/notices';
-import { useToggleSet } from '@/ui/toggleSet';
-import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { FormDialog } from '@/ui/FormDialog';
-import { Empty, Failed, Loading } from '@/ui/Empty';
+import { Failed, Loading } from '@/ui/Empty';
 import { Checkbox, Field, Select } from '@/ui/Field';
-import { groupKey, groupsOf, isPrefix, NO_RULES, onIn, titleKey, withLevel, type Level } from './model';
-import { RuleRow } from './RuleRow';
+import { NO_RULES, onIn, prefixesFit } from './model';
+import { RulesEditor } from './RulesEditor';
+import { useRules } from './useRules';
 import styles from './StaticAnalysis.module.css';
 
 interface StaticAnalysisDialogProps {
@@ -32,14 +28,9 @@ interface StaticAnalysisDialogProps {
 export function StaticAnalysisDialog(props: StaticAnalysisDialogProps) {
   const { projectId, applications, close } = props;
   const t = useText();
-  const language = useLanguage();
   const [applicationId, setApplicationId] = useState(props.applicationId);
   const application = useObject(projectId, applicationId, ofRole('application'));
-  const rules = useQuery({
-    queryKey: ['static-analysis', 'rules', language],
-    queryFn: () => api.get('/api/v1/static-analysis/rules', { params: { query: { language } } }),
-    staleTime: Infinity,
-  });
+  const rules = useRules();
   const error = application.error ?? rules.error;
   if (error || !application.data || !rules.data) {
     return (
@@ -75,17 +66,7 @@ interface SettingsFormProps {
 function SettingsForm({ projectId, application, applications, rules, readOnly, choose, close }: SettingsFormProps) {
   const t = useText();
   const [chosen, setChosen] = useState<StaticAnalysisData>(application.data.static_analysis ?? NO_RULES);
-  const [search, setSearch] = useState('');
-  const [closed, toggle] = useToggleSet<string>();
   const [everywhere, setEverywhere] = useState(false);
-  const list = useRef<HTMLDivElement>(null);
-  const groups = groupsOf(rules, search, (code) => t(titleKey(code)));
-  const shown = groups.flatMap((group) => group.rules);
-  const faulty = Object.values(chosen.prefixes).some((prefix) => !isPrefix(prefix));
-  const setAll = (level: Level) => {
-    const codes = shown.map((rule) => rule.code);
-    setChosen(withLevel(chosen, level === 'off' ? codes : codes.filter((code) => !chosen.rules[code]), level));
-  };
   const save = async () => {
     const targets = everywhere ? applications.map((one) => one.id) : [application.id];
     const done = await guard(async () => {
@@ -102,7 +83,7 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
       onClose={() => close()}
       onSubmit={() => void save()}
       action={t('action.apply')}
-      disabledReason={readOnly ?? (faulty ? t('analysis.prefixFault') : null)}
+      disabledReason={readOnly ?? (prefixesFit(chosen) ? null : t('analysis.prefixFault'))}
       aside={
         <>
           <span className={styles.count}>{t('analysis.on', { on: onIn(chosen, rules), all: rules.length })}</span>
@@ -135,65 +116,7 @@ function SettingsForm({ projectId, application, applications, rules, readOnly, c
           {t('analysis.withBuild')}
         </Checkbox>
       </div>
-      <div className={styles.bar}>
-        <div className={styles.search}>
-          <Search size={13} aria-hidden />
-          <input
-            data-autofocus
-            value={search}
-            placeholder={t('analysis.search')}
-            aria-label={t('analysis.search')}
-            spellCheck={false}
-            onChange={(event) => {
-              setSearch(event.target.value);
-              if (list.current) list.current.scrollTop = 0;
-            }}
-            onKeyDown={(event) => event.key === 'Enter' && event.preventDefault()}
-          />
-        </div>
-        <Button disabledReason={readOnly} onClick={() => setAll('warning')}>
-          {t('analysis.allOn')}
-        </Button>
-        <Button disabledReason={readOnly} onClick={() => setAll('off')}>
-          {t('analysis.allOff')}
-        </Button>
-        <Button disabledReason={readOnly} onClick={() => setChosen(NO_RULES)}>
-          {t('analysis.defaults')}
-        </Button>
-      </div>
-      <div className={styles.list} ref={list}>
-        {groups.length === 0 && <Empty title={t('tree.nothingFound', { text: search.trim() })} />}
-        {groups.map((group) => {
-          const open = !closed.has(group.id);
-          return (
-            <section key={group.id} aria-label={t(groupKey(group.id))}>
-              <button
-                type="button"
-                className={styles.group}
-                aria-expanded={open}
-                data-open={open ? '' : undefined}
-                onClick={() => toggle(group.id)}
-              >
-                <ChevronRight size={14} strokeWidth={1.75} aria-hidden />
-                {t(groupKey(group.id))}
-                <span className={styles.muted}>
-                  {t('analysis.on', { on: onIn(chosen, group.rules), all: group.rules.length })}
-                </span>
-              </button>
-              {open &&
-                group.rules.map((rule) => (
-                  <RuleRow
-                    key={rule.code}
-                    rule={rule}
-                    chosen={chosen}
-                    readOnly={readOnly !== null}
-                    change={setChosen}
-                  />
-                ))}
-            </section>
-          );
-        })}
-      </div>
+      <RulesEditor rules={rules} chosen={chosen} readOnly={readOnly} change={setChosen} />
     </FormDialog>
   );
 }

@@ -45,6 +45,11 @@ export function isPrefix(text: string): boolean {
   return /^[A-Za-z0-9_]{0,20}$/.test(text);
 }
 
+/** Whether the server takes the prefixes of a choice. */
+export function prefixesFit(chosen: StaticAnalysisData): boolean {
+  return Object.values(chosen.prefixes).every(isPrefix);
+}
+
 /** Rules that match a search by code, number in CODESYS, title or message, in groups. */
 export function groupsOf(
   rules: readonly CodingRule[],
