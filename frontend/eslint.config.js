@@ -20,6 +20,7 @@ const ROOMS = [
   'text',
   'search',
   'bookmarks',
+  'scripts',
   'compare',
   'lsp',
   'help',

@@ -60,6 +60,7 @@ def every_kind() -> Project:
         project = edit.delete_object(project, second.id)
     add(application.id, "persistent", "Kept")
     add(application.id, "scene", "Scene")
+    add(None, "script", "Script")
     inner = add(application.id, "application", "Second")
     drop("library_manager", inner)
     drop("task_configuration", inner)

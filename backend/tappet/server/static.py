@@ -17,6 +17,10 @@ import tappet
 
 HASHED = "assets/"
 """Files below it carry a hash of their content in their names."""
+SCRIPT_WORKER = "assets/scriptWorker-"
+"""The worker in which scripts of users run (docs/scripts.md)."""
+SCRIPT_POLICY = "default-src 'none'; script-src blob:"
+"""Of that worker: the module that it is given, no other code, no connections, no workers of its own."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 FOREVER = "public, max-age=31536000, immutable"
 NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Tappet</title>
@@ -62,6 +66,8 @@ class FrontEnd(StaticFiles):
         if hashed and isinstance(response, FileResponse) and response.status_code == 200:
             response = await self._compressed(response, Headers(scope=scope))
         response.headers["Cache-Control"] = FOREVER if hashed else "no-cache"
+        if path.startswith(SCRIPT_WORKER):
+            response.headers["Content-Security-Policy"] = SCRIPT_POLICY
         return response
 
     async def _compressed(self, response: FileResponse, asked: Headers) -> Response:

@@ -128,6 +128,18 @@ export const api = {
   ) => Promise<Blob>,
 };
 
+/**
+ * A request whose path is known at run time only: the path below the server's root with its query, the body as JSON.
+ * Resolves with the data of the answer, a text where it is no JSON, undefined where it has none.
+ */
+export async function requestAny(verb: Method, path: string, body: unknown, signal: AbortSignal): Promise<unknown> {
+  const init = { body, signal, parseAs: 'text', baseUrl: location.origin };
+  const answer: unknown = await client.request(verb, path as never, init as never);
+  const { data, response } = answer as { data?: string; response: Response };
+  if (data === undefined || data === '') return undefined;
+  return /\bjson\b/.test(response.headers.get('content-type') ?? '') ? (JSON.parse(data) as unknown) : data;
+}
+
 /** Address of a WebSocket below `/api/v1`, with the page's own host and scheme. */
 export function socketUrl(path: `/${string}`, query: Record<string, string> = {}): string {
   const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';

@@ -75,12 +75,16 @@ export function registerBookmarks(): void {
     position: 'bottom',
     order: 57,
   });
+  registerBookmarkCommands();
+  followProject();
+  useBookmarks.subscribe(contextChanged);
+}
+
+export function registerBookmarkCommands(): void {
   registerCommands(
     commands.map((command, order) => ({
       ...command,
       menu: { menu: 'edit', group: '5_go_marks', order, submenu: 'bookmarks.title' },
     })),
   );
-  followProject();
-  useBookmarks.subscribe(contextChanged);
 }

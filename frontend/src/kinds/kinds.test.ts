@@ -59,7 +59,7 @@ const ALLOWED: Readonly<Record<string, string>> = {
   'workbench/libraries/model.ts interface': 'kind of an item of a library',
   'workbench/online/CallStackPanel.tsx pou': 'a column of the call stack',
   'workbench/online/exception.ts pou': 'a field of a frame of the call stack',
-  'project/kinds.ts application device folder': 'roles in the tree',
+  'project/kinds.ts application device folder script': 'roles in the tree',
 };
 const allowed = new Map(
   Object.keys(ALLOWED).map((line) => {

@@ -25,7 +25,9 @@ export type Role =
   /** Groups objects and means nothing to the program: what is in it belongs to the owner of the folder. */
   | 'folder'
   /** References the libraries that an application sees. */
-  | 'libraries';
+  | 'libraries'
+  /** Run from the Tools menu. */
+  | 'script';
 
 /** Where the variables that an object declares have their values in a running application. */
 export type ValuePlace =
@@ -146,6 +148,7 @@ interface DataOfRole {
   device: Schemas['DeviceData'];
   folder: Schemas['NoData'];
   libraries: Schemas['LibraryManagerData'];
+  script: Schemas['ScriptData'];
 }
 
 /** Whether an object has the data of a role. */

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { registerBookmarks } from '@/bookmarks/register';
+import { registerBookmarkCommands } from '@/bookmarks/register';
 import { registerEditCommands } from '../commands/edit';
 import { registerHelpCommands } from '../commands/help';
 import { registerOnlineCommands } from '../commands/online';
@@ -76,7 +76,7 @@ describe('a keymap', () => {
 });
 
 describe('presets', () => {
-  registerBookmarks();
+  registerBookmarkCommands();
   registerEditCommands();
   registerHelpCommands();
   registerOnlineCommands();

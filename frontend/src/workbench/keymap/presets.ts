@@ -24,8 +24,7 @@ export const PRESET_KEYS: Readonly<Record<Preset, KeyTable>> = {
     'st.renameSymbol': ['F2'],
     'st.inputAssistant': ['Ctrl+I'],
     'view.messages': ['Ctrl+Shift+M'],
-    // As the extension Bookmarks has them.
-    'bookmarks.toggle': ['Ctrl+Alt+K'],
+    // As the extension Bookmarks has them, whose Ctrl+Alt+K is that of the keyboard shortcuts here.
     'bookmarks.next': ['Ctrl+Alt+L'],
     'bookmarks.previous': ['Ctrl+Alt+J'],
   },
