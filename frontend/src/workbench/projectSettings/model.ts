@@ -7,7 +7,7 @@ export type Changes = Readonly<Record<string, ProjectObject['data']>>;
 
 /** The objects as the dialog shows them. */
 export function withChanges(objects: readonly ProjectObject[], changes: Changes): ProjectObject[] {
-  return objects.map((object) => ({ ...object, data: changes[object.id] ?? object.data }) as ProjectObject);
+  return objects.map((object) => ({ ...object, data: changes[object.id] ?? object.data }));
 }
 
 /** What is to be saved, on top of the revisions that were shown. */
@@ -15,6 +15,6 @@ export function changedObjects(objects: readonly ProjectObject[], changes: Chang
   return objects.flatMap((object) => {
     const data = changes[object.id];
     if (data === undefined || JSON.stringify(data) === JSON.stringify(object.data)) return [];
-    return [{ object_id: object.id, base_revision: object.revision, data: data as ObjectContent['data'] }];
+    return [{ object_id: object.id, base_revision: object.revision, data }];
   });
 }
