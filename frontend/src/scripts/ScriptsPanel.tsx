@@ -1,4 +1,4 @@
-import { CircleStop, Eraser, Play, ScrollText } from 'lucide-react';
+import { CircleStop, Eraser, FileCode, Play } from 'lucide-react';
 import { useEffect, useRef } from 'react';
 import { useText } from '@/i18n';
 import { useProject } from '@/project/openProject';
@@ -53,7 +53,7 @@ export default function ScriptsPanel() {
       </PanelBar>
       <PanelRest tabIndex={run ? 0 : undefined}>
         {run === null ? (
-          <Empty icon={ScrollText} title={t('scripts.noneRan')} text={t('scripts.start')} />
+          <Empty icon={FileCode} title={t('scripts.noneRan')} text={t('scripts.start')} />
         ) : (
           <div className={styles.output} role="log" aria-label={t('scripts.output')}>
             {run.lines.map(({ serial, tone, text, at }) => (

@@ -1,5 +1,5 @@
 /** Scripts of users: the Tools menu with a command for each of them, and the panel of what they write. */
-import { CircleStop, FilePlus2, Play, ScrollText } from 'lucide-react';
+import { CircleStop, FileCode, FilePlus2, Play } from 'lucide-react';
 import { keys, queryClient } from '@/api/queries';
 import { hasRole, kindWithRole } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
@@ -19,7 +19,7 @@ export function registerScripts(): void {
   registerPanel({
     id: 'scripts',
     title: 'scripts.title',
-    icon: ScrollText,
+    icon: FileCode,
     component: onDemand(() => import('./ScriptsPanel')),
     position: 'bottom',
     order: 75,

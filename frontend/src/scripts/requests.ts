@@ -27,7 +27,8 @@ export function addressOf(path: string, query: Query | undefined): string {
   if (outside || segments.includes('..')) throw new RefusedRequest(t('scripts.badPath', { path }));
   if (CLOSED.includes(segments[3]?.toLowerCase() ?? '')) throw new RefusedRequest(t('scripts.closedPath', { path }));
   for (const [name, value] of Object.entries(query ?? {})) {
-    for (const one of Array.isArray(value) ? (value as unknown[]) : [value]) {
+    const values = typeof value === 'object' && value !== null ? value : [value];
+    for (const one of values) {
       if (one != null) url.searchParams.append(name, String(one));
     }
   }
