@@ -24,6 +24,7 @@ table => [...table.querySelectorAll('canvas')].map((canvas) => {
   return {
     box: [own.left - body.left, own.top - body.top, own.width, own.height].map((px) => px * ratio),
     size: [canvas.width, canvas.height],
+    rendering: getComputedStyle(canvas).imageRendering,
   };
 })
 """
@@ -99,6 +100,8 @@ def test_values_are_sharp_at_every_zoom(page: Page) -> None:
         for canvas in boxes:
             assert canvas["box"] == pytest.approx([round(px) for px in canvas["box"]], abs=0.05), zoom
             assert canvas["size"] == [round(px) for px in canvas["box"][2:]], zoom
+            # The table itself may begin between device pixels: its pixels are not to be mixed there.
+            assert canvas["rendering"] == "pixelated"
     session.send("Emulation.clearDeviceMetricsOverride")
 
 
