@@ -228,8 +228,8 @@ def _schema(team: Team, *, seed: int, examples: int, phases: Sequence[str], oper
                     "include-path": _shaded(document),
                     "checks": {"allow_header_conformance": {"enabled": False}},
                 },
-                {  # names a revision, which a new project lacks
-                    "include-path-regex": "/revert$",
+                {  # name a revision, objects, a project that was deleted: what is new lacks them
+                    "include-method": ["POST", "PUT", "PATCH"],
                     "checks": {"ensure_resource_availability": {"enabled": False}},
                 },
             ],
