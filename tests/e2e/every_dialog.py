@@ -192,7 +192,7 @@ def forms(ui: Ui, server: Server) -> Iterator[str]:
         _until(page, lambda: bool(held))
         page.keyboard.press("Alt+w")
         yield "unsaved.title"
-        _change(page, server, "MainTask", {"watchdog": None})
+        _change(page, server, "MainTask", {"priority": 5})
         held.pop().continue_()
         yield "conflict.title"
 

@@ -27,9 +27,12 @@ FOLLOW_FOCUS = """() => {
         if (target.closest(inside) === null) window.focusedOutside = target;
     }, true);
 }"""
-KEEP_FOCUS = "() => { window.focusedBefore = window.focusedOutside; }"
+KEEP_FOCUS = """() => {
+    window.focusedBefore = window.focusedOutside;
+    window.focusedAtFirst = document.activeElement;
+}"""
 FOCUS_IS_BACK = """() => document.activeElement === window.focusedBefore
-    || (window.focusedBefore?.isConnected === false && document.activeElement !== document.body)"""
+    || (window.focusedBefore?.isConnected !== true && document.activeElement !== document.body)"""
 SAME_FOCUS = """() => {
     const same = window.focusedLast === document.activeElement;
     window.focusedLast = document.activeElement;
@@ -102,9 +105,11 @@ def leave(ui: Ui, dialogs: Locator) -> list[str]:
         stays += int(page.evaluate(SAME_FOCUS))
     if stays:
         wrong.append(f"Tab stays where it is, {stays} of {STOPS} times")
+    page.evaluate(
+        "() => window.focusedAtFirst.focus()"
+    )  # the tooltip of a button would take Escape for itself
+    expect(page.get_by_role("tooltip")).to_have_count(0)
     page.keyboard.press("Escape")
-    if page.get_by_role("tooltip").count():
-        page.keyboard.press("Escape")
     expect(dialogs).to_have_count(before - 1)
     page.wait_for_timeout(100)
     if before > 1 and ui.area() != "dialog":
