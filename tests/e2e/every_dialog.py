@@ -111,6 +111,7 @@ def libraries(ui: Ui, server: Server) -> Iterator[str]:
     "addObject.title",
     "properties.title",
     "command.projectInformation",
+    "command.projectSettings",
     "history.titleObject",
     "history.title",
     "command.print",
@@ -135,6 +136,7 @@ def project(ui: Ui, server: Server) -> Iterator[str]:
         ("command.addObject", "addObject.titleAt"),
         ("command.properties", "properties.title"),
         ("command.projectInformation", "command.projectInformation"),
+        ("command.projectSettings", "command.projectSettings"),
         ("command.history", "history.titleObject"),
         ("command.deletedObjects", "history.title"),
         ("command.print", "command.print"),
@@ -156,6 +158,24 @@ def project(ui: Ui, server: Server) -> Iterator[str]:
     tree_item(page, "GVL_Shared").click()
     ui.command("command.addObject")
     yield "addObject.title"
+
+
+@tour("scripts.trustTitle")
+def scripts(ui: Ui, server: Server) -> Iterator[str]:
+    """A text that somebody else may have written, before it runs."""
+    page = ui.page
+    path = f"{example(page, server)}/objects"
+    text = {"text": "tappet.log('mine')"}
+    own = fetch(
+        page, server, "POST", path, data={"parent_id": None, "kind": "script", "name": "Own", "data": text}
+    )
+    copied = fetch(page, server, "POST", f"{path}/{own['id']}/copy", data={"parent_id": None})
+    tree_item(page, "PLC_PRG").click()
+    title = ui.text("scripts.run", name=copied["name"])
+    page.keyboard.press("Control+Shift+P")
+    page.get_by_role("combobox").and_(page.get_by_label(ui.text("palette.commands"))).fill(title)
+    page.get_by_role("option").filter(has=page.get_by_text(title, exact=True)).first.click()
+    yield "scripts.trustTitle"
 
 
 @tour(
