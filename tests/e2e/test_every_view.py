@@ -43,8 +43,9 @@ STOPS = 25
 
 
 SETTLE = """() => document.getAnimations()
-    .filter((animation) => animation instanceof CSSTransition).forEach((animation) => animation.finish())"""
-"""Colours on the way from one theme to the other are none of either."""
+    .filter((animation) => animation.effect.getComputedTiming().endTime !== Infinity)
+    .forEach((animation) => animation.finish())"""
+"""Colours on the way from one theme to the other, or of a dialog that appears, are none of either."""
 
 
 def in_both_themes(page: Page, name: str, part: str) -> list[str]:
