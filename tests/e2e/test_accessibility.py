@@ -39,7 +39,13 @@ def _panels(page: Page) -> Iterator[str]:
 
 
 def _tools(page: Page) -> Iterator[str]:
-    """Panels that a command opens."""
+    """Panels that a command opens; the search lies over the tree."""
+    open_object(page, "PLC_PRG")
+    implementation(page).locator(".view-line").first.click()
+    page.keyboard.press("Control+F12")
+    show_panel(page, "Bookmarks")
+    expect(page.get_by_role("tabpanel", name="Bookmarks").get_by_role("row").last).to_be_visible()
+    yield "Bookmarks"
     page.keyboard.press("Control+Shift+H")
     search = page.locator("[data-panel-id=search]")
     search.get_by_label("Search for").fill("xSafe")
@@ -49,12 +55,6 @@ def _tools(page: Page) -> Iterator[str]:
     search.get_by_label("Search for").fill("(")
     expect(search.get_by_role("alert")).to_be_visible()
     yield "Search with a fault"
-    open_object(page, "PLC_PRG")
-    implementation(page).locator(".view-line").first.click()
-    page.keyboard.press("Control+F12")
-    show_panel(page, "Bookmarks")
-    expect(page.get_by_role("tabpanel", name="Bookmarks").get_by_role("row").last).to_be_visible()
-    yield "Bookmarks"
 
 
 def _help(page: Page) -> Iterator[str]:

@@ -95,7 +95,7 @@ client.use(errors);
 type Method = 'get' | 'post' | 'put' | 'patch' | 'delete';
 type Paths<Verb extends Method> = ClientPathsWithMethod<Client<paths>, Verb>;
 type Operation<Verb extends Method, Path extends Paths<Verb>> = paths[Path][Verb];
-type Options<Of> = Pick<FetchOptions<Of>, Extract<keyof FetchOptions<Of>, 'params' | 'body' | 'signal'>>;
+type Options<Of> = Pick<FetchOptions<Of>, Extract<keyof FetchOptions<Of>, 'params' | 'body' | 'signal' | 'keepalive'>>;
 type Arguments<Of> = object extends Options<Of> ? [options?: Options<Of>] : [options: Options<Of>];
 type Responses<Of> = Of extends { responses: infer All } ? All[keyof All & (200 | 201 | 204)] : never;
 type Data<Of> = Responses<Of> extends { content: infer Content } ? Content[keyof Content] : undefined;

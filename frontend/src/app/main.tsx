@@ -7,9 +7,11 @@ import './tokens.css';
 import './global.css';
 import { App } from './App';
 import { startPreferences } from '@/session/preferences';
+import { saveSettingsWhenThePageGoes } from '@/session/settingsLater';
 import { registerKinds } from '@/kinds/register';
 
 await startPreferences();
+saveSettingsWhenThePageGoes();
 registerKinds();
 const root = document.getElementById('root');
 if (root) {

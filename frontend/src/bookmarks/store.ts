@@ -1,7 +1,8 @@
 /** The bookmarks of the project that is open: kept on the server for user and project. */
 import { create } from 'zustand';
 import { useProject } from '@/project/openProject';
-import { loadSetting, saveSetting } from '@/session/preferences';
+import { loadSetting } from '@/session/preferences';
+import { saveSettingLater, saveSettingNow } from '@/session/settingsLater';
 import { notifyError } from '@/ui/notices';
 import { fromStored, isIn, keyOf, toggled, type Bookmark, type TextPart } from './model';
 
@@ -16,13 +17,13 @@ export const useBookmarks = create<BookmarkState>(() => ({ projectId: null, load
 
 /** While one types, lines move with every Enter. */
 const SAVE_AFTER_MS = 800;
-let timer: ReturnType<typeof setTimeout> | undefined;
 
 /** Loads the bookmarks of each project that is opened. */
 export function followProject(): void {
   const load = async (projectId: string | null) => {
     if (projectId === useBookmarks.getState().projectId) return;
-    save();
+    const before = useBookmarks.getState().projectId;
+    if (before !== null) saveSettingNow(keyFor(before));
     useBookmarks.setState({ projectId, loaded: false, bookmarks: [] });
     if (projectId === null) return;
     const stored = fromStored(await loadSetting(keyFor(projectId)));
@@ -32,25 +33,21 @@ export function followProject(): void {
     const known = new Set(now.bookmarks.map(keyOf));
     const joined = [...stored.filter((mark) => !known.has(keyOf(mark))), ...now.bookmarks];
     useBookmarks.setState({ loaded: true, bookmarks: joined });
-    save();
+    if (now.bookmarks.length > 0) save(0);
   };
   const start = (projectId: string | null) => void load(projectId).catch(notifyError);
   start(useProject.getState().projectId);
   useProject.subscribe((state) => start(state.projectId));
-  addEventListener('pagehide', save);
 }
 
 function keyFor(projectId: string): string {
   return `bookmarks.${projectId}`;
 }
 
-/** Stores at once what waits to be stored; never what would replace bookmarks that have not arrived. */
-function save(): void {
+/** Stores the bookmarks, but not in place of those that have not arrived yet. */
+function save(after: number): void {
   const { projectId, loaded, bookmarks } = useBookmarks.getState();
-  if (timer === undefined || projectId === null || !loaded) return;
-  clearTimeout(timer);
-  timer = undefined;
-  saveSetting(keyFor(projectId), bookmarks).catch(notifyError);
+  if (projectId !== null && loaded) saveSettingLater(keyFor(projectId), () => bookmarks, after, notifyError);
 }
 
 export function changeBookmarks(change: (bookmarks: readonly Bookmark[]) => readonly Bookmark[], wait = 0): void {
@@ -58,8 +55,7 @@ export function changeBookmarks(change: (bookmarks: readonly Bookmark[]) => read
   const next = change(before);
   if (next === before) return;
   useBookmarks.setState({ bookmarks: next });
-  clearTimeout(timer);
-  timer = setTimeout(save, wait);
+  save(wait);
 }
 
 /** Lines have moved under the bookmarks. */

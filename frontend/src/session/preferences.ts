@@ -96,8 +96,9 @@ export function loadSetting(key: string): Promise<unknown> {
   });
 }
 
-export async function saveSetting(key: string, value: unknown): Promise<void> {
-  await api.put('/api/v1/me/settings/{key}', { params: { path: { key } }, body: value });
+/** With `keepalive` the request outlives the page; browsers take up to 64 KiB so. */
+export async function saveSetting(key: string, value: unknown, keepalive = false): Promise<void> {
+  await api.put('/api/v1/me/settings/{key}', { params: { path: { key } }, body: value, keepalive });
 }
 
 /** A list of names or ids as a setting; null where it is none. */

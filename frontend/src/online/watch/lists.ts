@@ -1,7 +1,8 @@
 /** Watch lists 1 to 4: expressions per list, kept for user and project, online and offline (WAT-01, WAT-10, WAT-11). */
 import { hasRole, type Role } from '@/project/kinds';
 import { create } from 'zustand';
-import { loadSetting, saveSetting } from '@/session/preferences';
+import { loadSetting } from '@/session/preferences';
+import { saveSettingLater } from '@/session/settingsLater';
 import type { ObjectSummary } from '@/api/types';
 import { useProject } from '@/project/openProject';
 
@@ -50,7 +51,6 @@ export function toStored(lists: Lists): Stored {
 }
 
 const keyOf = (projectId: string) => `watch.${projectId}`;
-let timer: ReturnType<typeof setTimeout> | undefined;
 
 /** Loads the lists of each project that is opened. */
 export function followProject(): void {
@@ -77,8 +77,7 @@ function change(list: WatchList, update: (entries: readonly WatchEntry[]) => rea
   const next = { ...lists, [list]: update(lists[list]) };
   useWatchLists.setState({ lists: next });
   if (projectId === null) return;
-  clearTimeout(timer);
-  timer = setTimeout(() => void saveSetting(keyOf(projectId), toStored(next)).catch(() => undefined), SAVE_AFTER_MS);
+  saveSettingLater(keyOf(projectId), () => toStored(next), SAVE_AFTER_MS);
 }
 
 /** Adds expressions before `before` or at the end; one that is in the list already is not added twice. */

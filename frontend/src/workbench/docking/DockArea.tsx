@@ -7,7 +7,8 @@ import {
 } from 'dockview-react';
 import 'dockview-react/dist/styles/dockview.css';
 import { useEffect, useMemo, useState } from 'react';
-import { saveSetting, usePreferences } from '@/session/preferences';
+import { usePreferences } from '@/session/preferences';
+import { saveSettingLater, saveSettingNow } from '@/session/settingsLater';
 import { notifyError } from '@/ui/notices';
 import { useSelection } from '../selection';
 import { resetLayout, setDockApi } from './dock';
@@ -94,22 +95,12 @@ function start(api: DockviewApi, layout: SerializedDockview | null): void {
 
 /** Stores the layout a moment after the last change, and when the project is left. */
 function saveLayout(api: DockviewApi, projectId: string): () => void {
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  const save = () => {
-    timer = undefined;
-    const stored: StoredLayout = { version: 1, dock: api.toJSON() };
-    saveSetting(`layout.${projectId}`, stored).catch(notifyError);
-  };
-  const listener = api.onDidLayoutChange(() => {
-    clearTimeout(timer);
-    timer = setTimeout(save, SAVE_AFTER_MS);
-  });
+  const key = `layout.${projectId}`;
+  const stored = (): StoredLayout => ({ version: 1, dock: api.toJSON() });
+  const listener = api.onDidLayoutChange(() => saveSettingLater(key, stored, SAVE_AFTER_MS, notifyError));
   return () => {
     listener.dispose();
-    if (timer !== undefined) {
-      clearTimeout(timer);
-      save();
-    }
+    saveSettingNow(key);
   };
 }
 

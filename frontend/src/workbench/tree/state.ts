@@ -1,6 +1,7 @@
 /** What the trees remember: which objects are open, what is cut or copied, which one is being renamed. */
 import { create } from 'zustand';
-import { loadNames, saveSetting } from '@/session/preferences';
+import { loadNames } from '@/session/preferences';
+import { saveSettingLater } from '@/session/settingsLater';
 import type { ObjectSummary } from '@/api/types';
 import { kindOf } from '@/project/kinds';
 
@@ -23,7 +24,6 @@ export const useTree = create<TreeState>(() => ({
 const SAVE_AFTER_MS = 1500;
 
 let project: string | null = null;
-let timer: ReturnType<typeof setTimeout> | undefined;
 let serial = 0;
 
 /** Reads which objects were open at the last visit; at the first one the device is open down to the tasks. */
@@ -41,12 +41,7 @@ export function setExpanded(ids: readonly string[], expanded: boolean): void {
     else next.delete(id);
   }
   useTree.setState({ expanded: next });
-  clearTimeout(timer);
-  const projectId = project;
-  timer = setTimeout(
-    () => void saveSetting(`tree.${projectId}`, [...useTree.getState().expanded]).catch(() => undefined),
-    SAVE_AFTER_MS,
-  );
+  saveSettingLater(`tree.${project}`, () => [...next], SAVE_AFTER_MS);
 }
 
 export function revealInTree(objectId: string): void {
