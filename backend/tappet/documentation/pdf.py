@@ -15,6 +15,7 @@ from typing import Any
 
 from tappet.documentation.document import Document, Listing, Table
 from tappet.documentation.typesetting import PAGE, TypesettingError, typeset
+from tappet.limited_process import LimitExceededError
 from tappet.project.errors import ProjectError
 
 _MISSING = re.compile(r"the text `\"(?P<text>(?:[^\"\\]|\\.)*)\"` could not be displayed")
@@ -45,10 +46,22 @@ class MissingGlyphsError(PdfError):
         self.characters = characters
 
 
+class DocumentTooLargeError(PdfError):
+    """The PDF needs more memory or time than there is for one."""
+
+    code = "document_too_large"
+
+    def __init__(self, needed: str) -> None:
+        super().__init__(
+            f"The PDF needs more than {needed} to be made. Choose HTML, or print fewer objects, or print "
+            "without tables of variables and cross references"
+        )
+
+
 def write_pdf(document: Document, *, system_fonts: bool = True) -> bytes:
     """The file, with the fonts of this machine or those of typst alone.
 
-    Raises MissingGlyphsError, which names the characters, and PdfError.
+    Raises MissingGlyphsError, which names the characters, DocumentTooLargeError and PdfError.
     """
     page = files("tappet.documentation").joinpath(PAGE).read_bytes()
     with tempfile.TemporaryDirectory(prefix="tappet-document-") as name:
@@ -57,6 +70,8 @@ def write_pdf(document: Document, *, system_fonts: bool = True) -> bytes:
         (folder / PAGE).write_bytes(page)
         try:
             return typeset(folder, system_fonts=system_fonts)
+        except LimitExceededError as error:
+            raise DocumentTooLargeError(str(error)) from None
         except TypesettingError as error:
             lost = "".join(json.loads(f'"{match}"') for match in _MISSING.findall(error.diagnostic))
             if lost:

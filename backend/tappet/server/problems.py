@@ -90,6 +90,7 @@ PROJECT_STATUS = {
     "stale_revision": 409,
     "not_undoable": 409,
     "unknown_difference": 409,
+    "document_too_large": 413,
     "store": 503,
 }
 """HTTP status of errors of the project room by their code; all others are 422."""

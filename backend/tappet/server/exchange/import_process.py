@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import pickle
-import signal
-import subprocess
-import sys
 import threading
 
+from tappet.limited_process import LimitExceededError, run_limited
 from tappet.project.errors import ProjectError
 from tappet.project.exchange.importing import Imported
 from tappet.server.exchange.import_order import ImportOrder, Refused
-from tappet.server.exchange.import_worker import OUT_OF_MEMORY
 from tappet.server.problems import Problem
 
 SMALL_BYTES = 128 * 1024
@@ -40,30 +37,16 @@ def run_import(order: ImportOrder) -> Imported:
     if not _PLACES.acquire(timeout=PATIENCE_S):
         raise Problem(503, "imports-running", "Other imports are being read; try again in a minute.")
     try:
-        done = subprocess.run(  # noqa: S603 - our own program
-            [sys.executable, "-m", WORKER, str(MEMORY_MIB), str(SECONDS)],
-            input=pickle.dumps(order),
-            stdout=subprocess.PIPE,
-            timeout=2 * SECONDS,  # the machine may be busy with other things
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        raise _too_much(f"{SECONDS} s") from None
+        done = run_limited(WORKER, memory_mib=MEMORY_MIB, seconds=SECONDS, given=pickle.dumps(order))
+    except LimitExceededError as error:
+        raise Problem(
+            413, "import-too-large", f"These files need more than {error} to be read; import them in parts."
+        ) from None
     finally:
         _PLACES.release()
-    if done.returncode == OUT_OF_MEMORY or (not done.stdout and done.returncode == -signal.SIGSEGV):
-        raise _too_much(f"{MEMORY_MIB} MiB of memory")
-    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        raise _too_much(f"{SECONDS} s")
     if done.returncode:
         raise RuntimeError(f"the import ended with exit code {done.returncode}; its error is above")
     answer: Imported | Refused = pickle.loads(done.stdout)  # noqa: S301 - from our own program
     if isinstance(answer, Refused):
         raise ImportRefusedError(answer.code, answer.message)
     return answer
-
-
-def _too_much(what: str) -> Problem:
-    return Problem(
-        413, "import-too-large", f"These files need more than {what} to be read; import them in parts."
-    )
