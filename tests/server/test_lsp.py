@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from lsp_client import Client, FakeProject, uri
-from lsp_project import BODY, HEAD, PROJECT, here, start
+from lsp_project import BODY, DECLARATION, HEAD, PROJECT, here, start
 
 from tappet.lang.analysis.edits import declaration_edits
 from tappet.lang.services.semantic_tokens import TOKEN_TYPES
@@ -264,6 +264,17 @@ async def test_symbols_of_a_document_and_of_all() -> None:
         scattered = await client.ask("workspace/symbol", {"query": "icnt"})
         assert [symbol["name"] for symbol in scattered] == ["iCount"]
         assert await client.ask("workspace/symbol", {"query": "tnci"}) == []
+
+
+async def test_jump_labels_are_symbols() -> None:
+    body = "motor: iCount := 1;\nJMP Later;\nLater:\nJMP motor;\n"
+    async with start(PLC_PRG=(DECLARATION, body)) as client:
+        await client.start()
+        (label,) = await client.ask("workspace/symbol", {"query": "later"})
+        assert (label["name"], label["kind"], label["containerName"]) == ("Later", 20, "PLC_PRG")
+        assert label["location"] == {"uri": BODY, "range": here(2, 0, 5)}
+        both = await client.ask("workspace/symbol", {"query": "motor"})
+        assert {(one["name"], one["kind"]) for one in both} == {("FB_Motor", 5), ("motor", 13), ("motor", 20)}
 
 
 async def test_formatting() -> None:

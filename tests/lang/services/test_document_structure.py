@@ -91,6 +91,32 @@ def test_outline_of_other_objects() -> None:
     assert tree(outline(snapshot, "F")) == [("F", "function", "REAL")]
 
 
+def test_outline_of_jump_labels() -> None:
+    text = split_object(
+        "P",
+        "PROGRAM P\nVAR\n  a : INT;\nEND_VAR",
+        "Begin: a := 1;\nIF a = 1 THEN\n  Inner: a := 2;\nEND_IF\nJMP Begin;\nDone:\n",
+        "END_PROGRAM",
+    )
+    snapshot = Workspace(lambda unsaved: [Program("App", [text])]).snapshot("P/declaration")
+    (entry,) = outline(snapshot, "P/implementation")
+    assert [(e.name, str(e.kind), e.name_span[:2]) for e in entry.children] == [
+        ("Begin", "label", (0, 0)),
+        ("Inner", "label", (2, 2)),
+        ("Done", "label", (5, 0)),
+    ]
+    (entry,) = outline(snapshot, "P/declaration")
+    assert [child.name for child in entry.children] == ["VAR"]
+    rows = Project(
+        Q="PROGRAM Q\nVAR i : INT; END_VAR\nAgain: LD i\nADD 1\nST i\nJMP Again\nEND_PROGRAM",
+        F="FUNCTION_BLOCK F\nPROPERTY p : INT\nGET\nHere: p := 1;\nEND_GET\nEND_PROPERTY\nEND_FUNCTION_BLOCK",
+    ).snapshot
+    (entry,) = outline(rows, "Q")
+    assert [(e.name, str(e.kind)) for e in entry.children] == [("VAR", "section"), ("Again", "label")]
+    (entry,) = outline(rows, "F")
+    assert tree(entry.children) == [("p", "property", "INT", [("Here", "label", "")])]
+
+
 def test_documents_of_one_object() -> None:
     text = split_object(
         "P", "PROGRAM P\nVAR\n  a : INT;\nEND_VAR", "IF a = 1 THEN\n  a := 2;\nEND_IF\n", "END_PROGRAM"

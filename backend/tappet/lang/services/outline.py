@@ -1,4 +1,4 @@
-"""The outline of a document: objects, their variables and children."""
+"""The outline of a document: objects, their variables, jump labels and children."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from tappet.lang.services.documents import Position, Text
 from tappet.lang.services.results import ItemKind, Outline
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import Span
+from tappet.lang.walk import statements
 
 
 def outline(snapshot: Snapshot, document: str) -> list[Outline]:
@@ -76,6 +77,7 @@ class _Maker:
     def pou(self, node: ast.Pou) -> list[Outline]:
         detail = self.written(node.return_type.span) if node.return_type is not None else ""
         below = [entry for block in node.blocks for entry in self.block(block)]
+        below += self.labels(node.body)
         for child in (*node.methods, *node.actions):
             below += self.pou(child)
         for item in node.properties:
@@ -85,7 +87,19 @@ class _Maker:
 
     def property(self, node: ast.Property) -> list[Outline]:
         detail = self.written(node.type_ref.span) if node.type_ref is not None else ""
-        return self.entry(node.name, ItemKind.PROPERTY, detail, node.span, node.name_span)
+        accessors = [accessor for accessor in (node.getter, node.setter) if accessor is not None]
+        below = [entry for accessor in accessors for entry in self.labels(accessor.body)]
+        return self.entry(node.name, ItemKind.PROPERTY, detail, node.span, node.name_span, below)
+
+    def labels(self, body: Iterable[ast.Stmt]) -> list[Outline]:
+        """Jump labels of ST, labels of networks in IL."""
+        found: list[Outline] = []
+        for statement in statements(body):
+            if statement.label is not None:
+                span = statement.span
+                name = span._replace(end_line=span.line, end_column=span.column + len(statement.label))
+                found += self.entry(statement.label, ItemKind.LABEL, "", span, name)
+        return found
 
     def type(self, node: ast.TypeDecl) -> list[Outline]:
         ref = node.type_ref

@@ -85,6 +85,7 @@ _SYMBOL_KINDS: Final = {
     ItemKind.FIELD: lsp.SymbolKind.FIELD,
     ItemKind.GLOBAL_LIST: lsp.SymbolKind.NAMESPACE,
     ItemKind.SECTION: lsp.SymbolKind.NAMESPACE,
+    ItemKind.LABEL: lsp.SymbolKind.KEY,
 }
 _SEVERITIES: Final = {
     "error": DiagnosticSeverity.ERROR,

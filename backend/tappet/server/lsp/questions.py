@@ -48,7 +48,7 @@ from tappet.server.lsp.protocol.structures import Location, TextEdit, WorkspaceE
 from tappet.server.lsp.shown import OtherTextError
 
 MAX_SYMBOLS: Final = 500
-_MEMBERS: Final = frozenset(["variable", "field", "constant", "enum_value"])
+_MEMBERS: Final = frozenset(["variable", "field", "constant", "enum_value", "label"])
 """What a search for nothing leaves out."""
 
 
@@ -139,9 +139,9 @@ def _has_letters(name: str, wanted: str) -> bool:
 
 
 def workspace_symbol(session: Client, params: lsp.WorkspaceSymbolParams) -> list[lsp.SymbolInformation]:
-    """Objects, their members and variables, types by letters of the name in their order, best match first."""
+    """Objects, members, variables, labels, types by letters of the name in their order, best match first."""
     wanted = params.query.lower()
-    found: dict[tuple[str, str], lsp.SymbolInformation] = {}
+    found: dict[tuple[str, str, str], lsp.SymbolInformation] = {}
 
     def collect(text_name: str, document: str, entries: list[Outline], container: str | None) -> None:
         for entry in entries:
@@ -154,7 +154,7 @@ def workspace_symbol(session: Client, params: lsp.WorkspaceSymbolParams) -> list
                 for symbol in convert.document_symbols([replace(entry, children=[])], shown):
                     place = Location(shown.spelled, symbol.selection_range)
                     found.setdefault(
-                        (text_name, f"{container}.{entry.name}"),
+                        (text_name, entry.kind, f"{container}.{entry.name}"),
                         lsp.SymbolInformation(entry.name, symbol.kind, place, container),
                     )
             collect(text_name, document, entry.children, container if entry.kind == "section" else entry.name)

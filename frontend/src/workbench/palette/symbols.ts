@@ -1,5 +1,5 @@
-/** Members of objects for quick open: variables, methods and types of the project, or of the active object. */
-import { Braces, CircleDot, ListTree, Variable } from 'lucide-react';
+/** Members of objects for quick open: variables, labels, methods and types of the project, or of the active object. */
+import { Braces, CircleDot, ListTree, Tag, Variable } from 'lucide-react';
 import { useEffect, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { commandContext } from '../context';
@@ -12,8 +12,8 @@ import { symbolSource, type MemberSymbol, type ProjectSymbol } from './symbolSou
 
 const SHORTEST = 2;
 const PAUSE_MS = 120;
-/** Kinds of the protocol: enum 10, enum member 22, struct 23. */
-const ICONS: Readonly<Record<number, IconComponent>> = { 10: ListTree, 22: CircleDot, 23: Braces };
+/** Kinds of the protocol: enum 10, key (a jump label) 20, enum member 22, struct 23. */
+const ICONS: Readonly<Record<number, IconComponent>> = { 10: ListTree, 20: Tag, 22: CircleDot, 23: Braces };
 /** Sections of a declaration (VAR_INPUT ...) are namespaces. */
 const SECTION = 3;
 
