@@ -12,13 +12,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pypdf import PdfReader
 
-from tappet.documentation import pdf
-from tappet.documentation.compose import Printing, compose, with_all_below
+from tappet.documentation import pdf, typesetting
+from tappet.documentation.compose import Printing, compose
 from tappet.documentation.document import Document, printable
 from tappet.documentation.html import write_html
-from tappet.documentation.pdf import MissingGlyphsError, PdfError, write_pdf
+from tappet.documentation.pdf import DocumentTooLargeError, MissingGlyphsError, PdfError, write_pdf
 from tappet.documentation.variables import Declared, declared_variables
 from tappet.project import edit
+from tappet.project.exchange.parts import chosen_ids
 from tappet.project.model import Project
 from tappet.project.new_project import new_project
 
@@ -155,10 +156,25 @@ def test_a_typesetting_that_ends_early_is_an_error(monkeypatch: pytest.MonkeyPat
         write_pdf(printed("a := 1;"))
 
 
+@pytest.mark.parametrize(
+    ("limit", "value", "said"), [("MEMORY_MIB", 150, "150 MiB of memory"), ("SECONDS", 1, "1 s")]
+)
+def test_a_typesetting_beyond_its_limits_ends_alone(
+    monkeypatch: pytest.MonkeyPatch, limit: str, value: int, said: str
+) -> None:
+    document = printed("\n".join(f"a{line} := b * {line}; // {line}" for line in range(30_000)))
+    with monkeypatch.context() as limited:
+        limited.setattr(typesetting, limit, value)
+        with pytest.raises(DocumentTooLargeError) as raised:
+            write_pdf(document)
+    assert f"needs more than {said} to be made. Choose HTML, or print fewer objects" in str(raised.value)
+    assert write_pdf(printed("a := 1;")).startswith(b"%PDF")
+
+
 def test_chosen_objects_only() -> None:
     project = new_project("Press")
     top = next(item for item in project.walk() if item.kind == "task_configuration")
-    chosen = with_all_below(project, [top.id])
+    chosen = chosen_ids(project, [top.id])
     titles = [s.title for s in compose(project, Printing(objects=chosen), AT).sections]
     assert titles == ["Task Configuration", "MainTask"]
 

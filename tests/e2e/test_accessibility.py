@@ -82,6 +82,12 @@ def _dialogs(page: Page) -> Iterator[str]:
         page.wait_for_timeout(300)
         yield entry
         page.keyboard.press("Escape")
+    choose_menu(page, "File", "Export")
+    page.get_by_role("dialog").get_by_label("What", exact=True).click()
+    page.get_by_role("option", name="Single objects").click()
+    expect(page.get_by_role("dialog").get_by_role("treeitem").first).to_be_visible()
+    yield "Single objects"
+    page.keyboard.press("Escape")
 
 
 def _comparisons(page: Page) -> Iterator[str]:

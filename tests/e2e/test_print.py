@@ -6,10 +6,10 @@ import io
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 from pypdf import PdfReader
 
-from .workbench import choose_menu, open_object, open_project
+from .workbench import choose_menu, open_object, open_project, tree_item
 
 pytestmark = pytest.mark.e2e
 
@@ -41,3 +41,33 @@ def test_the_project_and_the_object_in_the_editor_are_printed(page: Page) -> Non
     assert "Plant &lt;4&gt;" in html
     # PLC_PRG with its three actions
     assert ('id="s3"' in html, 'id="s4"' in html) == (True, False)
+
+
+def test_single_objects_are_printed(page: Page) -> None:
+    open_project(page)
+    tree_item(page, "PLC_PRG").click()
+    choose_menu(page, "File", "Print")
+    dialog = page.get_by_role("dialog", name="Print")
+    for label, option in (("What", "Single objects"), ("Format", "HTML")):
+        dialog.get_by_label(label, exact=True).click()
+        page.get_by_role("option", name=option).click()
+
+    def node(name: str) -> Locator:
+        return dialog.get_by_role("treeitem").filter(has_text=name).first
+
+    expect(node("PLC_PRG")).to_have_attribute("aria-checked", "true")  # as it was selected
+    dialog.get_by_label("Search objects").fill("GVL_IO")
+    dialog.get_by_role("button", name="None").click()
+    expect(dialog.get_by_role("button", name="Save")).to_be_disabled()
+    node("GVL_IO").locator("[data-state]").click()
+    dialog.get_by_label("Search objects").fill("PLC_PRG")
+    node("PLC_PRG").locator("[data-state]").click()
+    dialog.get_by_label("Search objects").fill("")
+    with page.expect_download() as download:
+        dialog.get_by_role("button", name="Save").click()
+    expect(dialog).to_have_count(0)
+    assert download.value.suggested_filename == "Bottling line.html"
+    html = Path(download.value.path()).read_text()
+    assert "GVL_IO" in html
+    assert "PLC_PRG" in html
+    assert "Library Manager" not in html

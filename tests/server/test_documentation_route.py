@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import io
 
+import pytest
 from fastapi.testclient import TestClient
 from pypdf import PdfReader
+
+from tappet.documentation import typesetting
 
 API = "/api/v1"
 
@@ -28,5 +31,20 @@ def test_a_project_and_parts_of_it_are_printed(admin: TestClient, as_role: dict[
     part = viewer.get(at, params={"format": "html", "object": tasks}).text
     assert "MainTask" in part
     assert "Library Manager" not in part
+    task = next(item["id"] for item in objects if item["kind"] == "task")
+    rest = viewer.get(at, params={"format": "html", "object": tasks, "without": task}).text
+    assert "Task Configuration" in rest
+    assert "MainTask" not in rest
     assert viewer.get(at, params={"object": "0" * 32}).status_code == 404
+    assert viewer.get(at, params={"without": "0" * 32}).status_code == 404
     assert viewer.get(at, params={"format": "doc"}).status_code == 422
+
+
+def test_a_pdf_that_needs_too_much_is_a_problem(admin: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    project = admin.post(f"{API}/projects", json={"name": "Press"}).json()["id"]
+    at = f"{API}/projects/{project}/documentation"
+    monkeypatch.setattr(typesetting, "SECONDS", 0)
+    answer = admin.get(at)
+    assert (answer.status_code, answer.json()["type"]) == (413, "urn:tappet:problem:document-too-large")
+    assert "needs more than 0 s to be made. Choose HTML" in answer.json()["detail"]
+    assert admin.get(at, params={"format": "html"}).status_code == 200

@@ -121,6 +121,14 @@ def test_parts_go_out_as_xml_st_and_archive(admin: TestClient) -> None:
     assert {"E_State", "FB_Pump"} <= names
     assert "PLC_PRG" not in names
     assert admin.get(f"{export}/st", params={"object": "0" * 32}).status_code == 404
+    rest = admin.get(f"{export}/st", params={"without": [ids["E_State"], ids["PLC_PRG"]]})
+    assert rest.text.startswith("FUNCTION_BLOCK FB_Pump")
+    without = {"object": ids["Application"], "without": ids["FB_Pump"]}
+    assert b"FB_Pump" not in admin.get(f"{export}/plcopen", params=without).content
+    with zipfile.ZipFile(io.BytesIO(admin.get(export, params=without).content)) as packed:
+        stems = {name.rpartition("/")[2].partition(".")[0] for name in packed.namelist()}
+        assert "E_State" in stems
+        assert "FB_Pump" not in stems
 
 
 def test_what_is_taken_of_a_folder_is_what_is_taken_of_an_archive(admin: TestClient) -> None:

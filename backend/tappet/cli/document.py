@@ -39,10 +39,11 @@ def document(given: Namespace) -> int:
     """Writes the file."""
     from datetime import datetime
 
-    from tappet.documentation.compose import Printing, compose, with_all_below
+    from tappet.documentation.compose import Printing, compose
     from tappet.documentation.html import write_html
     from tappet.documentation.pdf import write_pdf
     from tappet.project.errors import ProjectError
+    from tappet.project.exchange.parts import chosen_ids
 
     kind = FORMATS.get(given.output.suffix.lower())
     if kind is None:
@@ -57,7 +58,7 @@ def document(given: Namespace) -> int:
     printing = Printing(
         language=given.language,
         paper=given.paper,
-        objects=with_all_below(project, tops) if tops else None,
+        objects=chosen_ids(project, tops) if tops else None,
         contents=not given.no_contents,
         variables=not given.no_variables,
         cross_references=given.cross_references,

@@ -35,7 +35,7 @@ class Printing(BaseModel):
 
     language: Language = "en"
     paper: Literal["a4", "us-letter"] = "a4"
-    objects: tuple[str, ...] | None = Field(
+    objects: frozenset[str] | None = Field(
         default=None, max_length=100_000, description="Ids of the objects that are printed; null: all."
     )
     contents: bool = Field(default=True, description="With a table of contents.")
@@ -48,7 +48,7 @@ class Printing(BaseModel):
 def compose(project: Project, printing: Printing, at: datetime, revision: int | None = None) -> Document:
     """The documentation; `revision` is that of the project, where it is known."""
     language = printing.language
-    chosen = None if printing.objects is None else set(printing.objects)
+    chosen = printing.objects
     items = [item for item in project.walk() if chosen is None or item.id in chosen]
     sections = [_section(project, item, printing) for item in items]
     if printing.cross_references:
@@ -164,12 +164,3 @@ def _words(text: str) -> Iterator[tuple[str, int]]:
         if key not in seen:
             seen.add(key)
             yield key
-
-
-def with_all_below(project: Project, object_ids: Collection[str]) -> tuple[str, ...]:
-    """These objects and what is below them. Raises UnknownObjectError."""
-    found: dict[str, None] = {}
-    for object_id in object_ids:
-        found[project.get(object_id).id] = None
-        found.update(dict.fromkeys(item.id for item in project.walk(object_id)))
-    return tuple(found)

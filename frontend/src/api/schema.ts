@@ -1041,7 +1041,8 @@ export interface paths {
          * Document Project
          * @description The project, or objects of it, to be printed: title page, contents, texts with line numbers, tables.
          *
-         *     A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them.
+         *     A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them;
+         *     one that needs more memory or time than there is for it is `document-too-large`.
          */
         get: operations["document_project"];
         put?: never;
@@ -8651,8 +8652,6 @@ export interface operations {
                 format?: "pdf" | "html";
                 language?: "en" | "zh";
                 paper?: "a4" | "us-letter";
-                /** @description Only these objects with all below them; none: everything. */
-                object?: string[];
                 /** @description With a table of contents. */
                 contents?: boolean;
                 /** @description With tables of the variables. */
@@ -8660,6 +8659,10 @@ export interface operations {
                 /** @description With the places of all names, by name. */
                 cross_references?: boolean;
                 footer?: string;
+                /** @description Only these objects with all below them; none: everything. */
+                object?: string[];
+                /** @description Not these objects with all below them, but for what `object` names of it. */
+                without?: string[];
             };
             header?: never;
             path: {
@@ -8706,6 +8709,8 @@ export interface operations {
                 revision?: number | null;
                 /** @description Only these objects with all below them; none: everything. */
                 object?: string[];
+                /** @description Not these objects with all below them, but for what `object` names of it. */
+                without?: string[];
             };
             header?: never;
             path: {
@@ -8749,6 +8754,8 @@ export interface operations {
             query?: {
                 /** @description Only these objects with all below them; none: everything. */
                 object?: string[];
+                /** @description Not these objects with all below them, but for what `object` names of it. */
+                without?: string[];
             };
             header?: never;
             path: {
@@ -8792,6 +8799,8 @@ export interface operations {
             query?: {
                 /** @description Only these objects with all below them; none: everything. */
                 object?: string[];
+                /** @description Not these objects with all below them, but for what `object` names of it. */
+                without?: string[];
             };
             header?: never;
             path: {

@@ -9,7 +9,7 @@ from tappet.project import edit
 from tappet.project.errors import UnknownObjectError
 from tappet.project.exchange.choosing import ImportNode
 from tappet.project.exchange.importing import import_files
-from tappet.project.exchange.parts import part_of, st_files
+from tappet.project.exchange.parts import chosen_ids, part_of, st_files
 from tappet.project.exchange.placing import Place
 from tappet.project.exchange.plcopen_write import write_plcopen
 from tappet.project.folder.codec import encode
@@ -125,3 +125,25 @@ def test_parts_of_a_project_go_out() -> None:
         st_files(part_of(project, [at(project, "Task Configuration")]))
     with pytest.raises(UnknownObjectError):
         part_of(project, ["0" * 32])
+
+
+def test_the_nearest_name_decides_what_is_chosen() -> None:
+    project = import_files({"Pumps.st": PUMP}, new_project("Press")).project
+    pump, start, application = (at(project, name) for name in ("FB_Pump", "Start", "Application"))
+
+    def names(ids: list[str], without: list[str]) -> set[str]:
+        return {project.get(one).name for one in chosen_ids(project, ids, without)}
+
+    everything = {item.name for item in project.walk()}
+    assert names([], []) == everything
+    assert names([pump], [start]) == {"FB_Pump", "Stop"}
+    assert names([], [pump]) == everything - {"FB_Pump", "Start", "Stop"}
+    assert names([start], [pump]) == {"Start"}
+    below = {item.name for item in project.walk(application)} | {"Application"}
+    assert names([application, start], [pump]) == below - {"FB_Pump", "Stop"}
+    part = part_of(project, [application], [start])
+    assert {item.name for item in project.walk()} - {
+        item.name for item in part.walk()
+    } == everything - below - {item.name for item in project.ancestors(application)} | {"Start"}
+    with pytest.raises(UnknownObjectError):
+        chosen_ids(project, [], ["0" * 32])

@@ -12,12 +12,24 @@ from tappet.project.placement import owner_of
 from tappet.project.sources import compiled
 
 
-def part_of(project: Project, ids: Collection[str]) -> Project:
-    """The objects with these ids, all below them, and what they stand in. Raises UnknownObjectError."""
-    kept: set[str] = set()
-    for object_id in ids:
-        kept.add(project.get(object_id).id)
-        kept.update(item.id for item in project.walk(object_id))
+def chosen_ids(project: Project, ids: Collection[str], without: Collection[str] = ()) -> frozenset[str]:
+    """These objects (none: all roots) with all below them, but not those of `without` and what is below them.
+
+    Of names in one line from a root the nearest decides, so that any choice can be told by few of them.
+    Raises UnknownObjectError.
+    """
+    named = {project.get(object_id).id: True for object_id in ids}
+    named |= {project.get(object_id).id: False for object_id in without}
+    chosen: dict[str | None, bool] = {None: not ids}
+    for item in project.walk():
+        chosen[item.id] = named.get(item.id, chosen[item.parent_id])
+    return frozenset(object_id for object_id, taken in chosen.items() if taken and object_id is not None)
+
+
+def part_of(project: Project, ids: Collection[str], without: Collection[str] = ()) -> Project:
+    """The objects of `chosen_ids`, and what they stand in. Raises UnknownObjectError."""
+    kept = set(chosen_ids(project, ids, without))
+    for object_id in tuple(kept):
         kept.update(item.id for item in project.ancestors(object_id))
     objects: dict[str, ProjectObject] = {}
     places: dict[tuple[str | None, bool], int] = {}

@@ -11,6 +11,7 @@ from fastapi.responses import Response
 
 from tappet.server.dependencies import StoreDep, Viewer
 from tappet.server.problems import Problem
+from tappet.server.projects.part import PartDep
 from tappet.server.projects.routes import download
 from tappet.server.routing import Router
 from tappet.server.shapes import Line
@@ -38,13 +39,10 @@ def document_project(
     project_id: str,
     who: Viewer,
     store: StoreDep,
+    part: PartDep,
     format: Literal["pdf", "html"] = "pdf",
     language: Literal["en", "zh"] = "en",
     paper: Literal["a4", "us-letter"] = "a4",
-    objects: Annotated[
-        list[str],
-        Query(alias="object", description="Only these objects with all below them; none: everything."),
-    ] = [],  # noqa: B006
     contents: Annotated[bool, Query(description="With a table of contents.")] = True,
     variables: Annotated[bool, Query(description="With tables of the variables.")] = True,
     cross_references: Annotated[bool, Query(description="With the places of all names, by name.")] = False,
@@ -52,9 +50,10 @@ def document_project(
 ) -> Response:
     """The project, or objects of it, to be printed: title page, contents, texts with line numbers, tables.
 
-    A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them.
+    A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them;
+    one that needs more memory or time than there is for it is `document-too-large`.
     """
-    from tappet.documentation.compose import Printing, compose, with_all_below  # only for who prints
+    from tappet.documentation.compose import Printing, compose  # only for who prints
     from tappet.documentation.html import write_html
     from tappet.documentation.pdf import write_pdf
 
@@ -62,7 +61,7 @@ def document_project(
     printing = Printing(
         language=language,
         paper=paper,
-        objects=with_all_below(project, objects) if objects else None,
+        objects=part.ids(project),
         contents=contents,
         variables=variables,
         cross_references=cross_references,

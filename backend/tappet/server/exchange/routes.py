@@ -6,12 +6,12 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
-from fastapi import Form, Query, UploadFile
+from fastapi import Form, UploadFile
 from fastapi.responses import Response
 from pydantic import TypeAdapter, ValidationError
 
 from tappet.project.exchange.existing import Comparison, Decisions
-from tappet.project.exchange.parts import part_of, st_files
+from tappet.project.exchange.parts import st_files
 from tappet.project.folder.archive import zip_files
 from tappet.project.model import Project
 from tappet.project.objects import describe
@@ -23,6 +23,7 @@ from tappet.server.auth.roles import Role
 from tappet.server.dependencies import Engineer, StoreDep, Viewer
 from tappet.server.exchange.shapes import ImportFormats, ImportPreview, ImportResult
 from tappet.server.problems import Problem
+from tappet.server.projects.part import PartDep
 from tappet.server.projects.replies import project_summary
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
 from tappet.server.routing import Router
@@ -177,21 +178,16 @@ def _keys(text: str | None) -> list[str] | None:
         raise Problem(422, "invalid-request", "`chosen` should be a JSON list of texts.") from None
 
 
-Objects = Annotated[
-    list[str], Query(alias="object", description="Only these objects with all below them; none: everything.")
-]
-
-
 @router.get(
     "/projects/{project_id}/export/plcopen",
     response_class=Response,
     responses={200: {"content": {"application/xml": {"schema": {"type": "string", "format": "binary"}}}}},
 )
-def export_plcopen(project_id: str, who: Viewer, store: StoreDep, objects: Objects = []) -> Response:  # noqa: B006
+def export_plcopen(project_id: str, who: Viewer, store: StoreDep, part: PartDep) -> Response:
     """A project as PLCopen XML (TC6 0201); the same content always gives the same bytes."""
     from tappet.project.exchange.plcopen_write import write_plcopen  # as `_upload`
 
-    project = _chosen(store, project_id, objects)
+    project = part.of(store.load(project_id))
     return download(write_plcopen(project), f"{project.name}.xml", "application/xml")
 
 
@@ -207,20 +203,15 @@ def export_plcopen(project_id: str, who: Viewer, store: StoreDep, objects: Objec
         }
     },
 )
-def export_st(project_id: str, who: Viewer, store: StoreDep, objects: Objects = []) -> Response:  # noqa: B006
+def export_st(project_id: str, who: Viewer, store: StoreDep, part: PartDep) -> Response:
     """POUs, types and variable lists as ST: the text of a single one, else an archive of texts."""
-    project = _chosen(store, project_id, objects)
+    project = part.of(store.load(project_id))
     texts = st_files(project)
     if len(texts) == 1:
         path, text = next(iter(texts.items()))
         return download(text.encode(), path.rpartition("/")[2], "text/plain; charset=utf-8")
     content = zip_files({path: text.encode() for path, text in texts.items()})
     return download(content, f"{project.name} ST.zip", "application/zip")
-
-
-def _chosen(store: Store, project_id: str, objects: list[str]) -> Project:
-    project = store.load(project_id)
-    return part_of(project, objects) if objects else project
 
 
 def _named(files: list[UploadFile]) -> str:

@@ -9,7 +9,6 @@ from fastapi import Form, Query, UploadFile
 from fastapi.responses import Response
 
 from tappet.iec.languages import languages
-from tappet.project.exchange.parts import part_of
 from tappet.project.folder import read_zip, write_zip
 from tappet.project.model import Project
 from tappet.project.placement import PlacementRule, placement_rules
@@ -17,6 +16,7 @@ from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
+from tappet.server.projects.part import PartDep
 from tappet.server.projects.replies import project_revision, project_summary
 from tappet.server.projects.shapes import (
     BodyLanguage,
@@ -140,20 +140,15 @@ def export_project(
     project_id: str,
     who: Viewer,
     store: StoreDep,
+    part: PartDep,
     revision: Annotated[Number | None, Query(description="As it was after this change; null: now.")] = None,
-    objects: Annotated[
-        list[str],
-        Query(alias="object", description="Only these objects with all below them; none: everything."),
-    ] = [],  # noqa: B006
 ) -> Response:
     """A project as a zip archive of its folder; the same content always gives the same bytes."""
     project = store.load(project_id, with_files=True)
     if revision is not None:
         then = store.project_at(project_id, revision)
         project = Project(project.name, project.description, then.objects, project.extra_files)
-    if objects:
-        project = part_of(project, objects)
-    return download(write_zip(project), f"{project.name}.zip", "application/zip")
+    return download(write_zip(part.of(project)), f"{project.name}.zip", "application/zip")
 
 
 def download(content: bytes, filename: str, media_type: str) -> Response:

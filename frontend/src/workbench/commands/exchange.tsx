@@ -14,6 +14,10 @@ import { mayEdit } from '../rights';
 import { leaveProject } from './file';
 import { showInTree } from './project';
 
+function objectsOf(projectId: string): readonly ObjectSummary[] {
+  return queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+}
+
 const commands: Command[] = [
   {
     id: 'file.import',
@@ -23,7 +27,7 @@ const commands: Command[] = [
     enabled: mayEdit,
     run: async (context) => {
       const projectId = context.projectId!;
-      const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+      const objects = objectsOf(projectId);
       await openDialog((close) => (
         <ImportDialog
           target={{
@@ -57,6 +61,7 @@ const commands: Command[] = [
         <ExportDialog
           projectId={context.projectId!}
           projectName={useProject.getState().projectName}
+          objects={objectsOf(context.projectId!)}
           selection={context.selection}
           close={() => close()}
         />
@@ -72,11 +77,12 @@ const commands: Command[] = [
     run: async (context) => {
       if (!(await saveEditors(context.dirtyPanels))) return;
       const { PrintDialog } = await import('../documentation/PrintDialog');
-      const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(context.projectId!)) ?? [];
+      const objects = objectsOf(context.projectId!);
       await openDialog((close) => (
         <PrintDialog
           projectId={context.projectId!}
           projectName={useProject.getState().projectName}
+          objects={objects}
           selection={context.selection}
           current={objects.find(({ id }) => id === context.activeEditor?.objectId) ?? null}
           close={() => close()}

@@ -6,6 +6,7 @@ import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
 import { FormDialog } from '@/ui/FormDialog';
 import { guard } from '@/ui/notices';
 import { saveBlob } from '../downloadFile';
+import { usePart } from '../exchange/usePart';
 
 const FORMATS = ['pdf', 'html'] as const;
 const PAPERS = ['a4', 'us-letter'] as const;
@@ -13,21 +14,21 @@ const LANGUAGES = [
   { value: 'en', text: 'English' },
   { value: 'zh', text: '中文' },
 ] as const;
-type Scope = 'whole' | 'selection' | 'editor';
 
 interface PrintDialogProps {
   projectId: string;
   projectName: string;
+  objects: readonly ObjectSummary[];
   selection: readonly ObjectSummary[];
   /** The object of the editor in front. */
   current: ObjectSummary | null;
   close: () => void;
 }
 
-/** The project, what is selected of it, or the object in the editor, as PDF or HTML to be printed. */
-export function PrintDialog({ projectId, projectName, selection, current, close }: PrintDialogProps) {
+/** The project, or objects of it, as PDF or HTML to be printed. */
+export function PrintDialog({ projectId, projectName, objects, selection, current, close }: PrintDialogProps) {
   const t = useText();
-  const [scope, setScope] = useState<Scope>('whole');
+  const part = usePart({ projectName, objects, selection, current });
   const [format, setFormat] = useState<(typeof FORMATS)[number]>('pdf');
   const [paper, setPaper] = useState<(typeof PAPERS)[number]>('a4');
   const [words, setWords] = useState<'en' | 'zh'>(language());
@@ -36,7 +37,6 @@ export function PrintDialog({ projectId, projectName, selection, current, close 
   const [variables, setVariables] = useState(true);
   const [cross, setCross] = useState(false);
   const [busy, setBusy] = useState(false);
-  const objects = scope === 'selection' ? selection : scope === 'editor' && current ? [current] : [];
 
   const print = async () => {
     setBusy(true);
@@ -48,7 +48,7 @@ export function PrintDialog({ projectId, projectName, selection, current, close 
             format,
             paper,
             language: words,
-            object: objects.map(({ id }) => id),
+            ...part.request,
             contents,
             variables,
             cross_references: cross,
@@ -56,7 +56,7 @@ export function PrintDialog({ projectId, projectName, selection, current, close 
           },
         },
       });
-      saveBlob(blob, `${objects.length === 1 ? objects[0]!.name : projectName}.${format}`);
+      saveBlob(blob, `${part.name}.${format}`);
       return true;
     });
     setBusy(false);
@@ -68,34 +68,12 @@ export function PrintDialog({ projectId, projectName, selection, current, close 
       title={t('command.print')}
       width={480}
       action={t('print.make')}
-      disabledReason={busy ? t('reason.busy') : null}
+      disabledReason={busy ? t('reason.busy') : part.reason}
+      aside={part.count}
       onClose={close}
       onSubmit={() => void print()}
     >
-      <Field label={t('exchange.scope')}>
-        {(attributes) => (
-          <Select
-            {...attributes}
-            value={scope}
-            choices={[
-              { value: 'whole', text: t('exchange.wholeProject') },
-              {
-                value: 'selection',
-                text: selection.length
-                  ? t('exchange.selection', { names: selection.map(({ name }) => name).join(', ') })
-                  : t('exchange.noSelection'),
-                disabled: selection.length === 0,
-              },
-              {
-                value: 'editor',
-                text: current ? t('print.editor', { name: current.name }) : t('print.noEditor'),
-                disabled: current === null,
-              },
-            ]}
-            onValue={setScope}
-          />
-        )}
-      </Field>
+      {part.field}
       <Field label={t('exchange.format')} hint={t(`print.${format}.hint`)}>
         {(attributes) => (
           <Select

@@ -6,6 +6,7 @@ import { saveBlob } from '../downloadFile';
 import { guard } from '@/ui/notices';
 import { FormDialog } from '@/ui/FormDialog';
 import { Field, Select } from '@/ui/Field';
+import { usePart } from './usePart';
 
 const FORMATS = ['archive', 'plcopen', 'st'] as const;
 type Format = (typeof FORMATS)[number];
@@ -18,23 +19,21 @@ const PATHS = {
 interface ExportDialogProps {
   projectId: string;
   projectName: string;
+  objects: readonly ObjectSummary[];
   selection: readonly ObjectSummary[];
   close: () => void;
 }
 
-/** The project, or what is selected of it with all below, as our archive, PLCopen XML or ST. */
-export function ExportDialog({ projectId, projectName, selection, close }: ExportDialogProps) {
+/** The project, or objects of it, as our archive, PLCopen XML or ST. */
+export function ExportDialog({ projectId, projectName, objects, selection, close }: ExportDialogProps) {
   const t = useText();
   const [format, setFormat] = useState<Format>('archive');
-  const [scope, setScope] = useState<'whole' | 'selection'>('whole');
+  const part = usePart({ projectName, objects, selection });
   const save = async () => {
-    const objects = scope === 'selection' ? selection : [];
-    const single = objects.length === 1 ? objects[0] : undefined;
-    const name = single?.name ?? projectName;
     const done = await guard(async () => {
-      const params = { path: { project_id: projectId }, query: { object: objects.map(({ id }) => id) } };
+      const params = { path: { project_id: projectId }, query: part.request };
       const blob = await api.download(PATHS[format], { params });
-      saveBlob(blob, `${name}.${endingOf(format, blob.type)}`);
+      saveBlob(blob, `${part.name}.${endingOf(format, blob.type)}`);
       return true;
     });
     if (done) close();
@@ -42,7 +41,9 @@ export function ExportDialog({ projectId, projectName, selection, close }: Expor
   return (
     <FormDialog
       title={t('command.export')}
-      width={440}
+      width={480}
+      disabledReason={part.reason}
+      aside={part.count}
       onClose={close}
       onSubmit={() => void save()}
       action={t('exchange.export')}
@@ -57,25 +58,7 @@ export function ExportDialog({ projectId, projectName, selection, close }: Expor
           />
         )}
       </Field>
-      <Field label={t('exchange.scope')}>
-        {(attributes) => (
-          <Select
-            {...attributes}
-            value={scope}
-            choices={[
-              { value: 'whole', text: t('exchange.wholeProject') },
-              {
-                value: 'selection',
-                text: selection.length
-                  ? t('exchange.selection', { names: selection.map(({ name }) => name).join(', ') })
-                  : t('exchange.noSelection'),
-                disabled: selection.length === 0,
-              },
-            ]}
-            onValue={setScope}
-          />
-        )}
-      </Field>
+      {part.field}
     </FormDialog>
   );
 }

@@ -3,7 +3,6 @@ import { api, isCancelled } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ImportEntry, ObjectSummary, Schemas } from '@/api/types';
 import { useText } from '@/i18n';
-import { FilterInput } from '@/ui/Filter';
 import { notifyError } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
@@ -13,7 +12,6 @@ import { Field, Select, TextInput } from '@/ui/Field';
 import { filesToSend, type NamedFile } from './dropped';
 import styles from './Exchange.module.css';
 import { FilesStep } from './FilesStep';
-import { ImportTree } from './ImportTree';
 import { compareImport } from './comparison';
 import {
   decisionsOf,
@@ -25,7 +23,9 @@ import {
   type ExistingRow,
 } from './existing';
 import { ExistingTable } from './ExistingTable';
-import { nodeForest, placesOf, proposedPlace } from './model';
+import { placesOf, placeText, proposedPlace } from './model';
+import { ObjectChoice } from './ObjectChoice';
+import { nodeForest } from './choice';
 import { ReportView } from './ReportView';
 
 /** The project that an import may go into. */
@@ -64,7 +64,6 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
   const [step, setStep] = useState<Step>({ at: 'files' });
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
   const [choices, setChoices] = useState(NOTHING_CHOSEN);
-  const [search, setSearch] = useState('');
   const [abort, setAbort] = useState<AbortController | null>(null);
   const forest = useMemo(() => nodeForest(step.at === 'choose' ? step.preview.nodes : []), [step]);
   const here = into === 'here' ? target : null;
@@ -194,19 +193,14 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
           </>
         }
       >
-        <div className={styles.buttons}>
-          <FilterInput
-            className={styles.filter}
-            label={t('exchange.searchObjects')}
-            value={search}
-            onValue={setSearch}
-          />
-          <Button onClick={() => setChosen(new Set(found.nodes.map((node) => node.key)))}>{t('exchange.all')}</Button>
-          <Button onClick={() => setChosen(new Set())}>{t('exchange.none')}</Button>
-        </div>
-        <div className={existing.length > 0 ? styles.short : undefined}>
-          <ImportTree forest={forest} chosen={chosen} search={search} change={setChosen} />
-        </div>
+        <ObjectChoice
+          label={t('exchange.contents')}
+          forest={forest}
+          chosen={chosen}
+          change={setChosen}
+          tooltipOf={placeText}
+          short={existing.length > 0}
+        />
         {existing.length > 0 && (
           <ExistingTable
             rows={existing}

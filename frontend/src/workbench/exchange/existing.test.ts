@@ -9,7 +9,7 @@ import {
   wrongNames,
   type Choices,
 } from './existing';
-import { nodeForest } from './model';
+import { nodeForest } from './choice';
 
 type Existing = NonNullable<ImportNode['existing']>;
 

@@ -1,6 +1,6 @@
 /** Objects of an import whose names exist already: what becomes of each. Pure functions. */
 import type { ImportEntry, ImportNode } from '@/api/types';
-import type { NodeForest } from './model';
+import type { NodeForest } from './choice';
 
 export type ExistingAct = NonNullable<ImportNode['existing']>['acts'][number];
 export const ACTS = ['rename', 'overwrite', 'merge', 'skip'] as const satisfies readonly ExistingAct[];
@@ -38,7 +38,11 @@ export interface ExistingRow {
  * The objects to decide on, those below another one behind it. What is below an object that comes in under another name
  * exists nowhere; what is below one that was decided on follows it.
  */
-export function existingRows(forest: NodeForest, chosen: ReadonlySet<string>, choices: Choices): ExistingRow[] {
+export function existingRows(
+  forest: NodeForest<ImportNode>,
+  chosen: ReadonlySet<string>,
+  choices: Choices,
+): ExistingRow[] {
   const rows: ExistingRow[] = [];
   const visit = (parent: string | null, given: ExistingAct | null) => {
     for (const node of forest.children.get(parent) ?? []) {

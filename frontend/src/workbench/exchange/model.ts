@@ -1,88 +1,7 @@
-/** Imports and exports as data: the tree to choose from, places, the report. Pure functions. */
+/** Imports as data: places, the report, the files to read. Pure functions. */
 import { hasRole } from '@/project/kinds';
-import type { ImportEntry, ImportFormats, ImportNode, ObjectSummary } from '@/api/types';
-import type { Checked } from '@/ui/ChoiceBox';
+import type { ImportEntry, ImportFormats, ObjectSummary } from '@/api/types';
 import { childrenOf, forestOf, lineage, type Forest } from '@/project/tree';
-
-export interface NodeForest {
-  nodes: readonly ImportNode[];
-  children: ReadonlyMap<string | null, readonly ImportNode[]>;
-}
-
-export function nodeForest(nodes: readonly ImportNode[]): NodeForest {
-  const children = new Map<string | null, ImportNode[]>();
-  for (const node of nodes) {
-    const list = children.get(node.parent);
-    if (list) list.push(node);
-    else children.set(node.parent, [node]);
-  }
-  return { nodes, children };
-}
-
-function below(forest: NodeForest, key: string): ImportNode[] {
-  const found: ImportNode[] = [];
-  const waiting = [...(forest.children.get(key) ?? [])];
-  for (let node = waiting.shift(); node; node = waiting.shift()) {
-    found.push(node);
-    waiting.push(...(forest.children.get(node.key) ?? []));
-  }
-  return found;
-}
-
-/** The choice after a click on the box of a node: all of it, or none when all was chosen. */
-export function toggled(forest: NodeForest, chosen: ReadonlySet<string>, key: string): ReadonlySet<string> {
-  const keys = [key, ...below(forest, key).map((node) => node.key)];
-  const next = new Set(chosen);
-  const all = keys.every((one) => chosen.has(one));
-  for (const one of keys) {
-    if (all) next.delete(one);
-    else next.add(one);
-  }
-  return next;
-}
-
-/** How the box of each node looks: itself with all below it, something of it, nothing. */
-export function checkedOf(forest: NodeForest, chosen: ReadonlySet<string>): ReadonlyMap<string, Checked> {
-  const state = new Map<string, Checked>();
-  for (const node of [...forest.nodes].reverse()) {
-    const states = (forest.children.get(node.key) ?? []).map((child) => state.get(child.key));
-    if (chosen.has(node.key)) state.set(node.key, states.every((one) => one === 'all') ? 'all' : 'some');
-    else state.set(node.key, states.some((one) => one !== 'none') ? 'some' : 'none');
-  }
-  return state;
-}
-
-export interface NodeRow {
-  node: ImportNode;
-  level: number;
-  expandable: boolean;
-  expanded: boolean;
-}
-
-/** Rows to draw; with a search the nodes that match, and what they stand in. */
-export function nodeRows(forest: NodeForest, closed: ReadonlySet<string>, search: string): NodeRow[] {
-  const text = search.trim().toLowerCase();
-  const shown = text ? new Set<string>() : null;
-  if (shown) {
-    const parents = new Map(forest.nodes.map((node) => [node.key, node.parent]));
-    for (const node of forest.nodes) {
-      if (!node.name.toLowerCase().includes(text)) continue;
-      for (let key: string | null | undefined = node.key; key; key = parents.get(key)) shown.add(key);
-    }
-  }
-  const rows: NodeRow[] = [];
-  const visit = (parent: string | null, level: number) => {
-    for (const node of forest.children.get(parent) ?? []) {
-      if (shown && !shown.has(node.key)) continue;
-      const expandable = forest.children.has(node.key);
-      const expanded = expandable && (shown !== null || !closed.has(node.key));
-      rows.push({ node, level, expandable, expanded });
-      if (expanded) visit(node.key, level + 1);
-    }
-  };
-  visit(null, 1);
-  return rows;
-}
 
 export interface Place {
   /** Id of the object, or `pous` for the POUs view. */
@@ -151,7 +70,7 @@ export function countOutcomes(entries: readonly ImportEntry[]): Record<Outcome, 
   return count;
 }
 
-export function placeText(entry: ImportEntry): string {
+export function placeText(entry: Pick<ImportEntry, 'source' | 'line'>): string {
   return entry.line == null ? entry.source : `${entry.source}:${entry.line}`;
 }
 
