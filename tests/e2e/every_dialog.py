@@ -364,11 +364,13 @@ def online(ui: Ui, server: Server) -> Iterator[str]:
     ui.command("command.logout")
     fetch(page, server, "POST", "/runtimes", data=NO_RUNTIME)
     device = _change(page, server, "Tappet Soft PLC", {"runtime_id": "gone", "simulated": False})
+    page.reload()  # else the page may log in before it hears of the change
     tree_item(page, "PLC_PRG").click()
     page.keyboard.press("Alt+F8")
     yield "runtime.choose"
     _forget_runtimes(page, server)
     _change(page, server, device["name"], {"runtime_id": "local"})
+    page.reload()
     for old, new, title in (
         ("xStarted := TRUE;", "xStarted := TRUE AND TRUE;", "login.title"),
         ("xStarted := TRUE AND TRUE;", "xStarted := ;", "login.buildErrors"),
