@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { ObjectSummary } from '@/api/types';
+import { objectSample } from '../../../tests/objectSample';
 import {
   checkedOf,
   nodeForest,
@@ -62,23 +62,13 @@ describe('the tree to choose from', () => {
   });
 });
 
-const object = (id: string, kind: string, parent_id: string | null, index: number): ObjectSummary => ({
-  id,
-  kind,
-  parent_id,
-  name: id.toUpperCase(),
-  subkind: null,
-  index,
-  revision: 1,
-  excluded: false,
-});
 const objects = [
-  object('shared', 'folder', null, 0),
-  object('plc', 'device', null, 1),
-  object('b', 'pou', 'app', 1),
-  object('a', 'pou', 'app', 0),
-  object('app', 'application', 'plc', 0),
-  object('m', 'method', 'a', 0),
+  objectSample('shared', 'folder', null, 0),
+  objectSample('plc', 'device', null, 1),
+  objectSample('b', 'pou', 'app', 1),
+  objectSample('a', 'pou', 'app', 0),
+  objectSample('app', 'application', 'plc', 0),
+  objectSample('m', 'method', 'a', 0),
 ];
 
 describe('a choice of objects of a project', () => {

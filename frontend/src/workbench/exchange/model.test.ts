@@ -1,25 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import type { ImportEntry, ObjectSummary } from '@/api/types';
+import type { ImportEntry } from '@/api/types';
+import { objectSample } from '../../../tests/objectSample';
 import { countOutcomes, placesOf, proposedPlace, readable, reportText, shownEntries } from './model';
 
-const object = (id: string, kind: string, parent_id: string | null, index = 0): ObjectSummary => ({
-  id,
-  kind,
-  parent_id,
-  name: id.toUpperCase(),
-  subkind: null,
-  index,
-  revision: 1,
-  excluded: false,
-});
 const objects = [
-  object('plc', 'device', null),
-  object('logic', 'plc_logic', 'plc'),
-  object('app', 'application', 'logic'),
-  object('pumps', 'folder', 'app'),
-  object('fb', 'pou', 'pumps'),
-  object('shared', 'folder', null),
-  object('f', 'pou', null, 1),
+  objectSample('plc', 'device', null),
+  objectSample('logic', 'plc_logic', 'plc'),
+  objectSample('app', 'application', 'logic'),
+  objectSample('pumps', 'folder', 'app'),
+  objectSample('fb', 'pou', 'pumps'),
+  objectSample('shared', 'folder', null),
+  objectSample('f', 'pou', null, 1),
 ];
 
 describe('places of an import', () => {
