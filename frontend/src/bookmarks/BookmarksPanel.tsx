@@ -8,6 +8,7 @@ import { IconButton } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
 import { FilterInput } from '@/ui/Filter';
 import { Panel, PanelBar, PanelRest } from '@/ui/Panel';
+import { placeColumns } from '@/ui/placeColumns';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
 import { findCommand } from '@/workbench/commands';
@@ -39,29 +40,7 @@ export default function BookmarksPanel() {
   const shown = rows.filter(({ path, text }) => `${path} ${text}`.toLowerCase().includes(wanted));
   const columns = useMemo(
     (): Column<Row>[] => [
-      {
-        id: 'object',
-        title: t('messages.object'),
-        width: 260,
-        sort: (row) => row.path,
-        hint: (row) => row.path,
-        cell: (row) => <Path path={row.path} />,
-      },
-      {
-        id: 'part',
-        title: t('crossReferences.part'),
-        width: 120,
-        sort: (row) => row.part,
-        cell: (row) => <span>{t(`doc.part.${row.part}`)}</span>,
-      },
-      {
-        id: 'line',
-        title: t('crossReferences.line'),
-        width: 60,
-        align: 'right',
-        sort: (row) => row.line,
-        cell: (row) => <span className="digits">{row.line}</span>,
-      },
+      ...placeColumns<Row>(t),
       {
         id: 'text',
         title: t('crossReferences.text'),
@@ -129,15 +108,5 @@ export default function BookmarksPanel() {
         />
       </PanelRest>
     </Panel>
-  );
-}
-
-function Path({ path }: { path: string }) {
-  const dot = path.lastIndexOf('.');
-  return (
-    <span>
-      {path.slice(dot + 1)}
-      {dot > 0 && <span className={styles.muted}> [{path.slice(0, dot)}]</span>}
-    </span>
   );
 }

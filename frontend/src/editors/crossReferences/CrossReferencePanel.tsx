@@ -12,6 +12,7 @@ import { Empty } from '@/ui/Empty';
 import { TextInput } from '@/ui/Field';
 import { FilterInput, FilterToggles } from '@/ui/Filter';
 import { Panel, PanelBar, PanelRest } from '@/ui/Panel';
+import { placeColumns } from '@/ui/placeColumns';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
 import styles from './CrossReferencePanel.module.css';
@@ -60,37 +61,7 @@ export default function CrossReferencePanel() {
         sort: (row) => ACCESSES.indexOf(row.access),
         cell: (row) => <span className={styles[row.access]}>{t(`crossReferences.${row.access}`)}</span>,
       },
-      {
-        id: 'object',
-        title: t('messages.object'),
-        width: 240,
-        sort: (row) => row.path,
-        hint: (row) => row.path,
-        cell: (row) => {
-          const dot = row.path.lastIndexOf('.');
-          return (
-            <span>
-              {row.path.slice(dot + 1)}
-              {dot > 0 && <span className={styles.muted}> [{row.path.slice(0, dot)}]</span>}
-            </span>
-          );
-        },
-      },
-      {
-        id: 'part',
-        title: t('crossReferences.part'),
-        width: 120,
-        sort: (row) => row.part,
-        cell: (row) => <span>{t(`doc.part.${row.part}`)}</span>,
-      },
-      {
-        id: 'line',
-        title: t('crossReferences.line'),
-        width: 60,
-        align: 'right',
-        sort: (row) => row.line,
-        cell: (row) => <span className="digits">{row.line}</span>,
-      },
+      ...placeColumns<Row>(t),
       {
         id: 'text',
         title: t('crossReferences.text'),
