@@ -14,7 +14,6 @@ from pathlib import Path
 
 from tappet.codegen.generate import Generated, GenerateOptions, Generator
 from tappet.codegen.identity import program_digest, text_digest
-from tappet.codegen.layout import ImageTooLargeError
 from tappet.codegen.object_cache import ObjectCache
 from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.codegen.tasks import default_tasks, task_specs
@@ -22,6 +21,7 @@ from tappet.core.edits.edit import Edit
 from tappet.core.internal_error import At, InternalError, reason_of
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
 from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
+from tappet.iec.memory import ImageTooLargeError
 from tappet.iec.source import source_maps
 from tappet.iec.task import Task
 from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
@@ -245,7 +245,11 @@ class _Build:
             span = error.span if isinstance(error.span, Span) else NOWHERE
             result.diagnostics.append(report("E0901", error.uri, span, message=error.message))
         except ImageTooLargeError as error:
-            result.diagnostics.append(report("E0901", "", NOWHERE, message=str(error)))
+            from tappet.core.lower import data_owners, size_of
+
+            largest = max(data_owners(analysis), key=size_of)
+            uri = largest.source.uri if largest.source is not None else ""
+            result.diagnostics.append(report("E0901", uri, largest.span or NOWHERE, message=str(error)))
         except InternalError as error:
             self.failed(error)
         except Exception as error:

@@ -6,8 +6,9 @@ import hashlib
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 
-from tappet.codegen.package import MAX_IMAGE, DataObject
+from tappet.codegen.package import DataObject
 from tappet.core.program import OBJECT_ALIGN
+from tappet.iec.memory import check_image_size
 from tappet.lang import types as t
 
 
@@ -20,10 +21,6 @@ class Wanted:
     extent: int
     """Bytes that code may take it for: as many are there."""
     signature: str
-
-
-class ImageTooLargeError(ValueError):
-    """The data do not fit the largest image."""
 
 
 @dataclass(slots=True)
@@ -59,8 +56,7 @@ def place(
         if item.symbol not in objects:
             objects[item.symbol] = DataObject(gaps.take(item.size), item.size)
     size = max((_aligned(objects[i.symbol].offset + i.extent) for i in items), default=0)
-    if size > MAX_IMAGE:
-        raise ImageTooLargeError(f"the data need {size} bytes; the image holds {MAX_IMAGE}")
+    check_image_size(size)
     digest = hashlib.blake2b(digest_size=12)
     for item in sorted(items, key=lambda i: i.symbol):
         digest.update(f"{item.symbol}@{objects[item.symbol].offset}:{item.signature};".encode())

@@ -15,13 +15,12 @@ from msgspec import Meta, Struct, field
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbol_types import Bit
 from tappet.iec.heap import DEFAULT_HEAP
+from tappet.iec.memory import MAX_IMAGE
 from tappet.iec.places import SourceMap
 from tappet.iec.task import Watchdog
 
 MAGIC = b"TAPPET-PKG"
 VERSION = 3
-MAX_IMAGE = 1 << 30
-"""Largest accepted memory image in bytes; the image has to lie below 2 GiB."""
 MAX_PACKAGE = 1 << 30
 """Largest accepted serialised package in bytes."""
 

@@ -32,6 +32,7 @@ from tappet.core.program import AREA_PREFIX, OBJECT_ALIGN, Program, attribute_va
 from tappet.core.relations import relate
 from tappet.core.scalars import scalar_of
 from tappet.core.statements import lower_statements
+from tappet.iec.memory import STACK_SIZE, check_image_size
 from tappet.iec.task import Task
 from tappet.lang import ast
 from tappet.lang import types as t
@@ -130,9 +131,11 @@ def work_off(program: Program) -> None:
 
 
 def data_objects(program: Program) -> list[DataObject]:
-    """All lists and programs: lists first (LDEC-43)."""
+    """All lists and programs: lists first (LDEC-43). Raises ImageTooLargeError."""
     found: list[DataObject] = []
-    for owner in data_owners(program.analysis):
+    owners = data_owners(program.analysis)
+    check_image_size(sum(size_of(owner) for owner in owners))
+    for owner in owners:
         item = DataObject(data_symbol(owner), 0, templates.Template(bytearray()), owner)
         fill_data_object(program, item)
         found.append(item)
@@ -147,8 +150,17 @@ def data_owners(analysis: Analysis) -> list[GvlSymbol | PouSymbol]:
     return [*analysis.gvls, *programs]
 
 
+def size_of(owner: GvlSymbol | PouSymbol) -> int:
+    """Bytes of a data object."""
+    if isinstance(owner, GvlSymbol):
+        return owner.size
+    assert owner.instance is not None
+    return owner.instance.size
+
+
 def fill_data_object(program: Program, item: DataObject) -> None:
-    """Size and initial values of a data object."""
+    """Size and initial values of a data object. Raises ImageTooLargeError, and takes no memory then."""
+    check_image_size(size_of(item.owner))
     with working_on("initial values", lambda: _owner_at(item.owner)):
         _fill(program, item)
 
@@ -163,11 +175,12 @@ def _owner_at(owner: GvlSymbol | PouSymbol) -> At:
 
 def _fill(program: Program, item: DataObject) -> None:
     initialiser, owner = templates.initialiser_of(program), item.owner
+    item.size = size_of(owner)
     if isinstance(owner, PouSymbol):
         assert owner.instance is not None
-        item.size, item.template = owner.instance.size, initialiser.of_type(owner.instance)
+        item.template = initialiser.of_type(owner.instance)
     else:
-        item.size, item.template = owner.size, templates.Template(bytearray(owner.size))
+        item.template = templates.Template(bytearray(item.size))
         for member in owner.members.values():
             _variable(initialiser, item.template, member)
     program.module.data[item.symbol] = (extent(item.size), OBJECT_ALIGN)
@@ -430,6 +443,7 @@ def _input_copies(b: Body) -> list[ir.Stmt]:
 def _locals(b: Body, pou: PouSymbol) -> None:
     """Variables on the stack: all of functions and methods, VAR_TEMP of the others."""
     assert pou.pou is not None
+    size = 0
     for block in pou.pou.blocks:
         for decl in block.variables:
             variable = decl.symbol
@@ -438,6 +452,10 @@ def _locals(b: Body, pou: PouSymbol) -> None:
             storage = variable.home if variable.storage is Storage.CONSTANT else variable.storage
             if storage is not Storage.LOCAL or variable.type is None:
                 continue
+            size += variable.type.size
+            if size > STACK_SIZE:
+                need = f"the local variables of '{pou.name}' need {size} bytes"
+                raise b.error(f"{need}; the stack holds {STACK_SIZE}", decl)
             local = b.local(variable.name, variable.type)
             b.places[id(variable)] = ir.Place(local)
             b.line(decl)

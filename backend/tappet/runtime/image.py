@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from tappet.codegen.package import MAX_IMAGE
+from tappet.iec.memory import MAX_IMAGE
 from tappet.runtime.posix import Mapping, map_memory, pages, read_memory, write_memory
 
 _LEAST_GROWTH, _MOST_GROWTH = 1 << 20, 64 << 20

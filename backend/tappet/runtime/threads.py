@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from tappet.iec.memory import STACK_SIZE
 from tappet.runtime.executive.records import Record
 from tappet.runtime.posix import (
     PAGE,
@@ -19,7 +20,6 @@ from tappet.runtime.posix import (
     symbol_address,
 )
 
-STACK_SIZE = 1 << 20
 GUARD_SIZE = 1 << 20
 """Large, because a function with a big frame may jump over a single guard page."""
 SIGNAL_STACK_SIZE = 64 << 10
