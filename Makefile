@@ -6,6 +6,9 @@ BIN    := $(VENV)/bin
 PORT   ?= 8080
 DATA   ?= data
 
+# Python keeps what it has compiled: the tests start many processes.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := run
 .PHONY: run test test-all test-frontend fuzz check check-backend check-frontend check-types format lock system generate pictures clean
 
@@ -25,14 +28,14 @@ BROWSERS := -n 2 --dist worksteal
 ## test: all fast tests, those in a real browser included
 test:
 	@$(BESIDE) system $(CHECKS) test-frontend frontend/dist/.ready
-	$(BIN)/python -m pytest -m "not slow and not e2e" $(PARALLEL)
-	$(BIN)/python -m pytest -m "not slow and e2e" $(BROWSERS)
+	$(BIN)/python -m pytest --ignore tests/e2e -m "not slow" $(PARALLEL)
+	$(BIN)/python -m pytest tests/e2e -m "not slow" $(BROWSERS)
 
 ## test-all: the slow suites as well
 test-all:
 	@$(BESIDE) system $(CHECKS) test-frontend frontend/dist/.ready
-	$(BIN)/python -m pytest -m "not e2e" $(PARALLEL)
-	$(BIN)/python -m pytest -m e2e $(BROWSERS)
+	$(BIN)/python -m pytest --ignore tests/e2e $(PARALLEL)
+	$(BIN)/python -m pytest tests/e2e $(BROWSERS)
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
 FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \
