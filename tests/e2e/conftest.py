@@ -21,6 +21,7 @@ from playwright.sync_api import (
     Browser,
     BrowserContext,
     Page,
+    Playwright,
     ViewportSize,
     expect,
     sync_playwright,
@@ -52,10 +53,12 @@ TRIES_AGAIN = 2
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Every test of this folder may be repeated."""
+    """Tests of this folder may be repeated, and come last: beside a browser no asynchronous test can run."""
+    here = Path(__file__).parent
     for item in items:
-        if item.path.is_relative_to(Path(__file__).parent):
+        if item.path.is_relative_to(here):
             item.add_marker(pytest.mark.flaky(reruns=TRIES_AGAIN))
+    items.sort(key=lambda item: item.path.is_relative_to(here))
 
 
 FAILED = pytest.StashKey[bool]()
@@ -137,19 +140,29 @@ def as_delivered(request: APIRequestContext, address: str) -> None:
     )
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """Chromium without a window. It ends with its module: while it is there, no asynchronous test can run."""
+@pytest.fixture(scope="session")
+def playwright() -> Iterator[Playwright]:
+    """What drives browsers: there can be one in a process."""
+    with sync_playwright() as started:
+        yield started
+
+
+@contextmanager
+def launched(playwright: Playwright, flags: list[str]) -> Iterator[Browser]:
+    """Chromium without a window."""
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
     if found is None:
         pytest.fail("Chromium is missing; `make system` installs it")
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=found,
-            args=CHROMIUM_FLAGS,
-        )
+    chromium = playwright.chromium.launch(executable_path=found, args=flags)
+    yield chromium
+    chromium.close()
+
+
+@pytest.fixture(scope="session")
+def browser(playwright: Playwright) -> Iterator[Browser]:
+    """The browser of all tests."""
+    with launched(playwright, CHROMIUM_FLAGS) as chromium:
         yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="session")
@@ -215,9 +228,9 @@ def start_page(profile: BrowserContext, server: Server) -> Iterator[Page]:
     opened.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def profile(browser: Browser) -> Iterator[BrowserContext]:
-    """One for all tests of a module: what is kept of it is the cache of the workbench's code."""
+    """One for all tests: what is kept of it is the cache of the workbench's code."""
     with new_profile(browser) as fresh:
         yield fresh
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,13 +15,14 @@ import pytest
 from playwright.sync_api import (
     APIRequestContext,
     Browser,
+    BrowserContext,
     Page,
+    Playwright,
     WebSocket,
     expect,
-    sync_playwright,
 )
 
-from .conftest import BROWSERS, CHROMIUM_FLAGS, Server
+from .conftest import CHROMIUM_FLAGS, Server, launched, new_profile
 from .main_thread import PAINTED, SECONDS, Load, PlainTable, compare_scrolling
 from .workbench import implementation, log_in, open_object, open_panel, open_project
 
@@ -80,16 +80,17 @@ ADDED = {"SmallIl": "IL", "LargeSt": "ST", "AnotherSt": "ST"}
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
+def browser(playwright: Playwright) -> Iterator[Browser]:
     """Chromium with its optimising compilers, which the other tests switch off."""
-    found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if found is None:
-        pytest.fail("Chromium is missing; `make system` installs it")
     flags = [flag for flag in CHROMIUM_FLAGS if not flag.startswith("--js-flags")]
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=found, args=flags)
+    with launched(playwright, flags) as chromium:
         yield chromium
-        chromium.close()
+
+
+@pytest.fixture(scope="module")
+def profile(browser: Browser) -> Iterator[BrowserContext]:
+    with new_profile(browser) as fresh:
+        yield fresh
 
 
 class Subscriptions:

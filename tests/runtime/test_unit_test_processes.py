@@ -38,7 +38,7 @@ def order_of(text: str, limits: TestLimits) -> bytes:
 @pytest.fixture(scope="module")
 def deadly() -> Report:
     (application,) = applications([FOLDER / "deadly.st"])
-    limits = TestLimits(cycle_s=20.0, memory_mib=128)
+    limits = TestLimits(cycle_s=5.0, memory_mib=128)
     libraries = application.options.libraries
     return run_in_process(
         order(application.name, application.sources, application.tasks, libraries, limits=limits)
