@@ -9,6 +9,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from sampled import sampled
 from tests.spec.language_cases import load_cases, sources_of
 
 from tappet.bench.large_library import install
@@ -72,13 +73,13 @@ def library_texts(references: Sequence[LibraryReference]) -> list[Source]:
     return [source for library in resolve(references)[0] for source in library.sources]
 
 
-@pytest.mark.parametrize("path", CONFORMANCE, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sampled(CONFORMANCE, 3), ids=lambda path: path.stem)
 def test_conformance_programs(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile_pool, "Compilation", lambda *given, **options: _NoMachineCode())
     compare([Source(path.name, path.read_text(encoding="utf-8"))])
 
 
-@pytest.mark.parametrize("number", CHOSEN)
+@pytest.mark.parametrize("number", sampled(CHOSEN, 3))
 def test_language_examples(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile_pool, "Compilation", lambda *given, **options: _NoMachineCode())
     compare(sources_of(CASES[number]))

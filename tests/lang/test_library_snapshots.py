@@ -8,6 +8,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from sampled import sampled
 from tests.spec.language_cases import load_cases, sources_of
 
 from tappet import libraries as installed
@@ -89,12 +90,12 @@ def compare(sources: Sequence[Source]) -> None:
             assert code(mine) == code(other)
 
 
-@pytest.mark.parametrize("path", CONFORMANCE, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sampled(CONFORMANCE, 3), ids=lambda path: path.stem)
 def test_conformance_programs(path: Path) -> None:
     compare([Source(path.name, path.read_text(encoding="utf-8")), *PRODUCT])
 
 
-@pytest.mark.parametrize("number", CHOSEN)
+@pytest.mark.parametrize("number", sampled(CHOSEN, 3))
 def test_language_examples(number: int) -> None:
     compare([*sources_of(CASES[number]), *PRODUCT])
 

@@ -153,6 +153,8 @@ failed:
 }
 """
 """Fault trampoline, clock and guarded call; one application at a time per copy."""
+SUPPORT_OBJECT = compile_text(SUPPORT, OptimiseOptions(level=1))
+"""Made once, before a process for a case is forked."""
 
 _MAP_32BIT = 0x40
 _numbers = itertools.count()
@@ -200,7 +202,7 @@ class LoadedApplication:
         self._jit = llvm.create_lljit_compiler(self._machine, use_jit_link=True)
         llvm.load_library_permanently("libm.so.6")
         builder = llvm.JITLibraryBuilder().add_current_process()
-        builder.add_object_img(compile_text(SUPPORT, OptimiseOptions(level=1)))
+        builder.add_object_img(SUPPORT_OBJECT)
         for data in package.objects:
             builder.add_object_img(data)
         for symbol, place in package.data_objects.items():

@@ -230,8 +230,8 @@ async def test_what_waits_is_answered_when_the_analysis_ends(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("text", "limits", "reason"),
     [
-        ("HANG", Limits(4096, 8.0), "it took too long"),
-        ("SPIN", Limits(4096, 8.0), "it took too long"),
+        ("HANG", Limits(4096, 5.0), "it took too long"),
+        ("SPIN", Limits(4096, 5.0), "it took too long"),
         ("MEMORY", Limits(1024, 60.0), "more memory"),
     ],
 )

@@ -83,8 +83,8 @@ def resolve(package: CodePackage, path: str) -> VarRef:
         return package.symbols.resolve(path)
 
 
-def run(case: dict[str, Any]) -> Outcome:
-    result = build(case)
+def run(case: dict[str, Any], result: BuildResult) -> Outcome:
+    """What a built case does."""
     errors = [str(d) for d in result.diagnostics if d.severity == "error"]
     warnings = [str(d) for d in result.diagnostics if d.severity != "error"]
     if result.package is None:

@@ -22,7 +22,8 @@ def test_case(case: dict[str, Any]) -> None:
         assert line is not None
         assert "".join(line.split()) == "".join(expect["line"].split())
         return
-    outcome = run(case)
+    result = build(case)
+    outcome = run(case, result)
     if "error" in expect:
         if case.get("error_kind") in ("watchdog", "runtime_exception"):
             assert outcome.errors == []
@@ -35,7 +36,6 @@ def test_case(case: dict[str, Any]) -> None:
     assert outcome.fault is None
     if "warning" in expect:
         assert outcome.warnings, f"expected a warning: {expect['warning']}"
-    result = build(case)
     package = result.package
     assert package is not None
     if "symbols" in expect:
