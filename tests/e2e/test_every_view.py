@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Locator, expect
 
 from .axe import serious
 from .conftest import Server, new_profile, start_page
@@ -15,10 +15,12 @@ from .dialog_titles import dialog_titles
 from .every_dialog import TOURS, Tour
 from .every_editor import every_object, open_editors
 from .ui import Ui
+from .untranslated import still_english, words_of_project
 from .workbench import open_project
 
 pytestmark = pytest.mark.e2e
 
+LANGUAGES = ("en", "zh")
 THEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 DIALOGS = "[role=dialog]"
 FOLLOW_FOCUS = """() => {
@@ -48,9 +50,9 @@ SETTLE = """() => document.getAnimations()
 """Colours on the way from one theme to the other, or of a dialog that appears, are none of either."""
 
 
-def in_both_themes(page: Page, name: str, part: str) -> list[str]:
+def in_both_themes(ui: Ui, name: str, part: str) -> list[str]:
     """What axe finds in a part of the page in light colours and in dark ones."""
-    found = []
+    page, found = ui.page, []
     pictures = os.environ.get("TAPPET_VIEWS")
     for theme in THEMES:
         page.emulate_media(color_scheme=theme)
@@ -58,7 +60,7 @@ def in_both_themes(page: Page, name: str, part: str) -> list[str]:
         page.evaluate(SETTLE)
         found += [f"{name}, {theme}: {line}" for line in serious(page, part)]
         if pictures:
-            page.screenshot(path=Path(pictures) / f"{name.replace(' ', '-')}-{theme}.png")
+            page.screenshot(path=Path(pictures) / f"{name.replace(' ', '-')}-{ui.language}-{theme}.png")
     return found
 
 
@@ -80,18 +82,27 @@ def ways_out(ui: Ui, object_id: str) -> list[str]:
     return [*wrong, "Tab does not leave it"]
 
 
+def in_own_language(ui: Ui, server: Server, name: str) -> list[str]:
+    """What is shown in English where it should be Chinese."""
+    if ui.language == "en":
+        return []
+    return [f"{name}: {line}" for line in still_english(ui.page, words_of_project(ui.page, server))]
+
+
 @pytest.mark.slow
-def test_editors_of_all_kinds(browser: Browser, server: Server) -> None:
-    with new_profile(browser) as profile, start_page(profile, server) as page:
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_editors_of_all_kinds(browser: Browser, server: Server, language: str) -> None:
+    with new_profile(browser, language) as profile, start_page(profile, server) as page:
         objects = every_object(page, server)
         page.reload()
         open_project(page)
         page.keyboard.press("Control+m")  # Tab moves on in texts, too, as the status bar says
-        ui = Ui(page, "en")
+        ui = Ui(page, language)
         found = []
         for item, _panel in open_editors(ui, objects):
             found += [f"{item.shape}: {line}" for line in ways_out(ui, item.id)]
-            found += in_both_themes(page, item.shape, f"[data-panel-id*='{item.id}']")
+            found += in_both_themes(ui, item.shape, f"[data-panel-id*='{item.id}']")
+            found += in_own_language(ui, server, item.shape)
     assert found == [], "\n".join(found)
 
 
@@ -122,18 +133,20 @@ def leave(ui: Ui, dialogs: Locator) -> list[str]:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("tour", TOURS, ids=lambda tour: tour.name)
-def test_dialogs(browser: Browser, server: Server, tour: Tour) -> None:
-    with new_profile(browser) as profile, start_page(profile, server) as page:
+def test_dialogs(browser: Browser, server: Server, tour: Tour, language: str) -> None:
+    with new_profile(browser, language) as profile, start_page(profile, server) as page:
         open_project(page)
         page.evaluate(FOLLOW_FOCUS)
-        ui = Ui(page, "en")
+        ui = Ui(page, language)
         dialogs = page.locator(DIALOGS)
         found, opened = [], set()
         for key in tour.start(ui, server):
             expect(ui.dialog(key)).to_be_visible()
             expect(dialogs.locator("[aria-busy=true]")).to_have_count(0)
-            found += in_both_themes(page, key, DIALOGS)
+            found += in_both_themes(ui, key, DIALOGS)
+            found += in_own_language(ui, server, key)
             found += [f"{key}: {line}" for line in leave(ui, dialogs)]
             opened.add(key)
     assert found == [], "\n".join(found)

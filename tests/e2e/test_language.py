@@ -3,40 +3,17 @@
 from __future__ import annotations
 
 import re
-from functools import cache
 
 import pytest
 from playwright.sync_api import Page, expect
 
-from .api import example, fetch, write
+from .api import example, write
 from .conftest import Server
 from .ui import Ui, texts
+from .untranslated import still_chinese, still_english, words_of_project
 from .workbench import implementation, open_object, open_project
 
 pytestmark = pytest.mark.e2e
-
-CHINESE = re.compile(r"[\u3400-\u9fff]")
-WORD = re.compile(r"[A-Za-z][A-Za-z_]+")
-LANGUAGE_NAMES = {"English", "简体中文"}
-ALLOWED = frozenset({"Tappet", "local", "ms", "KB", "MB", "Ln", "Col", "PRG", "FB", "FUN", "IX", "QX"})
-"""Names, units and abbreviations that are the same in every language."""
-
-
-@cache
-def chinese_words() -> frozenset[str]:
-    """Latin words of the Chinese texts themselves: keys, languages, formats."""
-    return frozenset(word for text in texts("zh").values() for word in WORD.findall(text))
-
-
-def words_of_project(page: Page, server: Server) -> set[str]:
-    """Words of the program, of its comments and of the libraries, which are whatever their authors wrote."""
-    project = example(page, server)
-    found = str(fetch(page, server, "GET", project))
-    for item in fetch(page, server, "GET", f"{project}/objects"):
-        found += str(fetch(page, server, "GET", f"{project}/objects/{item['id']}"))
-    found += str(fetch(page, server, "GET", "/libraries"))
-    found += str(fetch(page, server, "GET", "/runtimes"))
-    return set(WORD.findall(found))
 
 
 def switch(page: Page, before: str, after: str) -> None:
@@ -47,31 +24,6 @@ def switch(page: Page, before: str, after: str) -> None:
     page.get_by_role("menuitemcheckbox", name={"en": "English", "zh": "简体中文"}[after]).press("Enter")
     other = Ui(page, after)
     expect(page.get_by_role("menubar", name=other.text("menu.label"))).to_be_visible()
-
-
-@cache
-def translated() -> frozenset[str]:
-    """English texts that are others in Chinese."""
-    chinese = texts("zh")
-    return frozenset(text for key, text in texts("en").items() if chinese.get(key, text) != text)
-
-
-def still_english(page: Page, words: set[str]) -> list[str]:
-    """Texts that have a translation, and those with words that are no names and not in Chinese texts."""
-    known = words | chinese_words() | ALLOWED
-    return [
-        f"{text!r} in {where}"
-        for text, where in Ui(page, "zh").seen().items()
-        if text not in LANGUAGE_NAMES
-        and (
-            (text in translated() and text not in words)
-            or any(word not in known for word in WORD.findall(text))
-        )
-    ]
-
-
-def still_chinese(page: Page) -> list[str]:
-    return [f"{text!r} in {where}" for text, where in Ui(page, "en").seen().items() if CHINESE.search(text)]
 
 
 OBJECTS = ("Application", "MainTask", "Tappet Soft PLC", "GVL_IO", "PLC_PRG")
