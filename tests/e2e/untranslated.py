@@ -25,12 +25,13 @@ def chinese_words() -> frozenset[str]:
 
 
 def words_of_project(page: Page, server: Server) -> set[str]:
-    """Words of the program, of its comments and of the libraries, which are whatever their authors wrote."""
+    """Words of the program, of its comments and of names of libraries: whatever their authors wrote."""
     project = example(page, server)
     found = str(fetch(page, server, "GET", project))
     for item in fetch(page, server, "GET", f"{project}/objects"):
         found += str(fetch(page, server, "GET", f"{project}/objects/{item['id']}"))
-    found += str(fetch(page, server, "GET", "/libraries"))
+    for library in fetch(page, server, "GET", "/libraries"):
+        found += " ".join(str(library[part]) for part in ("name", "company", "namespace", "version"))
     found += str(fetch(page, server, "GET", "/runtimes"))
     return set(WORD.findall(found))
 

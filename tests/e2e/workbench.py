@@ -17,7 +17,7 @@ def open_project(page: Page, name: str = "Bottling line") -> None:
 
 
 def tree_item(page: Page, name: str) -> Locator:
-    return page.get_by_role("treeitem").filter(has_text=re.compile(rf"^\s*{re.escape(name)}\b")).first
+    return page.get_by_role("treeitem").filter(has_text=re.compile(rf"^\s*{re.escape(name)}(?!\w)")).first
 
 
 def open_object(page: Page, name: str) -> None:

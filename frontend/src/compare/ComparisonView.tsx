@@ -3,6 +3,7 @@ import { useMemo, useState } from 'react';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
+import { displayPath } from '@/project/objectName';
 import { forestOf, lineage } from '@/project/tree';
 import { loadMonaco } from '@/text/monacoLoader';
 import { Empty, Failed, Loading } from '@/ui/Empty';
@@ -105,7 +106,7 @@ export function ComparisonView(props: ComparisonViewProps) {
           <>
             <div className={styles.path}>
               <StateMark state={difference.state} />
-              <span title={sideOf(difference).path}>{sideOf(difference).path.replaceAll('/', ' / ')}</span>
+              <span title={sideOf(difference).path}>{displayPath(sideOf(difference).path)}</span>
             </div>
             <DifferencePane
               key={difference.key}

@@ -5,6 +5,7 @@ import { keys, queryClient } from '@/api/queries';
 import type { Schemas } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
+import { displayPlace } from '@/project/objectName';
 import { Button } from '@/ui/Button';
 import { Empty, Failed, Loading } from '@/ui/Empty';
 import { guard, notify } from '@/ui/notices';
@@ -55,7 +56,7 @@ export function DeletedObjects({ projectId, foot }: { projectId: string; foot: H
         grow: true,
         sort: (one) => one.path,
         hint: (one) => one.path,
-        cell: (one) => <span>{one.path.split('/').slice(0, -1).join(' / ')}</span>,
+        cell: (one) => <span>{displayPlace(one.path)}</span>,
       },
       {
         id: 'below',

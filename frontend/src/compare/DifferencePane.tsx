@@ -1,6 +1,7 @@
 import { useState } from 'react';
 import type { Schemas } from '@/api/types';
 import { useText } from '@/i18n';
+import { displayPlace } from '@/project/objectName';
 import type { Monaco } from '@/text/monacoLoader';
 import { Checkbox } from '@/ui/Field';
 import { outcome, takes, withPart, withText, type Choice, type Difference, type Part } from './comparison';
@@ -125,7 +126,7 @@ function ValueTable({ difference, sides, titles, choice, choose, fields, whole }
 }
 
 function parentOf(side: Schemas['ComparedObject'] | null): string {
-  return side === null ? '' : side.path.split('/').slice(0, -1).join(' / ');
+  return side === null ? '' : displayPlace(side.path);
 }
 
 function shown(value: unknown): string {

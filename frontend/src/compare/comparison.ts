@@ -1,5 +1,6 @@
 /** Comparisons as data: the tree of what differs, and what of it is to be taken over. Pure functions. */
 import type { ObjectSummary, Schemas } from '@/api/types';
+import { displayPath } from '@/project/objectName';
 import type { Checked } from '@/ui/ChoiceBox';
 
 export type Comparison = Schemas['ComparisonDetail'];
@@ -172,11 +173,11 @@ export function diffRows(
   const visit = (parent: Node, level: number) => {
     for (const first of parent.children.values()) {
       let node = first;
-      let name = node.name;
+      let name = displayPath(node.name);
       while (node.difference === null && node.children.size === 1) {
         node = [...node.children.values()][0]!;
         if (node.difference !== null) break;
-        name = `${name} / ${node.name}`;
+        name = `${name} / ${displayPath(node.name)}`;
       }
       if (node !== first && node.difference !== null) node = only(first, node);
       const expandable = node.children.size > 0;
@@ -184,7 +185,7 @@ export function diffRows(
       const object = known.get(node.path);
       rows.push({
         path: node.path,
-        name: node.difference ? node.name : name,
+        name: node.difference ? displayPath(node.name) : name,
         level,
         difference: node.difference,
         kind: node.difference?.kind ?? object?.kind ?? null,

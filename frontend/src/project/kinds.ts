@@ -98,8 +98,8 @@ export interface ObjectKindDescriptor {
   tree?: {
     /** Open when the project is opened for the first time. */
     openAtFirst?: boolean;
-    /** The name is given by the system and shown in the language of the user. */
-    fixedName?: boolean;
+    /** The name that the system gives and stores; it is shown in the language of the user. */
+    fixedName?: string;
     /** Not part of a path as an engineer writes it: `Device.Application.PLC_PRG`. */
     outsidePaths?: boolean;
   };

@@ -2,6 +2,7 @@ import { useVirtualizer } from '@tanstack/react-virtual';
 import { useId, useMemo, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
+import { displayPlace } from '@/project/objectName';
 import { MOTION_OF_KEY, moveFocus } from '@/project/tree';
 import { Twist } from '@/ui/Twist';
 import { toggledIn } from '@/ui/toggleSet';
@@ -134,7 +135,7 @@ function ObjectLine({ row: { group } }: { row: ResultRow }) {
     <>
       <ObjectIcon kind={group.kind} subkind={group.subkind} name={group.name} style={{ flex: 'none' }} />
       <span className={styles.name}>{group.name}</span>
-      <span className={styles.path}>{group.path.split('/').slice(0, -1).join(' / ')}</span>
+      <span className={styles.path}>{displayPlace(group.path)}</span>
       <span className={styles.count}>{group.total}</span>
     </>
   );

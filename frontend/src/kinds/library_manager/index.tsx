@@ -21,7 +21,7 @@ const descriptor: ObjectKindDescriptor = {
   editor: onDemand(() => import('./LibraryManagerEditor')),
   settings: [{ title: 'libraryParameters.title', component: onDemand(() => import('./ParametersPage')) }],
   role: 'libraries',
-  tree: { fixedName: true },
+  tree: { fixedName: 'Library Manager' },
 };
 
 export default descriptor;

@@ -17,7 +17,7 @@ const descriptor: ObjectKindDescriptor = {
       <path d="M6.25 1.75v2.5M9.75 1.75v2.5M6.25 11.75v2.5M9.75 11.75v2.5M1.75 6.25h2.5M1.75 9.75h2.5M11.75 6.25h2.5M11.75 9.75h2.5" />
     </>,
   ),
-  tree: { openAtFirst: true, fixedName: true, outsidePaths: true },
+  tree: { openAtFirst: true, fixedName: 'PLC Logic', outsidePaths: true },
   add: { bringsChildren: true },
 };
 

@@ -20,7 +20,7 @@ const descriptor: ObjectKindDescriptor = {
     </>,
   ),
   editor: onDemand(() => import('./TaskConfigurationEditor')),
-  tree: { openAtFirst: true, fixedName: true },
+  tree: { openAtFirst: true, fixedName: 'Task Configuration' },
 };
 
 export default descriptor;

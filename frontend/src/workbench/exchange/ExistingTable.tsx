@@ -2,6 +2,7 @@ import { GitCompare } from 'lucide-react';
 import { useState } from 'react';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
+import { displayPath } from '@/project/objectName';
 import { IconButton } from '@/ui/Button';
 import { Select, TextInput } from '@/ui/Field';
 import { Table } from '@/ui/Table';
@@ -34,7 +35,7 @@ export function ExistingTable({ rows, choices, wrong, change, compare }: Existin
       cell: ({ node, existing }) => (
         <span className={styles.existing}>
           <ObjectIcon kind={node.kind} subkind={node.subkind} name={node.name} />
-          <span>{existing.path.split('/').slice(-2).join(' / ')}</span>
+          <span>{displayPath(existing.path.split('/').slice(-2).join('/'))}</span>
           {existing.same && <small className={styles.muted}>{t('exchange.same')}</small>}
         </span>
       ),

@@ -3,6 +3,7 @@ import { api, isCancelled } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ImportEntry, ObjectSummary, Schemas } from '@/api/types';
 import { useText } from '@/i18n';
+import { displayPath } from '@/project/objectName';
 import { notifyError } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
@@ -252,7 +253,7 @@ export function ImportDialog({ target, files: given = [], openObject, openProjec
               value={place}
               choices={places.map((one) => ({
                 value: one.id,
-                text: one.names.length ? one.names.join(' / ') : t('panel.pous'),
+                text: one.names.length ? displayPath(one.names.join('/')) : t('panel.pous'),
               }))}
               onValue={setPlace}
             />

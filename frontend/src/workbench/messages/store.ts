@@ -6,6 +6,7 @@
  */
 import { create } from 'zustand';
 import type { BuildReport, Diagnostic, Severity } from '@/api/types';
+import { displayPath, displayPlace } from '@/project/objectName';
 
 export interface BuildResult {
   applicationId: string;
@@ -100,6 +101,5 @@ export function bytesText(bytes: number): string {
 
 /** `Device/PLC Logic/App/FB_Motor/Start` as the table shows it: `Start` and, quieter, `Device: PLC Logic: App: FB_Motor`. */
 export function pathParts(path: string): { name: string; place: string } {
-  const parts = path.split('/');
-  return { name: parts.at(-1) ?? '', place: parts.slice(0, -1).join(': ') };
+  return { name: displayPath(path.slice(path.lastIndexOf('/') + 1)), place: displayPlace(path, ': ') };
 }
