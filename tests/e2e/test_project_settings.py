@@ -43,3 +43,23 @@ def test_settings_of_several_pages_are_saved_together(page: Page) -> None:
     expect(dialog.get_by_label("Description")).to_have_value("Line 7, hall B")
     dialog.get_by_role("tab", name="Memory and source").click()
     expect(dialog.get_by_label("Limit", exact=True)).to_have_value("256")
+
+
+def test_single_compiler_warnings_are_switched_off(page: Page) -> None:
+    open_project(page)
+    dialog = _settings(page)
+    dialog.get_by_role("tab", name="Compiler warnings").click()
+    dialog.get_by_label("Search warnings").fill("W1122")
+    box = dialog.get_by_role("checkbox", name="W1122")
+    expect(dialog.get_by_role("checkbox")).to_have_count(1)
+    expect(box).to_be_checked()
+    box.click()
+    with page.expect_response(lambda answer: answer.request.method == "PUT") as saved:
+        dialog.get_by_role("button", name="Save").click()
+    expect(dialog).to_have_count(0)
+    (application,) = saved.value.json()
+    assert application["data"]["disabled_warnings"] == ["W1122"]
+    dialog = _settings(page)
+    dialog.get_by_role("tab", name="Compiler warnings").click()
+    dialog.get_by_label("Search warnings").fill("W1122")
+    expect(dialog.get_by_role("checkbox", name="W1122")).not_to_be_checked()

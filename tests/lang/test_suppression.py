@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from sample_stage import diagnose
 
+from tappet.lang.analysis.suppression import without_warnings
+
 BODY = "VAR a, b : REAL; x : BOOL; u : UINT; i : INT; END_VAR\n"
 
 
@@ -57,3 +59,11 @@ def test_attribute_switches_rules_off_in_an_object() -> None:
     found = {d.code for d in diagnose("@static\n" + text)}
     assert "S1101" in found
     assert not found & {"W1122", "S1001", "S1004"}
+
+
+def test_codes_that_a_project_switches_off_hide_no_error() -> None:
+    found = diagnose(BODY + "x := a = b;\nnope := 1;\n")
+    assert {"W1122", "E0201"} <= {d.code for d in found}
+    left = {d.code for d in without_warnings(found, {d.code for d in found})}
+    assert left == {d.code for d in found if d.severity == "error"}
+    assert without_warnings(found, ()) == found

@@ -130,7 +130,9 @@ def projects(draw: st.DrawFn) -> Project:
             st.dictionaries(st.sampled_from(["S1001", "S1211"]), st.sampled_from(["warning", "error"]))
         )
         analysis = {"rules": rules, "prefixes": {"FUNCTION_BLOCK": "fb"}, "limits": {"nesting": 2}}
-        project = edit.change_data(project, application.id, {"static_analysis": analysis})
+        off = draw(st.lists(st.sampled_from(["W1001", "W1122", "W1208"])))
+        chosen = {"static_analysis": analysis, "disabled_warnings": off}
+        project = edit.change_data(project, application.id, chosen)
     for item in project.find_kind("accessor"):
         project = edit.change_data(project, item.id, _data(draw, "accessor") or {})
     if draw(st.booleans()):

@@ -190,7 +190,10 @@ async def test_the_process_an_editor_starts(tmp_path: Path) -> None:
 def test_what_a_project_folder_excludes_and_its_coding_rules_count(tmp_path: Path) -> None:
     project = new_project("Press")
     application = project.applications()[0]
-    chosen = {"static_analysis": {"rules": {"S1211": "error"}, "limits": {"nesting": 2}}}
+    chosen: dict[str, object] = {
+        "static_analysis": {"rules": {"S1211": "error"}, "limits": {"nesting": 2}},
+        "disabled_warnings": ["W1122"],
+    }
     project = edit.change_data(project, application.id, chosen)
     project, old = edit.add_object(project, application.id, "pou", "Old", subkind="function_block")
     project, _ = edit.add_object(project, old.id, "method", "Start")
@@ -201,3 +204,4 @@ def test_what_a_project_folder_excludes_and_its_coding_rules_count(tmp_path: Pat
     assert own == ["PLC_PRG"]
     assert program.static.errors == {"S1211"}
     assert program.static.settings.nesting == 2
+    assert program.disabled_warnings == {"W1122"}

@@ -106,3 +106,44 @@ def test_an_object_is_excluded_from_the_build(admin: TestClient) -> None:
     assert "exclude_from_build" not in admin.get(url).json()["data"]
     refused = admin.patch(item, json={"excluded": True})
     assert (refused.status_code, "not compiled" in refused.json()["detail"]) == (422, True)
+
+
+def test_single_warnings_of_the_compiler_are_switched_off(admin: TestClient) -> None:
+    item, application = _application(admin)
+    program = {o["kind"]: o for o in admin.get(item.rpartition("/")[0]).json()}["pou"]["id"]
+    url = f"{item.rpartition('/')[0]}/{program}"
+    declaration = "PROGRAM PLC_PRG\nVAR\n    a, b : REAL;\n    x : BOOL;\nEND_VAR"
+
+    def write(body: str) -> None:
+        data = {"declaration": declaration, "implementation": body}
+        base = admin.get(url).json()["revision"]
+        assert admin.put(url, json={"base_revision": base, "data": data}).status_code == 200
+
+    def choose(codes: list[str]) -> dict[str, Any]:
+        data = admin.get(item).json()
+        body = {"base_revision": data["revision"], "data": {**data["data"], "disabled_warnings": codes}}
+        saved = admin.put(item, json=body)
+        assert saved.status_code == 200, saved.text
+        return dict(saved.json()["data"])
+
+    def codes() -> set[str]:
+        return {d["code"] for d in admin.post(f"{application}/build").json()["diagnostics"]}
+
+    write("x := a = b;")
+    assert "W1122" in codes()
+    assert choose(["W1122", "W1001", "W1122"])["disabled_warnings"] == ["W1001", "W1122"]
+    assert "W1122" not in codes()
+    write("x := a = b; nope := 1;")
+    assert codes() == {"E0201"}
+    choose([])
+    assert {"W1122", "E0201"} <= codes()
+    listed = {one["code"]: one for one in admin.get("/api/v1/compiler-warnings").json()}
+    assert (listed["W1122"]["severity"], "SA0054" in listed["W1122"]["numbers"]) == ("warning", True)
+    assert not [code for code in listed if not code.startswith("W")]
+
+
+def test_only_warnings_of_the_compiler_can_be_switched_off(admin: TestClient) -> None:
+    item, _ = _application(admin)
+    for code in ("E0201", "S1211", "W1", "w1122"):
+        body = {"base_revision": 1, "data": {"disabled_warnings": [code]}}
+        assert admin.put(item, json=body).status_code == 422, code

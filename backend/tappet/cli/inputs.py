@@ -91,6 +91,7 @@ def project_applications(project: Project) -> list[ApplicationInput]:
                 compiled=int(time.time()),
                 libraries=tuple(project_sources.libraries(project, application.id)),
                 static=_static(project, application.id),
+                disabled_warnings=project_sources.disabled_warnings(project, application.id),
                 heap=project_sources.heap(project, application.id),
                 once=True,
             ),

@@ -27,6 +27,7 @@ from tappet.iec.task import Task
 from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
 from tappet.lang.analysis.result import Analysis, AnalysisOptions
 from tappet.lang.analysis.run import analyse
+from tappet.lang.analysis.suppression import without_warnings
 from tappet.lang.analysis.tasks import check_tasks
 from tappet.lang.coding_settings import NO_RULES, StaticAnalysis
 from tappet.lang.conditional import ParseOptions
@@ -69,6 +70,8 @@ class BuildOptions:
     """Incomplete addresses that VAR_CONFIG does not name get a free place; False: an error (LDEC-94)."""
     static: StaticAnalysis = NO_RULES
     """The optional coding rules that are checked."""
+    disabled_warnings: frozenset[str] = frozenset()
+    """Codes of warnings that are not reported."""
     heap: HeapSettings = DEFAULT_HEAP
     """The memory of `__NEW`."""
     once: bool = False
@@ -180,7 +183,8 @@ def build_application(
         if options.once and any(d.severity == "error" for d in result.diagnostics):
             options = replace(options, once=False)  # messages propose names of all libraries
             result = _Build(options, previous, BuildSession()).run(texts, task_list)
-    result.diagnostics[:] = with_elements(result.diagnostics, texts)
+    reported = without_warnings(result.diagnostics, options.disabled_warnings)
+    result.diagnostics[:] = with_elements(reported, texts)
     if result.package is not None:
         result.package.source_maps = source_maps(texts)
         result.package.facts.project = options.project

@@ -126,6 +126,8 @@ TABLE: dict[str, Entry] = _read_table()
 """All messages by code."""
 CODING_RULES = frozenset(code for code in TABLE if code.startswith("S"))
 """Codes of the optional rules."""
+WARNINGS = frozenset(code for code, entry in TABLE.items() if entry.severity != "error") - CODING_RULES
+"""Codes of the warnings and notes of the compiler; a project can switch each one off."""
 
 
 def report(

@@ -155,6 +155,11 @@ def static_analysis(project: Project, application_id: str) -> StaticAnalysisData
     return chosen if chosen.with_build else NO_RULES
 
 
+def disabled_warnings(project: Project, application_id: str) -> frozenset[str]:
+    """Codes of the warnings that an application does not want to be told of."""
+    return frozenset(_application(project, application_id).data_as(ApplicationData).disabled_warnings)
+
+
 def heap(project: Project, application_id: str) -> HeapSettings:
     """The settings of the memory that `__NEW` of an application takes from."""
     return _application(project, application_id).data_as(ApplicationData).heap.settings

@@ -208,6 +208,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/compiler-warnings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Compiler Warnings
+         * @description All warnings and notes of the compiler, by code; `disabled_warnings` of an application names them.
+         */
+        get: operations["list_compiler_warnings"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/health": {
         parameters: {
             query?: never;
@@ -2213,6 +2233,12 @@ export interface components {
          */
         ApplicationData: {
             /**
+             * Disabled Warnings
+             * @description Codes of the compiler's warnings and notes that are not reported.
+             * @default []
+             */
+            disabled_warnings?: string[];
+            /**
              * @default {
              *       "limit_kib": 65536,
              *       "poison": false
@@ -2677,6 +2703,34 @@ export interface components {
              * @description What the project is compared with.
              */
             title: string;
+        };
+        /**
+         * CompilerWarning
+         * @description A warning or note of the compiler that a project can switch off.
+         */
+        CompilerWarning: {
+            /** Advice */
+            advice: string;
+            /**
+             * Code
+             * @description Such as W1122.
+             */
+            code: string;
+            /**
+             * Message
+             * @description What it says; fields in braces are filled in.
+             */
+            message: string;
+            /**
+             * Numbers
+             * @description Its numbers in CODESYS, such as C0195 or SA0054.
+             */
+            numbers: string[];
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "warning" | "info";
         };
         /**
          * CopyTarget
@@ -6633,6 +6687,46 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_compiler_warnings: {
+        parameters: {
+            query?: {
+                language?: "en" | "zh";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CompilerWarning"][];
+                };
             };
             /** @description The request was refused */
             422: {

@@ -32,6 +32,7 @@ export type LibraryParameter = Schemas['LibraryParameterData'];
 export type LibraryReference = Schemas['LibraryReferenceData'];
 export type StaticAnalysisData = Schemas['StaticAnalysisData'];
 export type CodingRule = Schemas['CodingRule'];
+export type CompilerWarning = Schemas['CompilerWarning'];
 
 export type ImportFormats = Schemas['ImportFormats'];
 export type ImportNode = Schemas['ImportNode'];

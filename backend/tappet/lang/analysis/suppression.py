@@ -4,7 +4,7 @@ static analysis: `{analysis -33}` to `{analysis +33}`, by the number of CODESYS 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from tappet.lang import ast
 from tappet.lang.diagnostics import TABLE, Diagnostic
@@ -38,6 +38,11 @@ def kept(found: Sequence[Diagnostic], units: Iterable[ast.Unit]) -> list[Diagnos
     if not ranges:
         return list(found)
     return [d for d in found if d.severity == "error" or not _is_off(d, ranges.get(d.uri, ()))]
+
+
+def without_warnings(found: Sequence[Diagnostic], codes: Collection[str]) -> list[Diagnostic]:
+    """The messages without the warnings and notes of these codes; an error stays, whatever its code."""
+    return [d for d in found if d.severity == "error" or d.code not in codes] if codes else list(found)
 
 
 def _is_off(d: Diagnostic, ranges: Iterable[tuple[str, int, int]]) -> bool:

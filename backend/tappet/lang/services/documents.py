@@ -54,6 +54,8 @@ class Program:
     defines: Mapping[str, str] = field(default_factory=dict)
     static: StaticAnalysis = NO_RULES
     """The optional coding rules that are switched on."""
+    disabled_warnings: frozenset[str] = frozenset()
+    """Codes of warnings that are not reported."""
 
 
 class Programs(Protocol):

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 from tappet.lang import ast
 from tappet.lang.analysis import Analysis, AnalysisOptions, analyse, prepare, resume
 from tappet.lang.analysis.libraries import LibrarySnapshot, are_analysed, own_results, read_program
+from tappet.lang.analysis.suppression import without_warnings
 from tappet.lang.conditional import ParseOptions, parse_sources
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.lexer import Lexed, lex
@@ -140,9 +141,9 @@ class Snapshot:
 
     @cached_property
     def diagnostics(self) -> list[Diagnostic]:
-        """All messages, those of the parser first."""
+        """All messages that the program reports, those of the parser first."""
         found = [item for result in self.results for item in result.diagnostics]
-        return found + self.analysis.diagnostics
+        return without_warnings(found + self.analysis.diagnostics, self.program.disabled_warnings)
 
     @cached_property
     def pous(self) -> dict[str, PouSymbol]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, StrictBool, StrictInt
+from pydantic import AfterValidator, Field, StrictBool, StrictInt
 
 from tappet.iec.heap import DEFAULT_HEAP, KIB, LARGEST_HEAP_KIB, HeapSettings
 from tappet.project.data import Data, Line
 from tappet.project.object_kind import Child, Codesys, JsonFile, Naming, ObjectKind, Placement, Plcopen
 
 RuleCode = Annotated[str, Field(pattern=r"^S[0-9]{4}$")]
+WarningCode = Annotated[str, Field(pattern=r"^W[0-9]{4}$")]
 Prefix = Annotated[str, Field(pattern=r"^[A-Za-z0-9_]{0,20}$")]
 
 
@@ -55,6 +56,11 @@ USUAL_HEAP = HeapData()
 SourceDownload = Literal["never", "on_demand", "prompt", "download"]
 
 
+def _sorted(codes: tuple[str, ...]) -> tuple[str, ...]:
+    """Each once, in one order: two people who switch the same ones off store the same file."""
+    return tuple(sorted(set(codes)))
+
+
 class ApplicationData(Data):
     """An application: how it is checked, and the memory that it may take."""
 
@@ -62,6 +68,12 @@ class ApplicationData(Data):
         default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
     )
     heap: HeapData = Field(default=USUAL_HEAP, exclude_if=lambda chosen: chosen == USUAL_HEAP)
+    disabled_warnings: Annotated[tuple[WarningCode, ...], AfterValidator(_sorted)] = Field(
+        default=(),
+        max_length=10_000,
+        description="Codes of the compiler's warnings and notes that are not reported.",
+        exclude_if=lambda codes: not codes,
+    )
     source_download: SourceDownload = Field(
         default="on_demand",
         description="When the source of the project goes into the controller: never, by a command only, when "

@@ -54,6 +54,8 @@ class Application:
     """Name of the project."""
     heap: HeapSettings = DEFAULT_HEAP
     """The memory of `__NEW`."""
+    disabled_warnings: frozenset[str] = frozenset()
+    """Codes of warnings that are not reported."""
 
     @classmethod
     def of(cls, project_id: str, project: Project, application_id: str) -> Application:
@@ -74,6 +76,7 @@ class Application:
             texts.static_analysis(project, application_id),
             project.name,
             texts.heap(project, application_id),
+            texts.disabled_warnings(project, application_id),
         )
 
     @classmethod
@@ -218,6 +221,7 @@ class Builder:
             cache=str(self._cache),
             static=application.static.model_dump(),
             heap=asdict(application.heap),
+            disabled_warnings=tuple(sorted(application.disabled_warnings)),
             check_only=check_only,
             fresh=fresh,
         )

@@ -40,6 +40,8 @@ class BuildOrder:
     """Fields of `project.kinds.application.StaticAnalysisData`."""
     heap: dict[str, Any]
     """Fields of `iec.heap.HeapSettings`."""
+    disabled_warnings: tuple[str, ...] = ()
+    """Codes of warnings that are not reported."""
     check_only: bool = False
     """Make no package."""
     project: str = ""

@@ -100,6 +100,7 @@ class Compiler:
             cache=None if order["fresh"] else Path(order["cache"]),
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
             heap=HeapSettings(**order["heap"]),
+            disabled_warnings=frozenset(order["disabled_warnings"]),
             check_only=order["check_only"],
         )
         sources = convert(order["sources"], list[Source])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import quote, unquote, urlsplit
 
 from tappet import libraries
@@ -18,6 +19,9 @@ from tappet.lang.source import Scope, Source, split_lines
 from tappet.project.errors import FolderFormatError
 from tappet.project.library_reference import LibraryReference
 from tappet.project.project_file import INDEX_FILE
+
+if TYPE_CHECKING:
+    from tappet.project.kinds.application import ApplicationData
 
 MAX_FILES = 20_000
 """A folder with more is not a project but, say, a home folder."""
@@ -68,7 +72,14 @@ class FolderPrograms:
         programs = []
         for name, paths in groups.items():
             texts = [*self._texts(files, paths, Scope.APPLICATION), *self._texts(files, shared, Scope.POUS)]
-            program = Program(name, [*texts, *standard], self._tasks(paths), static=self._static(name))
+            chosen = self._settings(name)
+            program = Program(
+                name,
+                [*texts, *standard],
+                self._tasks(paths),
+                static=_static(chosen),
+                disabled_warnings=frozenset(chosen.disabled_warnings if chosen else ()),
+            )
             programs.append(program)
         return programs
 
@@ -132,19 +143,15 @@ class FolderPrograms:
         at = parts.index("PLC Logic")
         return "/".join(parts[: at + 2])
 
-    def _static(self, application: str) -> StaticAnalysis:
-        """The coding rules that the application of a project folder has chosen."""
+    def _settings(self, application: str) -> ApplicationData | None:
+        """What the application of a project folder has chosen; None where there is no such file."""
+        from tappet.project.kinds.application import ApplicationData  # project folders only
+
         path = self.root / f"{application}.application.json"
         try:
-            content = path.read_bytes()
-            from tappet.project.kinds.application import ApplicationData  # project folders only
-
-            chosen = ApplicationData.model_validate_json(content).static_analysis
+            return ApplicationData.model_validate_json(path.read_bytes())
         except (OSError, ValueError):
-            return NO_RULES
-        if not chosen.with_build:
-            return NO_RULES
-        return static_analysis(chosen.rules, chosen.prefixes, chosen.limits)
+            return None
 
     def _tasks(self, paths: list[Path]) -> list[str]:
         folders = {path.parent / "Task Configuration" for path in paths}
@@ -227,3 +234,11 @@ def _property(
         composed += lines[end:]
     source = Source(str(path), "\n".join(composed), scope=scope, owner=owner, name=path.stem)
     return Text(source, SourceMap(tuple(segments)))
+
+
+def _static(application: ApplicationData | None) -> StaticAnalysis:
+    """The coding rules that run in the editors."""
+    if application is None or not application.static_analysis.with_build:
+        return NO_RULES
+    chosen = application.static_analysis
+    return static_analysis(chosen.rules, chosen.prefixes, chosen.limits)

@@ -102,7 +102,9 @@ class ProjectPrograms:
         tasks = [task.name for task in project_sources.tasks(project, application.id)]
         chosen = project_sources.static_analysis(project, application.id)
         static = static_analysis(chosen.rules, chosen.prefixes, chosen.limits)
-        return Program(f"{application.name} {application.id}", texts, tasks, static=static)
+        off = project_sources.disabled_warnings(project, application.id)
+        name = f"{application.name} {application.id}"
+        return Program(name, texts, tasks, static=static, disabled_warnings=off)
 
     def _without_application(self, project: Project) -> Program:
         return Program(project.name, self._composed[""].texts(_objects_with_text(project)))

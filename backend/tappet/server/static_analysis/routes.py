@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from tappet.lang.coding_settings import LIMITS, OF_RULE, PREFIXES
 from tappet.lang.diagnostic_translations import Language, texts
-from tappet.lang.diagnostics import CODING_RULES, TABLE
+from tappet.lang.diagnostics import CODING_RULES, TABLE, WARNINGS
 from tappet.server.builds.shapes import BuildReport
 from tappet.server.dependencies import CommissioningDep, Engineer, Viewer
 from tappet.server.routing import Router
-from tappet.server.static_analysis.shapes import CodingRule
+from tappet.server.static_analysis.shapes import CodingRule, CompilerWarning
 
 router = Router(tags=["build"])
 
@@ -27,6 +27,21 @@ def list_coding_rules(who: Viewer, language: Language = "en") -> list[CodingRule
             limits={key: LIMITS[key] for key in OF_RULE.get(code, ()) if key in LIMITS},
         )
         for code in sorted(CODING_RULES)
+    ]
+
+
+@router.get("/compiler-warnings")
+def list_compiler_warnings(who: Viewer, language: Language = "en") -> list[CompilerWarning]:
+    """All warnings and notes of the compiler, by code; `disabled_warnings` of an application names them."""
+    return [
+        CompilerWarning(
+            code=code,
+            severity="info" if TABLE[code].severity == "info" else "warning",
+            numbers=TABLE[code].aliases,
+            message=texts(code, language).message,
+            advice=texts(code, language).advice,
+        )
+        for code in sorted(WARNINGS)
     ]
 
 

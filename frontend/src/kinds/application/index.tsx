@@ -27,6 +27,7 @@ const descriptor: ObjectKindDescriptor = {
       component: onDemand(() => import('./SettingsPage')),
       canStore: hasUsableHeap,
     },
+    { title: 'warnings.title', component: onDemand(() => import('./WarningsPage')) },
     { title: 'analysis.rules', component: onDemand(() => import('./RulesPage')), canStore: hasUsablePrefixes },
   ],
   role: 'application',

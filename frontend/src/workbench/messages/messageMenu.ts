@@ -1,9 +1,10 @@
 /** What can be done with a message: its quick fixes, going to its place, copying it. */
-import { Copy, CornerDownRight } from 'lucide-react';
+import { BellOff, Copy, CornerDownRight } from 'lucide-react';
 import type { Diagnostic } from '@/api/types';
 import type { useText } from '@/i18n';
 import type { MenuEntry } from '@/ui/Menu';
 import { jumpTo } from './jump';
+import { canBeSwitchedOff, refusedToSwitchOff, switchOff } from './notReported';
 import { quickFixesOf } from './quickFixes';
 
 export async function messageEntries(message: Diagnostic, t: ReturnType<typeof useText>): Promise<MenuEntry[]> {
@@ -27,6 +28,18 @@ export async function messageEntries(message: Diagnostic, t: ReturnType<typeof u
       icon: Copy,
       run: () => void navigator.clipboard.writeText(messageText(message)),
     },
+    ...(canBeSwitchedOff(message)
+      ? [
+          {
+            kind: 'item',
+            key: 'notReported',
+            text: t('warnings.doNotReport', { code: message.code }),
+            icon: BellOff,
+            disabledReason: refusedToSwitchOff(message),
+            run: () => void switchOff(message),
+          } as const,
+        ]
+      : []),
   ];
 }
 

@@ -59,6 +59,21 @@ export async function translateMessages(): Promise<void> {
   useMessages.setState({ build: { ...build, report: { ...build.report, diagnostics } } });
 }
 
+/** Takes away the messages of a code that is not reported any more; errors stay. */
+export function forgetCode(code: string): void {
+  const { build, live } = useMessages.getState();
+  const stays = (one: Diagnostic) => one.code !== code || one.severity === 'error';
+  const left = build && {
+    ...build,
+    report: { ...build.report, diagnostics: build.report.diagnostics.filter(stays) },
+  };
+  useMessages.setState({
+    build: left,
+    live: new Map([...live].map(([id, found]) => [id, found.filter(stays)])),
+    current: null,
+  });
+}
+
 /** Another project is opened: nothing of it has been built. */
 export function forgetBuild(): void {
   useMessages.setState({ build: null, live: new Map(), current: null });
