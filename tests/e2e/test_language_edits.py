@@ -120,6 +120,22 @@ def test_a_quick_fix_is_chosen_in_the_table_of_messages(page: Page) -> None:
     expect(row).to_have_count(0)
 
 
+def test_a_warning_is_not_reported_any_more(page: Page) -> None:
+    editor = plc_prg(page)
+    add_line(page, editor, "{warning 'look here'}")
+    panel = open_panel(page, "Messages")
+    row = panel.get_by_role("row").filter(has_text="W1208")
+    expect(row).to_be_visible()
+    row.click(button="right")
+    with page.expect_response(lambda answer: answer.request.method == "PUT") as saved:
+        page.get_by_role("menuitem", name="Do not report W1208 in this application").click()
+    assert saved.value.json()["data"]["disabled_warnings"] == ["W1208"]
+    expect(row).to_have_count(0)
+    add_line(page, editor, "nope := 1;")
+    expect(panel.get_by_role("row").filter(has_text="'nope' not defined")).to_be_visible()
+    expect(row).to_have_count(0)
+
+
 def add_declaration(page: Page, text: str) -> Locator:
     """A line behind the first VAR of the declaration, shown as text."""
     page.get_by_role("button", name="Declaration as text").click()
