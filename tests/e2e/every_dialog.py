@@ -87,6 +87,7 @@ def libraries(ui: Ui, server: Server) -> Iterator[str]:
     page = ui.page
     upload = {"file": dict(library_file("1.0.0"))}
     fetch(page, server, "POST", "/libraries", multipart=upload)
+    page.reload()  # it is not told of what others install
     tree_item(page, "PLC_PRG").click()
     ui.command("command.libraryRepository")
     dialog = ui.dialog("command.libraryRepository")

@@ -83,6 +83,11 @@ export function t(key: TextKey, values?: TextValues): string {
   return i18next.t(key, values);
 }
 
+/** Names one after the other, as the language of the user lists them. */
+export function listed(names: readonly string[]): string {
+  return names.join(language() === 'zh' ? '、' : ', ');
+}
+
 export function language(): Language {
   return i18next.language === 'zh' ? 'zh' : 'en';
 }

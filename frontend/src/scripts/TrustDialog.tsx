@@ -1,6 +1,6 @@
 import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { useSession } from '@/session/session';
 import { FormDialog } from '@/ui/FormDialog';
 import { secondText } from '@/workbench/clock';
@@ -26,7 +26,7 @@ export function TrustDialog({ projectId, objectId, name, text, close }: TrustDia
       }),
     staleTime: 0,
   });
-  const authors = [...new Set(revisions.data?.map(({ author }) => author))].join(', ');
+  const authors = listed([...new Set(revisions.data?.map(({ author }) => author))]);
   const last = revisions.data?.reduce((a, b) => (a.revision > b.revision ? a : b));
   return (
     <FormDialog

@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import { DiffView } from '@/compare/DiffView';
 import { PartTabs } from '@/compare/PartTabs';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { FormDialog } from '@/ui/FormDialog';
 import type { Part } from '@/project/partUri';
 import type { Monaco } from '@/text/monacoLoader';
@@ -25,7 +25,7 @@ export function CompareImportDialog({ monaco, compared, close }: CompareImportDi
   const [part, setPart] = useState(shown[0]?.field ?? '');
   const text = shown.find(({ field }) => field === part);
   const places = text?.conflicts.length ?? 0;
-  const reason = comparison.fields.length ? t('exchange.fieldsDiffer', { fields: comparison.fields.join(', ') }) : null;
+  const reason = comparison.fields.length ? t('exchange.fieldsDiffer', { fields: listed(comparison.fields) }) : null;
   return (
     <FormDialog
       title={t('exchange.compareTitle', { name })}

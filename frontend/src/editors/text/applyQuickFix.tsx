@@ -4,7 +4,7 @@ import { api } from '@/api/client';
 import { shaped } from '@/api/objects';
 import { keys, objectQuery, queryClient, saveObject } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
-import { t } from '@/i18n';
+import { listed, t } from '@/i18n';
 import { APPLY_QUICK_FIX, titleOfAction, type NewMember, type ServerAction } from '@/lsp/codeActions';
 import { parsePartUri, type PartAddress } from '@/project/partUri';
 import { applyEdits } from '@/lsp/edits';
@@ -106,5 +106,5 @@ async function implement(projectId: string, owner: string, members: readonly New
     }
   }
   await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
-  notify({ tone: 'ok', title: t('fix.implemented', { names: members.map((member) => member.name).join(', ') }) });
+  notify({ tone: 'ok', title: t('fix.implemented', { names: listed(members.map((member) => member.name)) }) });
 }

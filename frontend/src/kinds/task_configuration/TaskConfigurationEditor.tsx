@@ -4,7 +4,7 @@ import { useQueries } from '@tanstack/react-query';
 import { ofKind, shaped } from '@/api/objects';
 import { objectQuery, useObjects } from '@/api/queries';
 import type { ObjectSummary, ProjectObject, TaskData } from '@/api/types';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { openObject } from '@/workbench/docking/dock';
@@ -119,7 +119,7 @@ function Overview({
       title: t('task.programs'),
       width: 200,
       grow: true,
-      cell: (line) => <span>{line.task?.pous.map((pou) => pou.name).join(', ')}</span>,
+      cell: (line) => <span>{line.task && listed(line.task.pous.map((pou) => pou.name))}</span>,
     },
   ];
   return (
@@ -156,7 +156,7 @@ function Overview({
             <dd>{t('taskConfiguration.prioritiesText')}</dd>
             <dt>{t('taskConfiguration.types')}</dt>
             <dd>
-              {(['cyclic', 'freewheeling', 'event', 'status'] as const).map((type) => t(`taskType.${type}`)).join(', ')}
+              {listed((['cyclic', 'freewheeling', 'event', 'status'] as const).map((type) => t(`taskType.${type}`)))}
             </dd>
           </Facts>
         </Section>

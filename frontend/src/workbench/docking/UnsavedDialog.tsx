@@ -1,4 +1,4 @@
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { Button } from '@/ui/Button';
 import { FormDialog } from '@/ui/FormDialog';
 
@@ -9,7 +9,7 @@ export function UnsavedDialog({ names, close }: { names: readonly string[]; clos
   return (
     <FormDialog
       title={t('unsaved.title')}
-      description={t('unsaved.text', { names: names.join(', ') })}
+      description={t('unsaved.text', { names: listed(names) })}
       onClose={() => close()}
       onSubmit={() => close('save')}
       action={t('action.save')}

@@ -1,7 +1,7 @@
 import { useMemo, useState, type ReactNode } from 'react';
 
 import type { ObjectSummary } from '@/api/types';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { Field, Select } from '@/ui/Field';
 import styles from './Exchange.module.css';
 import { ObjectChoice } from './ObjectChoice';
@@ -55,7 +55,7 @@ export function usePart({ projectName, objects, selection, current }: PartSource
               {
                 value: 'selection',
                 text: selection.length
-                  ? t('exchange.selection', { names: selection.map(({ name }) => name).join(', ') })
+                  ? t('exchange.selection', { names: listed(selection.map(({ name }) => name)) })
                   : t('exchange.noSelection'),
                 disabled: selection.length === 0,
               },

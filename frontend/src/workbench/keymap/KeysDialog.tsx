@@ -1,6 +1,6 @@
 import { Download, RotateCcw, Upload } from 'lucide-react';
 import { useMemo, useRef, useState, type KeyboardEvent } from 'react';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { notify } from '@/ui/notices';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
@@ -196,7 +196,7 @@ export function KeysDialog({ close }: { close: () => void }) {
       )}
       {taken.length > 0 && (
         <div className={styles.conflict} role="alert">
-          {t('shortcuts.conflict', { commands: taken.map(titleOf).join(', ') })}
+          {t('shortcuts.conflict', { commands: listed(taken.map(titleOf)) })}
         </div>
       )}
     </Dialog>

@@ -3,7 +3,7 @@ import { useRef, useState } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { LibrarySummary } from '@/api/types';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { confirm } from '@/ui/dialogs';
 import { saveBlob } from '../downloadFile';
 import { guard, notify } from '@/ui/notices';
@@ -48,7 +48,7 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
     const sure = await confirm({
       title: t('libraries.uninstallTitle', { name: idOf(library) }),
       text: projects.length
-        ? t('libraries.uninstallUsed', { projects: projects.join(', ') })
+        ? t('libraries.uninstallUsed', { projects: listed(projects) })
         : t('libraries.uninstallText'),
       action: t('libraries.uninstall'),
       danger: true,
@@ -78,8 +78,8 @@ export function RepositoryDialog({ readOnly, close }: { readOnly: string | null;
       id: 'requires',
       title: t('libraries.requires'),
       width: 130,
-      cell: (one) => <span>{one.requires.map((required) => required.name).join(', ')}</span>,
-      hint: (one) => one.requires.map((required) => `${required.name} ${required.version}`).join(', '),
+      cell: (one) => <span>{listed(one.requires.map((required) => required.name))}</span>,
+      hint: (one) => listed(one.requires.map((required) => `${required.name} ${required.version}`)),
     },
     descriptionColumn(t, 180),
   ];
