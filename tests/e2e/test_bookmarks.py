@@ -9,6 +9,7 @@ from .workbench import (
     add_line,
     choose_menu,
     implementation,
+    log_in,
     open_object,
     plc_prg,
     show_panel,
@@ -88,3 +89,51 @@ def test_rows_of_a_declaration_table_have_bookmarks(page: Page) -> None:
     expect(table.get_by_role("row").nth(2).get_by_role("img", name="Bookmark")).to_be_visible()
     page.keyboard.press(TOGGLE)
     expect(table.get_by_role("img", name="Bookmark")).to_have_count(0)
+
+
+def test_rows_of_a_table_of_values_have_bookmarks(page: Page) -> None:
+    """By key and by menu; the mark stands in the declaration, not where the cursor of the body stands."""
+    editor = plc_prg(page)
+    log_in(page)
+    table = page.get_by_role("treegrid", name="Declaration of PLC_PRG")
+    row = table.get_by_role("row").nth(2)
+    name = row.get_by_role("gridcell").first
+    name.click()
+    page.keyboard.press(TOGGLE)
+    mark = row.get_by_role("img", name="Bookmark")
+    expect(mark).to_be_visible()
+    expect(_marks(editor)).to_have_count(0)
+    variable = name.inner_text().strip()
+    listed = _panel(page).get_by_role("row").filter(has_text="PLC_PRG")
+    expect(listed).to_have_count(1)
+    expect(listed.get_by_role("gridcell").nth(3)).to_contain_text(variable)
+    name.click(button="right")
+    page.get_by_role("menuitem", name="Toggle Bookmark").click()
+    expect(mark).to_have_count(0)
+    expect(listed).to_have_count(0)
+
+
+def test_a_row_of_a_table_of_values_leads_to_its_declaration(page: Page) -> None:
+    plc_prg(page)
+    log_in(page)
+    table = page.get_by_role("treegrid", name="Declaration of PLC_PRG")
+    name = table.get_by_role("row").nth(3).get_by_role("gridcell").first
+    variable = name.inner_text().strip()
+    name.click()
+    page.keyboard.press("F12")
+    line = page.locator(".dv-active-group .view-line").filter(has_text=variable).first
+    expect(line).to_be_visible()
+    expect(table).to_have_count(0)
+    expect(page.locator("footer[role=status]")).to_contain_text("Ln ")
+
+
+def test_a_bookmark_of_the_body_is_reached_from_the_declaration_table(page: Page) -> None:
+    editor = plc_prg(page)
+    _go_to_line(page, editor, 3)
+    page.keyboard.press(TOGGLE)
+    _go_to_line(page, editor, 1)
+    page.get_by_role("button", name="Declaration as table").click()
+    table = page.get_by_role("grid", name="Declaration of PLC_PRG as table")
+    table.get_by_role("row").nth(2).get_by_role("gridcell").nth(2).click()
+    page.keyboard.press(NEXT)
+    expect(page.locator("footer[role=status]")).to_contain_text("Ln 3")

@@ -7,6 +7,7 @@ import {
   Pi,
   Variable,
 } from 'lucide-react';
+import { RowMark } from '@/bookmarks/RowMark';
 import { useText } from '@/i18n';
 import styles from './OnlineTable.module.css';
 import { isExpandable, type OnlineRow } from './treeRows';
@@ -46,6 +47,11 @@ export function NameCell({ row, runtimeId, onToggle }: NameCellProps) {
         <span className={styles.arrow} />
       )}
       <SectionIcon section={row.section ?? item?.section} flags={row.flags ?? item?.flags} />
+      {row.bookmarked === true && (
+        <span className={styles.icon}>
+          <RowMark />
+        </span>
+      )}
       <span className={error ? styles.invalid : undefined} title={error ?? undefined}>
         {row.label}
       </span>

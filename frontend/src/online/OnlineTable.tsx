@@ -11,7 +11,7 @@ import {
   type Ref,
 } from 'react';
 import { useText } from '@/i18n';
-import { Grid, type GridColumn, type GridEditing } from '@/ui/grid/Grid';
+import { Grid, type GridColumn, type GridEditing, type GridHandle } from '@/ui/grid/Grid';
 import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection';
 import type { MenuEntry } from '@/ui/Menu';
 import { ContextMenu } from '@/ui/Menu';
@@ -30,6 +30,12 @@ import { ValueCell } from './ValueCell';
 import { ValueLayer } from './ValueLayer';
 import { ValuePainter } from './valuePainter';
 
+export interface OnlineTableHandle {
+  /** The row and the column of the cursor; null where there is none. */
+  cursor: () => { row: OnlineRow; column: string } | null;
+  focus: () => void;
+}
+
 export interface OnlineTableProps {
   label: string;
   session: OnlineSession | null;
@@ -44,6 +50,7 @@ export interface OnlineTableProps {
   onFocus?: (chosen: () => readonly string[]) => void;
   /** Whether its panel is in front: no value is asked for in one that is not. */
   visible?: boolean;
+  handle?: Ref<OnlineTableHandle>;
 }
 
 /** Variables with type, value and prepared value; structured ones open. The table of watch lists and declarations. */
@@ -69,6 +76,16 @@ export function OnlineTable(props: OnlineTableProps) {
   useEffect(() => {
     chosenNow.current = chosen;
   });
+
+  const grid = useRef<GridHandle>(null);
+  useImperativeHandle(props.handle, () => ({
+    cursor: () => {
+      const row = rows[selection.cursor?.row ?? -1];
+      const column = columns[selection.cursor?.column ?? -1]?.id;
+      return row === undefined || column === undefined ? null : { row, column };
+    },
+    focus: () => grid.current?.focus(),
+  }));
 
   const toggleOpen = useCallback(
     (row: OnlineRow, wanted?: boolean) =>
@@ -170,6 +187,7 @@ export function OnlineTable(props: OnlineTableProps) {
       >
         <OnScreen ref={onScreen} runtimeId={props.visible === false ? null : runtimeId} rows={rows} />
         <Grid
+          ref={grid}
           label={props.label}
           columns={columns}
           count={rows.length}

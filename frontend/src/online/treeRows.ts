@@ -15,6 +15,8 @@ export interface OnlineRoot {
   readonly flags?: readonly string[];
   readonly address?: string;
   readonly comment?: string;
+  /** The line that declares it has a bookmark. */
+  readonly bookmarked?: boolean;
   /** There is no value to ask for: a local of a function, an instance that is not chosen. */
   readonly valueless?: boolean;
 }

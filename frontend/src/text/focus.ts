@@ -14,6 +14,8 @@ export interface PanelTable {
   place?: TextPlace;
   /** Its own acts, by command. */
   acts?: Readonly<Record<string, () => void | Promise<void>>>;
+  /** Carries out jumps into the body itself. */
+  jumps?: boolean;
 }
 
 interface PanelEditors {

@@ -13,6 +13,7 @@ import { activeDescendant, openMenuAt } from '@/ui/menuKey';
 import { partUri } from '@/project/partUri';
 import type { OpenText } from '@/text/useTextDocument';
 import { useModelText } from '@/text/useModelText';
+import { useRowPlace } from '@/text/useRowPlace';
 import { Grid, type GridEditing, type GridHandle } from '@/ui/grid/Grid';
 import { useGridSelection } from '@/ui/grid/useGridSelection';
 import { setPanelTable } from '@/text/focus';
@@ -20,13 +21,13 @@ import { quickFixEntries } from '../text/quickFixes';
 import { showCrossReferences } from '../text/acts';
 import { symbolEntries } from '../text/TextMenu';
 import { useEditingLock } from '../text/useEditingLock';
-import { useRowPlace } from './useRowPlace';
 import { CellEditor } from './CellEditor';
 import styles from './DeclarationTable.module.css';
 import { HeaderLine } from './HeaderLine';
+import { rowsInLines } from '@/iec/declaration/lines';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { placeOf, problemText } from './problemText';
-import { DRAFT_KEY, displayOrder, rowsInLines, type Draft, type Sorting } from './tableModel';
+import { DRAFT_KEY, displayOrder, type Draft, type Sorting } from './tableModel';
 import { cellContent, tableColumns } from './tableView';
 import { useTableActs } from './useTableActs';
 
@@ -71,9 +72,11 @@ export function DeclarationTable(props: DeclarationTableProps) {
     monaco,
     document,
     model,
-    row: shown[selection.cursor?.row ?? -1],
-    column: columns[selection.cursor?.column ?? -1]?.id,
-    grid,
+    cursor: () => ({
+      row: shown[selection.cursor?.row ?? -1],
+      column: columns[selection.cursor?.column ?? -1]?.id,
+    }),
+    focus: () => grid.current?.focus(),
   });
   const onFocus = useCallback(() => {
     const history = document.models.declaration as unknown as { undo: () => void; redo: () => void };

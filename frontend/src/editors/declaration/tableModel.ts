@@ -135,15 +135,3 @@ export function newDraft(model: DeclarationModel, before: number | null, type: s
   const first = target === undefined ? before : model.rows.findIndex((row) => row.statement === target.statement);
   return { before: first, scope, type };
 }
-
-/** The rows whose declarations stand in one of the lines, or reach over it. */
-export function rowsInLines(model: DeclarationModel, lines: readonly number[]): ReadonlySet<number> {
-  if (lines.length === 0) return new Set();
-  const lineOf = (offset: number) => model.text.slice(0, offset).split('\n').length;
-  return new Set(
-    model.rows.flatMap(({ element }, row) => {
-      const [first, last] = [lineOf(element.start), lineOf(element.end)];
-      return lines.some((line) => line >= first && line <= last) ? [row] : [];
-    }),
-  );
-}

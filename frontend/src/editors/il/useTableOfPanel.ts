@@ -64,6 +64,7 @@ function tableOf(now: RefObject<TableInput>): PanelTable {
       getSelection: () => now.current.place.getSelection(),
       focus: () => now.current.place.focus(),
     },
+    jumps: true,
     acts: {
       ...inText,
       'edit.cut': clipboard('cut'),

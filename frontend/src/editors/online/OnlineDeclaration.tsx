@@ -3,24 +3,35 @@ import { Boxes } from 'lucide-react';
 import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
+import { useBookmarkedLines } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
 import { LostBar } from '@/online/LostBar';
-import { OnlineTable } from '@/online/OnlineTable';
+import { OnlineTable, type OnlineTableHandle } from '@/online/OnlineTable';
 import online from '@/online/OnlineTable.module.css';
 import { commonEntries } from '@/online/rowMenu';
 import type { SymbolChild } from '@/online/symbols';
-import type { OnlineRoot } from '@/online/treeRows';
+import type { OnlineRoot, OnlineRow } from '@/online/treeRows';
 import { useSymbols } from '@/online/useLive';
+import { actOnSymbol, type SymbolActs } from '@/online/symbolActs';
+import { goToDefinition } from '@/lsp/definition';
 import type { EditorProps } from '@/project/editorProps';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { Button } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
+import type { MenuEntry } from '@/ui/Menu';
 import { useModelText } from '@/text/useModelText';
+import { useRowPlace } from '@/text/useRowPlace';
 import type { OpenText } from '@/text/useTextDocument';
 import { joinComments } from '@/iec/declaration/comments';
+import { rowsInLines } from '@/iec/declaration/lines';
+import type { DeclarationModel } from '@/iec/declaration/model';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import type { GridColumn } from '@/ui/grid/Grid';
-import { setPanelChosen } from '@/text/focus';
+import { setPanelChosen, setPanelTable } from '@/text/focus';
+import { useRegistry } from '@/workbench/commands';
+import { commandContext } from '@/workbench/context';
+import { entriesOf } from '@/workbench/frame/menuEntries';
+import { showCrossReferencesAt } from '../crossReferences/place';
 import { chooseInstance } from './chooseInstance';
 import { monitorTarget } from './monitorScope';
 
@@ -28,7 +39,7 @@ type OnlineDeclarationProps = EditorProps & OpenText & { object: ObjectSummary; 
 
 /** The declaration while logged in: a monitoring table of the shown data (DECL-42 .. DECL-48). */
 export function OnlineDeclaration(props: OnlineDeclarationProps) {
-  const { panelId, projectId, object, instance, document, session, visible } = props;
+  const { panelId, projectId, object, instance, document, monaco, session, visible } = props;
   const t = useText();
   const { data: objects } = useObjects(projectId);
   const text = useModelText(document.models.declaration);
@@ -49,10 +60,59 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
     if (!asked.current && visible) asked.current = choose();
   }, [visible, choose]);
 
-  useEffect(() => () => setPanelChosen(panelId, null), [panelId]);
+  const lines = useBookmarkedLines({ objectId: object.id, part: 'declaration' });
+  const bookmarked = useMemo(() => rowsInLines(model, lines), [model, lines]);
+  const table = useRef<OnlineTableHandle>(null);
+  const place = useRowPlace({
+    monaco,
+    document,
+    model,
+    cursor: () => {
+      const at = table.current?.cursor();
+      return { row: at == null ? undefined : declaredRow(model, at.row), column: at?.column };
+    },
+    focus: () => table.current?.focus(),
+  });
+  useEffect(
+    () => () => {
+      setPanelChosen(panelId, null);
+      setPanelTable(panelId, null);
+    },
+    [panelId],
+  );
+  const onFocus = (chosen: () => readonly string[]) => {
+    setPanelChosen(panelId, chosen);
+    // Components and inherited variables are declared elsewhere: they are known by their expression.
+    const onSymbol = (act: keyof SymbolActs, there: () => Promise<void>) => {
+      const row = table.current?.cursor()?.row;
+      if (place.getPosition() !== null) return there();
+      if (row !== undefined && row.expression !== '') actOnSymbol(act, row.expression);
+    };
+    setPanelTable(panelId, {
+      // Values are shown, no text is changed: there is nothing to undo here, and the body beside it is not meant.
+      undo: () => undefined,
+      redo: () => undefined,
+      place,
+      acts: {
+        'st.goToDefinition': () => onSymbol('goToDefinition', () => goToDefinition(place)),
+        'st.crossReferences': () => onSymbol('showCrossReferences', () => showCrossReferencesAt(projectId, place)),
+      },
+    });
+  };
+  const menu = (rows: readonly OnlineRow[]): MenuEntry[] => [
+    ...commonEntries(t, session, rows),
+    ...(place.getPosition() === null
+      ? []
+      : [
+          { kind: 'line', key: 'bookmark-line' } as const,
+          ...entriesOf(['bookmarks.toggle'], useRegistry.getState().commands, commandContext()),
+        ]),
+  ];
 
   const roots = useMemo((): readonly OnlineRoot[] => {
-    const rows = model.rows.filter((row) => row.special === null);
+    const rows = model.rows.flatMap((row, index) =>
+      row.special === null ? [{ ...row, bookmarked: bookmarked.has(index) }] : [],
+    );
     const declared = new Map(rows.map((row, order) => [row.name.text.toUpperCase(), { row, order }]));
     const extra = (name: string) => {
       const row = declared.get(name.toUpperCase())?.row;
@@ -61,6 +121,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
           address: row.address?.text,
           comment: joinComments(row.comments.map((cell) => cell.text)),
           section: model.blocks[row.block]?.scope,
+          bookmarked: row.bookmarked,
         }
       );
     };
@@ -87,7 +148,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
       section: model.blocks[row.block]?.scope,
       ...extra(row.name.text),
     }));
-  }, [model, members, target.path, object]);
+  }, [model, bookmarked, members, target.path, object]);
 
   const columns = useMemo(
     (): readonly GridColumn[] => [
@@ -115,18 +176,28 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
       {valuesOf(object) === 'call' && <div className={online.bar}>{t('st.stackVariables')}</div>}
       <div>
         <OnlineTable
+          handle={table}
           label={t('st.declarationOf', { name: object.name })}
           session={session}
           roots={roots}
           columns={columns}
-          menu={(rows) => commonEntries(t, session, rows)}
-          onFocus={(chosen) => setPanelChosen(panelId, chosen)}
+          menu={menu}
+          onFocus={onFocus}
           visible={visible}
           empty={<Empty title={t('decl.empty')} />}
         />
       </div>
     </div>
   );
+}
+
+/** Where the text declares what a row shows; undefined for components and inherited variables. */
+function declaredRow(model: DeclarationModel, { depth, label }: OnlineRow): number | undefined {
+  if (depth > 0) return undefined;
+  const found = model.rows.findIndex(
+    ({ special, name }) => special === null && name.text.toUpperCase() === label.toUpperCase(),
+  );
+  return found < 0 ? undefined : found;
 }
 
 function useMembers(

@@ -14,8 +14,8 @@ import { showPanel } from '@/workbench/docking/dock';
 import { guard, notify } from '@/ui/notices';
 import { runCommand } from '@/workbench/run';
 import { applicationOf } from '@/project/tree';
+import { showCrossReferencesAt } from '../crossReferences/place';
 import { InputAssistant } from '../assistant/InputAssistant';
-import { findCrossReferences } from '../crossReferences/store';
 import { parseDeclaration } from '@/iec/declaration/parse';
 import { insertRow } from '@/iec/declaration/structure';
 import { openDocument } from '@/text/documents';
@@ -157,14 +157,8 @@ function tellRenamed(before: string, name: string, { places, objects, undo }: Ap
 }
 
 /** Alt+Shift+F12: every place of what stands at the cursor, in the panel. */
-export async function showCrossReferences({ projectId }: TextPanel, editor: TextPlace): Promise<void> {
-  const model = editor.getModel();
-  const position = editor.getPosition();
-  if (model === null || position === null) return;
-  const word = model.getWordAtPosition(position)?.word ?? '';
-  showPanel('crossReferences', false);
-  const textDocument = { uri: model.uri.toString() };
-  await findCrossReferences(projectId, { textDocument, position: toPosition(position) }, word);
+export async function showCrossReferences({ projectId }: TextPanel, place: TextPlace): Promise<void> {
+  await showCrossReferencesAt(projectId, place);
 }
 
 /** The history of the object, its text with it. */

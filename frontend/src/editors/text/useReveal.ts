@@ -6,7 +6,7 @@ import { panelEditor, panelEditorOf, panelTable, showPanelPart } from '@/text/fo
 export function useReveal(panelId: string, reveal: Reveal | null): void {
   useEffect(() => {
     // A table of the body carries out its jumps itself.
-    const inTable = reveal?.part !== 'declaration' && panelTable(panelId)?.acts !== undefined;
+    const inTable = reveal?.part !== 'declaration' && panelTable(panelId)?.jumps === true;
     if (reveal === null || inTable) return;
     let attempts = 0;
     let frame = 0;

@@ -1,22 +1,20 @@
-import { useEffect, useMemo, useRef, type RefObject } from 'react';
+import { useEffect, useMemo, useRef } from 'react';
 import type { DeclarationModel } from '@/iec/declaration/model';
-import type { TextDocument } from '@/text/documents';
-import type { TextPlace } from '@/text/focus';
-import type { Monaco } from '@/text/monacoLoader';
-import type { GridHandle } from '@/ui/grid/Grid';
+import type { TextDocument } from './documents';
+import type { TextPlace } from './focus';
+import type { Monaco } from './monacoLoader';
 
 interface RowPlaceInput {
   monaco: Monaco;
   document: TextDocument;
   model: DeclarationModel;
-  /** Row of the declaration with the cursor; undefined where there is none. */
-  row: number | undefined;
-  /** The column of the cursor. */
-  column: string | undefined;
-  grid: RefObject<GridHandle | null>;
+  /** Row of the declaration with the cursor, undefined where there is none, and the column of the cursor. */
+  cursor: () => { row: number | undefined; column: string | undefined };
+  /** Gives the table the keyboard. */
+  focus: () => void;
 }
 
-/** The cursor of the table as a place of the text: the name of its variable, in the type column its type. */
+/** The cursor of a table of a declaration as a place of the text: the name of its variable, in the type column its type. */
 export function useRowPlace(input: RowPlaceInput): TextPlace {
   const now = useRef(input);
   useEffect(() => {
@@ -26,7 +24,8 @@ export function useRowPlace(input: RowPlaceInput): TextPlace {
   return useMemo(() => {
     const text = () => now.current.document.models.declaration;
     const getPosition = () => {
-      const { model, row, column } = now.current;
+      const { model } = now.current;
+      const { row, column } = now.current.cursor();
       const shown = model.rows[row ?? -1];
       const cell = column === 'type' ? shown?.type : shown?.name;
       return cell == null ? null : text().getPositionAt(cell.start);
@@ -38,7 +37,7 @@ export function useRowPlace(input: RowPlaceInput): TextPlace {
         const at = getPosition();
         return at && new monaco.Selection(at.lineNumber, at.column, at.lineNumber, at.column);
       },
-      focus: () => now.current.grid.current?.focus(),
+      focus: () => now.current.focus(),
     };
   }, [monaco]);
 }
