@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from .workbench import choose_menu, open_project
+from .workbench import choose_menu, open_object, open_panel, open_project
 
 pytestmark = pytest.mark.e2e
 
@@ -170,3 +170,21 @@ def test_a_script_is_typed_and_run_in_its_editor(page: Page) -> None:
     page.keyboard.type("tappet.log(tappet.user.role, 6 * 7);")
     page.get_by_role("button", name="Run", exact=True).click()
     expect(page.get_by_role("tabpanel", name="Scripts").get_by_role("log")).to_contain_text("admin 42")
+
+
+def test_a_script_is_searched(page: Page) -> None:
+    open_project(page)
+    _add(page, "Long", "const one = 1;\nconst two = 2;\n")
+    open_panel(page, "POUs")
+    open_object(page, "Long")
+    text = page.locator(".monaco-editor:visible").last
+    text.locator(".view-line").nth(1).click()
+    page.keyboard.press("Control+f")
+    find = page.get_by_role("textbox", name="Find").last
+    expect(find).to_be_focused()
+    page.keyboard.type("one")
+    expect(page.get_by_text(re.compile(r"^[1?] of 1$"))).to_be_visible()
+    page.keyboard.press("Escape")
+    page.keyboard.press("Control+End")
+    page.keyboard.press("Control+h")
+    expect(page.get_by_role("textbox", name="Replace").last).to_be_visible()

@@ -3,6 +3,7 @@ import { saveObject, StaleObject, useObject } from '@/api/queries';
 import type { Check } from '@/api/objects';
 import type { ObjectSummary, ProjectObject } from '@/api/types';
 import { t } from '@/i18n';
+import type { Handlers } from '@/workbench/commands';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { confirm } from '@/ui/dialogs';
 import { explain, notifyError } from '@/ui/notices';
@@ -13,6 +14,7 @@ import { useHandlers } from '@/workbench/useHandlers';
 import { useKeptSteps, type Steps } from './keptSteps';
 
 const SAVE_AFTER_MS = 700;
+const NO_OTHERS: Handlers = {};
 
 interface Unsaved<Data> {
   data: Data;
@@ -35,7 +37,7 @@ export interface Draft<Data> {
 /**
  * The data of an object being edited in a form; `check` demands their shape. Changes are saved by themselves a moment later, and at once by
  * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through
- * one's own changes, also after a reload.
+ * one's own changes, also after a reload. `others` are further acts of the view, always the same object.
  */
 export function useDraft<Data extends ProjectObject['data']>(
   panelId: string,
@@ -43,6 +45,7 @@ export function useDraft<Data extends ProjectObject['data']>(
   objectId: string,
   check: Check<Data>,
   valid: (data: Data) => boolean,
+  others: Handlers = NO_OTHERS,
 ): Draft<Data> {
   const { data: object, error } = useObject(projectId, objectId, check);
   const [draft, setDraft] = useState<Unsaved<Data> | null>(null);
@@ -139,6 +142,7 @@ export function useDraft<Data extends ProjectObject['data']>(
     };
     const blocked = allowed !== true ? allowed : null;
     return {
+      ...others,
       'file.save': { run: save },
       'edit.undo': {
         run: step('past', 'future', -1),
@@ -149,7 +153,7 @@ export function useDraft<Data extends ProjectObject['data']>(
         enabled: blocked ?? (history.future.length ? (true as const) : ('reason.nothingToRedo' as const)),
       },
     };
-  }, [history, data, save, set, allowed]);
+  }, [history, data, save, set, allowed, others]);
   useHandlers(panelId, handlers);
 
   return { object, data, readOnly, refused, error, change };

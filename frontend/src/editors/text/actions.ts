@@ -1,4 +1,6 @@
 import { EDITOR_ACTIONS } from '@/text/editorActions';
+import { panelEditor } from '@/text/focus';
+import type { Handler, Handlers } from '@/workbench/commands';
 
 /** Monaco's own command behind each of ours. */
 export const ACTIONS: Readonly<Record<string, string>> = {
@@ -32,3 +34,24 @@ export const CHANGING: readonly string[] = [
   'st.quickFix',
   ...EDITOR_ACTIONS.filter(({ changes }) => changes).map(({ id }) => `text.${id}`),
 ];
+
+/** What is of use in a text of any language. */
+const OF_ANY_TEXT = /^(edit|text)\.|^st\.(fold|unfold|foldAll|unfoldAll|comment|goToLine)$/;
+
+/** Carries out a command of Monaco in the text of a panel that has the focus, or had it last. */
+export function inEditor(panelId: string, action: string): Handler {
+  return {
+    run: () => {
+      const editor = panelEditor(panelId);
+      editor?.focus();
+      // Not every command of Monaco is an action of the editor; `trigger` finds all of them.
+      editor?.trigger('command', action, null);
+    },
+  };
+}
+
+/** Find, replace, fold, lines and the like, for a panel with a text that is no program. */
+export function plainTextHandlers(panelId: string): Handlers {
+  const known = Object.entries(ACTIONS).filter(([command]) => OF_ANY_TEXT.test(command));
+  return Object.fromEntries(known.map(([command, action]) => [command, inEditor(panelId, action)]));
+}

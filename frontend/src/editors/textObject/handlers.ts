@@ -15,7 +15,7 @@ import {
 } from '../text/acts';
 import type { CodeEditor } from '@/text/CodePane';
 import { bodyOf } from '@/text/bodies';
-import { ACTIONS, CHANGING } from '../text/actions';
+import { ACTIONS, CHANGING, inEditor } from '../text/actions';
 import { mayChangeNow } from '../text/onlineEdit';
 import { panelChosen, panelEditor, panelPlace, panelPrepare, panelTable, type TextPlace } from '@/text/focus';
 
@@ -34,14 +34,7 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       if (place !== null) return run(place);
     },
   });
-  const act = (id: string) => ({
-    run: () => {
-      const editor = panelEditor(panelId);
-      editor?.focus();
-      // Not every command of Monaco is an action of the editor; `trigger` finds all of them.
-      editor?.trigger('command', id, null);
-    },
-  });
+  const act = (id: string) => inEditor(panelId, id);
   /** Acts that change the text: while logged in it asks first. */
   const changing = ({ run }: Handler): Handler => ({
     run: async (argument) => {

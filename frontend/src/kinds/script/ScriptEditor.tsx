@@ -3,6 +3,7 @@ import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import { ofKind } from '@/api/objects';
 import type { DataOfKind } from '@/api/types';
 import { useDraft, type Draft } from '@/editors/form/useDraft';
+import { plainTextHandlers } from '@/editors/text/actions';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/project/editorProps';
 import { runScript, useScriptRun } from '@/scripts/runner';
@@ -27,7 +28,8 @@ export default function ScriptEditor(props: EditorProps) {
   const t = useText();
   const [monaco, setMonaco] = useState<Monaco | null>(null);
   const [error, setError] = useState<unknown>(null);
-  const draft = useDraft(panelId, projectId, objectId, ofKind('script'), fits);
+  const handlers = useMemo(() => plainTextHandlers(panelId), [panelId]);
+  const draft = useDraft(panelId, projectId, objectId, ofKind('script'), fits, handlers);
   const running = useScriptRun((state) => state.run?.state === 'running');
   useEffect(() => {
     loadMonaco().then(setMonaco, setError);
