@@ -1,6 +1,6 @@
 import type { IDockviewPanelHeaderProps } from 'dockview-react';
 import { X } from 'lucide-react';
-import type { MouseEvent, ReactNode } from 'react';
+import { useEffect, useRef, type MouseEvent, type ReactNode } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
@@ -11,6 +11,7 @@ import { useProject } from '@/project/openProject';
 import { useSelection } from '../selection';
 import { ToneDot } from '../online/ToneDot';
 import { ContextMenu, type MenuEntry } from '@/ui/Menu';
+import { isMenuKey, openMenuAt } from '@/ui/menuKey';
 import { applicationOf } from '@/project/tree';
 import { toneOfApplication } from '../tones';
 import { closeEditors } from './close';
@@ -92,9 +93,21 @@ function TabFrame({ title, dirty, tool, onClose, entries, children }: TabFramePr
   const middleClick = (event: MouseEvent) => {
     if (event.button === 1) onClose();
   };
+  const frame = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    // The focus is on the tab of the docking around this frame.
+    const tab = frame.current?.closest<HTMLElement>('.dv-tab');
+    const onKey = (event: KeyboardEvent) => {
+      if (frame.current === null || !isMenuKey(event)) return;
+      event.preventDefault();
+      openMenuAt(frame.current);
+    };
+    tab?.addEventListener('keydown', onKey);
+    return () => tab?.removeEventListener('keydown', onKey);
+  }, []);
   return (
     <ContextMenu entries={entries}>
-      <div className={styles.tab} data-tool={tool ? '' : undefined} title={title} onAuxClick={middleClick}>
+      <div ref={frame} className={styles.tab} data-tool={tool ? '' : undefined} title={title} onAuxClick={middleClick}>
         {children}
         {/* For the mouse: a tab holds no other control; the keyboard closes it by a command (Window menu). */}
         <span
