@@ -13,7 +13,6 @@ import { confirm, openDialog } from '@/ui/dialogs';
 import { saveBlob } from '@/workbench/downloadFile';
 import { UserMenu } from '@/workbench/frame/UserMenu';
 import { droppedFiles, type NamedFile } from '@/workbench/exchange/dropped';
-import { ImportDialog } from '@/workbench/exchange/ImportDialog';
 import { guard } from '@/ui/notices';
 import { atLeast } from '@/workbench/rights';
 import { Button, IconButton } from '@/ui/Button';
@@ -23,7 +22,6 @@ import { DropdownMenu, type MenuEntry } from '@/ui/Menu';
 import { loadNames } from '@/session/preferences';
 import { go } from '@/session/route';
 import { useSession } from '@/session/session';
-import { newProject } from '@/workbench/projectInfo/NewProjectDialog';
 import { ago, sections } from './projects';
 import styles from './StartPage.module.css';
 
@@ -45,6 +43,7 @@ export default function StartPage() {
   }, []);
 
   const create = async () => {
+    const { newProject } = await import('@/workbench/projectInfo/NewProjectDialog');
     const project = await newProject();
     if (project) go({ page: 'project', projectId: project.id });
   };
@@ -68,7 +67,12 @@ export default function StartPage() {
         <nav className={styles.side} aria-label={t('start.begin')}>
           <h2 className={styles.heading}>{t('start.begin')}</h2>
           <StartAction icon={FilePlus} text={t('command.newProject')} refused={refused} run={() => void create()} />
-          <StartAction icon={FileUp} text={t('start.import')} refused={refused} run={() => void importFiles()} />
+          <StartAction
+            icon={FileUp}
+            text={t('start.import')}
+            refused={refused}
+            run={() => void guard(() => importFiles())}
+          />
         </nav>
         <section
           className={styles.content}
@@ -103,7 +107,7 @@ export default function StartPage() {
               <Button variant="primary" icon={FilePlus} disabledReason={refused} onClick={() => void create()}>
                 {t('command.newProject')}
               </Button>
-              <Button icon={FileUp} disabledReason={refused} onClick={() => void importFiles()}>
+              <Button icon={FileUp} disabledReason={refused} onClick={() => void guard(() => importFiles())}>
                 {t('start.import')}
               </Button>
             </Empty>
@@ -228,6 +232,7 @@ async function exportArchive({ id, name }: ProjectSummary): Promise<void> {
 
 /** Makes a project of files: our own archive, or those of other systems. */
 async function importFiles(files: readonly NamedFile[] = []): Promise<void> {
+  const { ImportDialog } = await import('@/workbench/exchange/ImportDialog');
   await openDialog((close) => (
     <ImportDialog
       target={null}

@@ -8,7 +8,6 @@ import { openDialog } from '@/ui/dialogs';
 import { saveEditors } from '../docking/close';
 import { openObject } from '../docking/dock';
 import { ExportDialog } from '../exchange/ExportDialog';
-import { ImportDialog } from '../exchange/ImportDialog';
 import { useProject } from '@/project/openProject';
 import { mayEdit } from '../rights';
 import { leaveProject } from './file';
@@ -28,6 +27,7 @@ const commands: Command[] = [
     run: async (context) => {
       const projectId = context.projectId!;
       const objects = objectsOf(projectId);
+      const { ImportDialog } = await import('../exchange/ImportDialog');
       await openDialog((close) => (
         <ImportDialog
           target={{

@@ -3,7 +3,6 @@ import { api } from '@/api/client';
 import { queryClient } from '@/api/queries';
 import { go } from '@/session/route';
 import { setUser, useSession } from '@/session/session';
-import { newProject } from '../projectInfo/NewProjectDialog';
 import { registerCommands, type Command } from '../commands';
 import { engineer, project } from '../conditions';
 import { closeEditors } from '../docking/close';
@@ -23,6 +22,7 @@ const commands: Command[] = [
     menu: { menu: 'file', group: '1_project', order: 1 },
     enabled: engineer,
     run: async () => {
+      const { newProject } = await import('../projectInfo/NewProjectDialog');
       const project = await newProject();
       if (project && (await leaveProject())) go({ page: 'project', projectId: project.id });
     },
