@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 import pytest
 from playwright.sync_api import Page, expect
 
-from .workbench import open_object, open_project, watch
+from .workbench import implementation, open_object, open_project, tree_item, watch
 
 pytestmark = pytest.mark.e2e
 
@@ -26,6 +27,30 @@ def _tab(page: Page) -> None:
     page.locator(".dv-tab").filter(has_text="PLC_PRG").first.focus()
 
 
+def _tree(page: Page) -> None:
+    tree_item(page, "GVL_IO").click()
+
+
+def _program(page: Page) -> None:
+    tree_item(page, "PLC_PRG").click()
+
+
+def _symbol(page: Page) -> None:
+    open_object(page, "PLC_PRG")
+    implementation(page).locator(".view-line").nth(1).get_by_text("xSafe").first.click()
+
+
+def _text(page: Page) -> None:
+    open_object(page, "PLC_PRG")
+    implementation(page).locator(".view-line").nth(1).click()
+
+
+def _declaration(page: Page) -> None:
+    open_object(page, "PLC_PRG")
+    page.get_by_role("button", name="Table", exact=False).first.click()
+    page.get_by_role("gridcell").filter(has_text="fbFiller").first.click()
+
+
 def _close(page: Page) -> None:
     """The menu, after the tooltip of one of its entries."""
     page.wait_for_timeout(150)
@@ -42,7 +67,7 @@ def _back(page: Page) -> str:
     return "" if page.evaluate(BACK) else str(page.evaluate(WHERE))
 
 
-@pytest.mark.parametrize("go", [_watch, _tab])
+@pytest.mark.parametrize("go", [_watch, _tab, _tree, _text, _declaration])
 def test_menu_keys_open_a_menu_and_escape_leads_back(page: Page, go: Callable[[Page], None]) -> None:
     open_project(page)
     go(page)
@@ -54,3 +79,30 @@ def test_menu_keys_open_a_menu_and_escape_leads_back(page: Page, go: Callable[[P
         _close(page)
         wrong += [f"{key}, Escape: {place}" for place in [_back(page)] if place]
     assert wrong == [], "\n".join(wrong)
+
+
+@pytest.mark.parametrize(
+    ("go", "entries"),
+    [
+        (_program, ("Add Object", "Method")),
+        (_tree, ("Properties",)),
+        (_tree, ("Delete",)),
+        (_symbol, ("Rename",)),
+    ],
+)
+def test_a_dialog_from_a_context_menu_leads_back(
+    page: Page, go: Callable[[Page], None], entries: tuple[str, ...]
+) -> None:
+    open_project(page)
+    go(page)
+    page.evaluate(KEEP)
+    page.keyboard.press("Shift+F10")
+    for entry in entries:
+        page.get_by_role("menuitem", name=re.compile(f"^{entry}")).last.focus()
+        page.keyboard.press("Enter")
+    dialog = page.get_by_role("dialog")
+    expect(dialog).to_be_visible()
+    page.wait_for_timeout(150)
+    _close(page)
+    expect(dialog).to_have_count(0)
+    assert _back(page) == ""

@@ -3,6 +3,7 @@ import { ContextMenu as RadixContext, DropdownMenu as RadixDropdown, Menubar } f
 import { useRef, useState, type ComponentType, type ReactElement, type ReactNode } from 'react';
 import type { IconComponent } from '@/icons/IconComponent';
 import styles from './Menu.module.css';
+import { setMenuOrigin } from './menuOrigin';
 import { Tooltip } from './Tooltip';
 
 export type MenuEntry =
@@ -127,9 +128,11 @@ interface ContextMenuProps {
 export function ContextMenu({ entries, children }: ContextMenuProps) {
   const [shown, setShown] = useState<readonly MenuEntry[]>([]);
   const opened = useRef(0);
+  const before = useRef<Element | null>(null);
   const onOpenChange = (open: boolean) => {
     opened.current += 1;
     if (!open) return;
+    before.current = document.activeElement;
     const made = entries();
     if (!(made instanceof Promise)) {
       setShown(made);
@@ -144,7 +147,13 @@ export function ContextMenu({ entries, children }: ContextMenuProps) {
       <RadixContext.Trigger asChild>{children}</RadixContext.Trigger>
       <RadixContext.Portal>
         {shown.length > 0 && (
-          <RadixContext.Content className={styles.menu} collisionPadding={8}>
+          <RadixContext.Content
+            ref={(menu) => {
+              if (menu) setMenuOrigin(menu, before.current);
+            }}
+            className={styles.menu}
+            collisionPadding={8}
+          >
             <MenuItems parts={RadixContext} entries={shown} />
           </RadixContext.Content>
         )}

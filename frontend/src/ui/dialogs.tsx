@@ -9,6 +9,7 @@
 import { createElement, Fragment, type ReactElement, type ReactNode } from 'react';
 import { create } from 'zustand';
 import { FormDialog } from './FormDialog';
+import { menuOrigin } from './menuOrigin';
 
 type Close<Answer> = (answer?: Answer) => void;
 
@@ -36,11 +37,11 @@ export function openDialog<Answer = true>(render: (close: Close<Answer>) => Reac
   });
 }
 
-/** What has the focus; of an entry of a menu, which is gone when the dialog is, the button that opened the menu. */
+/** What has the focus; of an entry of a menu, which is gone when the dialog is, what had it before the menu. */
 function placeOfFocus(): HTMLElement | null {
   let place = document.activeElement;
   for (let menu = place?.closest('[role="menu"]'); menu; menu = place?.closest('[role="menu"]'))
-    place = document.getElementById(menu.getAttribute('aria-labelledby') ?? '');
+    place = menuOrigin(menu);
   return place instanceof HTMLElement ? place : null;
 }
 
