@@ -78,6 +78,7 @@ def compile_order(body: str) -> dict[str, Any]:
         "key": "p/a", "application": "A", "project": "P", "sources": [source], "tasks": [],
         "libraries": [], "previous": None, "cache": "",
         "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False, "fresh": False,
+        "disabled_warnings": (),
         "heap": {"limit": 1 << 16, "poison": False},
     }  # fmt: skip
 
