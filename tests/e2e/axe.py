@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Literal
 
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 AXE = Path(__file__).parents[2] / "frontend/node_modules/axe-core/axe.min.js"
 RUN = """async (part) => {
@@ -28,4 +30,26 @@ def serious(page: Page, part: str | None = None) -> list[str]:
     if not page.evaluate("() => 'axe' in window"):
         page.evaluate(f"() => {{ {AXE.read_text(encoding='utf-8')} }}")
     found: list[str] = page.evaluate(RUN, part)
+    return found
+
+
+THEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
+SETTLE = """() => document.getAnimations()
+    .filter((animation) => animation.effect.getComputedTiming().endTime !== Infinity)
+    .forEach((animation) => animation.finish())"""
+"""Colours on the way from one theme to the other, or of a dialog that appears, are none of either."""
+
+
+def serious_in_both_themes(
+    page: Page, part: str | None = None, seen: Callable[[str], object] = lambda theme: None
+) -> list[str]:
+    """What axe finds in light colours and in dark ones, in which `seen` is called as well."""
+    found = []
+    for theme in THEMES:
+        page.emulate_media(color_scheme=theme)
+        expect(page.locator(f"html[data-theme={theme}]")).to_have_count(1)
+        page.evaluate(SETTLE)
+        found += [f"{theme}: {line}" for line in serious(page, part)]
+        seen(theme)
+    page.emulate_media(color_scheme="light")
     return found

@@ -6,10 +6,9 @@ import re
 from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
-from .axe import serious
-from .conftest import Server, new_profile, start_page
+from .axe import serious_in_both_themes
 from .workbench import (
     choose_menu,
     implementation,
@@ -161,40 +160,32 @@ def _every_menu(page: Page) -> Iterator[str]:
         page.keyboard.press("Escape")
 
 
-@pytest.mark.parametrize("theme", ["dark", "light"])
 @pytest.mark.parametrize(
     "views",
     [_objects, _panels, _tools, _help, _dialogs, _comparisons, _online],
     ids=lambda views: views.__name__.strip("_"),
 )
-def test_nothing_serious(
-    browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]
-) -> None:
-    with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
-        found = [f"start page: {line}" for line in serious(page)]
-        open_project(page)
-        for name in views(page):
-            found += [f"{name}: {line}" for line in serious(page)]
+def test_nothing_serious(page: Page, views: Callable[[Page], Iterator[str]]) -> None:
+    found = [f"start page, {line}" for line in serious_in_both_themes(page)]
+    open_project(page)
+    for name in views(page):
+        found += [f"{name}, {line}" for line in serious_in_both_themes(page)]
     assert found == [], "\n".join(found)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("theme", ["dark", "light"])
 @pytest.mark.parametrize(
     "views",
     [_every_panel, _every_menu],
     ids=lambda views: views.__name__.strip("_"),
 )
-def test_nothing_serious_anywhere(
-    browser: Browser, server: Server, theme: str, views: Callable[[Page], Iterator[str]]
-) -> None:
+def test_nothing_serious_anywhere(page: Page, views: Callable[[Page], Iterator[str]]) -> None:
     """Every panel and menu that the workbench itself lists."""
-    with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
-        open_project(page)
-        found = []
-        for name in views(page):
-            # What floats lies over the rest, which has been looked at.
-            floating = "[role=dialog], [role=menu]"
-            part = floating if page.locator(floating).count() else "main"
-            found += [f"{name}: {line}" for line in serious(page, part)]
+    open_project(page)
+    found = []
+    for name in views(page):
+        # What floats lies over the rest, which has been looked at.
+        floating = "[role=dialog], [role=menu]"
+        part = floating if page.locator(floating).count() else "main"
+        found += [f"{name}, {line}" for line in serious_in_both_themes(page, part)]
     assert found == [], "\n".join(found)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Literal
 
 import pytest
 from playwright.sync_api import Browser, Locator, expect
 
-from .axe import serious
+from .axe import serious_in_both_themes
 from .conftest import Server, new_profile, start_page
 from .dialog_titles import dialog_titles
 from .every_dialog import TOURS, Tour
@@ -21,7 +20,6 @@ from .workbench import open_project
 pytestmark = pytest.mark.e2e
 
 LANGUAGES = ("en", "zh")
-THEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 DIALOGS = "[role=dialog]"
 FOLLOW_FOCUS = """() => {
     const inside = '[role=dialog], [role=menu], [role=listbox]';
@@ -44,24 +42,15 @@ STOPS = 25
 """So many times Tab is pressed: no field keeps the keyboard twice in a row."""
 
 
-SETTLE = """() => document.getAnimations()
-    .filter((animation) => animation.effect.getComputedTiming().endTime !== Infinity)
-    .forEach((animation) => animation.finish())"""
-"""Colours on the way from one theme to the other, or of a dialog that appears, are none of either."""
-
-
 def in_both_themes(ui: Ui, name: str, part: str) -> list[str]:
-    """What axe finds in a part of the page in light colours and in dark ones."""
-    page, found = ui.page, []
+    """What axe finds in a part of the page, in light colours and in dark ones, with pictures if wanted."""
     pictures = os.environ.get("TAPPET_VIEWS")
-    for theme in THEMES:
-        page.emulate_media(color_scheme=theme)
-        expect(page.locator(f"html[data-theme={theme}]")).to_have_count(1)
-        page.evaluate(SETTLE)
-        found += [f"{name}, {theme}: {line}" for line in serious(page, part)]
+
+    def picture(theme: str) -> None:
         if pictures:
-            page.screenshot(path=Path(pictures) / f"{name.replace(' ', '-')}-{ui.language}-{theme}.png")
-    return found
+            ui.page.screenshot(path=Path(pictures) / f"{name.replace(' ', '-')}-{ui.language}-{theme}.png")
+
+    return [f"{name}, {line}" for line in serious_in_both_themes(ui.page, part, picture)]
 
 
 def ways_out(ui: Ui, object_id: str) -> list[str]:
