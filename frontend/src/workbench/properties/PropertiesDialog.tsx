@@ -4,9 +4,9 @@ import { api } from '@/api/client';
 import { dataText } from '@/api/objects';
 import { objectQuery, useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
-import { useLanguage, useText } from '@/i18n';
+import { listed, useLanguage, useText } from '@/i18n';
 import { kindOf, kindTitle, subkindTitle } from '@/project/kinds';
-import { displayName } from '@/project/objectName';
+import { displayName, displayPath } from '@/project/objectName';
 import { treePath } from '@/project/tree';
 import { Button } from '@/ui/Button';
 import { Loading } from '@/ui/Empty';
@@ -46,7 +46,7 @@ export function PropertiesDialog({ projectId, object: given, close }: Properties
   const [refused, ask] = useRefusal();
   const Own = kindOf(object.kind)?.properties;
   const compiled = kindOf(object.kind)?.compiled ?? false;
-  const kind = [kindTitle(object.kind), object.subkind && subkindTitle(object.subkind)].filter(Boolean).join(', ');
+  const kind = listed([kindTitle(object.kind), object.subkind ? subkindTitle(object.subkind) : ''].filter(Boolean));
   const facts = detail && factsOf(dataText(detail, 'declaration'), dataText(detail, 'implementation'));
   const bodyLanguage = detail ? dataText(detail, 'language') : '';
   const created = revisions?.at(-1);
@@ -92,7 +92,7 @@ export function PropertiesDialog({ projectId, object: given, close }: Properties
       <Facts>
         <Fact title={t('properties.kind')} text={kind} />
         <Fact title={t('properties.language')} text={bodyLanguage} />
-        <Fact title={t('properties.path')} text={treePath(objects ?? [], object.id)} />
+        <Fact title={t('properties.path')} text={displayPath(treePath(objects ?? [], object.id), '/')} />
         <Fact title={t('properties.access')} text={facts?.access ?? ''} />
         <Fact title={t('properties.modifiers')} text={facts?.modifiers.join(', ') ?? ''} />
         <Fact title={t('properties.attributes')} text={facts?.attributes.join('\n') ?? ''} />
