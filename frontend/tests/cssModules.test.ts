@@ -5,7 +5,7 @@ import { expect, it } from 'vitest';
 const SOURCES = resolve(import.meta.dirname, '../src');
 const IMPORT = /^import (\w+) from '([^']+\.module\.css)';$/gm;
 
-/** Classes of a style sheet, with those of the sheets that it is composed of. */
+/** Classes that a style sheet names. */
 function classesOf(path: string): Set<string> {
   return new Set([...readFileSync(path, 'utf-8').matchAll(/\.([A-Za-z_][\w-]*)/g)].map((found) => found[1]!));
 }

@@ -145,11 +145,12 @@ class FolderPrograms:
 
     def _settings(self, application: str) -> ApplicationData | None:
         """What the application of a project folder has chosen; None where there is no such file."""
-        from tappet.project.kinds.application import ApplicationData  # project folders only
-
         path = self.root / f"{application}.application.json"
         try:
-            return ApplicationData.model_validate_json(path.read_bytes())
+            content = path.read_bytes()
+            from tappet.project.kinds.application import ApplicationData  # project folders only
+
+            return ApplicationData.model_validate_json(content)
         except (OSError, ValueError):
             return None
 
