@@ -11,9 +11,12 @@ from .workbench import (
     implementation,
     log_in,
     open_object,
+    open_project,
     plc_prg,
     show_panel,
+    status_bar,
     tree_item,
+    watch,
 )
 
 pytestmark = pytest.mark.e2e
@@ -69,7 +72,7 @@ def test_next_bookmark_goes_through_the_project(page: Page) -> None:
     for name, position in (("PLC_PRG", "Ln 2"), ("GVL_IO", "Ln 3"), ("PLC_PRG", "Ln 2")):
         page.keyboard.press(NEXT)
         expect(active.filter(has_text=name)).to_be_visible()
-        expect(page.locator("footer[role=status]")).to_contain_text(position)
+        expect(status_bar(page)).to_contain_text(position)
     page.keyboard.press(TOGGLE)
     expect(_marks(implementation(page))).to_have_count(0)
     panel = _panel(page)
@@ -124,7 +127,21 @@ def test_a_row_of_a_table_of_values_leads_to_its_declaration(page: Page) -> None
     line = page.locator(".dv-active-group .view-line").filter(has_text=variable).first
     expect(line).to_be_visible()
     expect(table).to_have_count(0)
-    expect(page.locator("footer[role=status]")).to_contain_text("Ln ")
+    expect(status_bar(page)).to_contain_text("Ln ")
+
+
+def test_a_row_of_a_watch_list_leads_to_its_declaration(page: Page) -> None:
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    open_project(page)
+    watched = watch(page, "GVL_Line.iRecipe")
+    watched.get_by_role("gridcell").first.click()
+    page.keyboard.press("F12")
+    expect(page.locator(".dv-tab").filter(has_text="GVL_Line").first).to_be_visible()
+    expect(page.locator(".dv-active-group .view-line").filter(has_text="iRecipe").first).to_be_in_viewport()
+    expect(status_bar(page)).to_contain_text("Ln ")
+    for key in ("Home", "Shift+End", "Control+c"):
+        page.keyboard.press(key)
+    assert page.evaluate("() => navigator.clipboard.readText()").strip().startswith("iRecipe")
 
 
 def test_a_bookmark_of_the_body_is_reached_from_the_declaration_table(page: Page) -> None:
@@ -136,4 +153,4 @@ def test_a_bookmark_of_the_body_is_reached_from_the_declaration_table(page: Page
     table = page.get_by_role("grid", name="Declaration of PLC_PRG as table")
     table.get_by_role("row").nth(2).get_by_role("gridcell").nth(2).click()
     page.keyboard.press(NEXT)
-    expect(page.locator("footer[role=status]")).to_contain_text("Ln 3")
+    expect(status_bar(page)).to_contain_text("Ln 3")

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
-from .workbench import implementation, open_object, open_project, tree_item, watch
+from .workbench import add_line, implementation, message_rows, open_object, open_project, tree_item, watch
 
 pytestmark = pytest.mark.e2e
 
@@ -45,6 +45,14 @@ def _text(page: Page) -> None:
     implementation(page).locator(".view-line").nth(1).click()
 
 
+def _messages(page: Page) -> None:
+    open_object(page, "PLC_PRG")
+    add_line(page, implementation(page), "abc := ;")
+    row = message_rows(page).first
+    expect(row).to_be_visible()
+    row.click()
+
+
 def _declaration(page: Page) -> None:
     open_object(page, "PLC_PRG")
     page.get_by_role("button", name="Table", exact=False).first.click()
@@ -67,7 +75,7 @@ def _back(page: Page) -> str:
     return "" if page.evaluate(BACK) else str(page.evaluate(WHERE))
 
 
-@pytest.mark.parametrize("go", [_watch, _tab, _tree, _text, _declaration])
+@pytest.mark.parametrize("go", [_watch, _tab, _tree, _text, _declaration, _messages])
 def test_menu_keys_open_a_menu_and_escape_leads_back(page: Page, go: Callable[[Page], None]) -> None:
     open_project(page)
     go(page)
