@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from uuid import UUID
 from xml.sax.saxutils import escape
 
@@ -45,6 +45,8 @@ class Item:
     as_lines: bool = False
     """Texts line by line, as up to V3.5 SP16."""
     excluded: bool = False
+    properties: Mapping[str, str] = field(default_factory=dict)
+    """Further properties, such as those of the build."""
 
 
 def single(name: str, text: str) -> str:
@@ -70,6 +72,7 @@ def native(items: Sequence[Item], tag: str = "List2") -> bytes:
     for item in items:
         path = "".join(f'<Single Type="string">{escape(part)}</Single>' for part in item.path)
         excluded = single("ExcludeFromBuild", "True") if item.excluded else ""
+        excluded += "".join(single(name, text) for name, text in item.properties.items())
         meta = single("Guid", str(UUID(int=item.number))) + single("Name", item.name)
         meta += f'<Dictionary Name="Properties">{excluded}</Dictionary>{single("TypeGuid", TYPES[item.type])}'
         held = _text("Implementation", item.body, item.as_lines)

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 from tappet.iec.sections import end_keyword, read_header
 from tappet.project.data import CodeData
+from tappet.project.exchange.build_properties import take_build_properties
 from tappet.project.exchange.drafts import (
     Batch,
     Draft,
     body,
-    exclude,
     hex_id,
     task_configuration,
 )
@@ -219,8 +219,7 @@ class NativeReader:
             kind.codesys.read(self, entry, draft)
         mark_without_result(draft, self.report)
         meta = _part(entry.item, "MetaObject")
-        if meta is not None and _value(meta, "ExcludeFromBuild", deep=True).casefold() == "true":
-            exclude(draft)
+        take_build_properties(draft, lambda key: _value(meta, key, deep=True), self.report)
         return draft
 
     def _body(self, entry: Entry, name: str) -> dict[str, object]:

@@ -7,6 +7,7 @@ differ in that. Where the export holds the declarations as plain text, these are
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Callable
 from typing import Any
 
@@ -14,11 +15,11 @@ from tappet.iec.languages import is_plain_text
 from tappet.iec.languages import languages as body_languages
 from tappet.iec.sections import read_header
 from tappet.iec.words import SECTIONS
+from tappet.project.exchange.build_properties import take_build_properties
 from tappet.project.exchange.drafts import (
     Batch,
     Draft,
     body,
-    exclude,
     hex_id,
     library_manager,
     plc_logic,
@@ -203,11 +204,11 @@ class PlcopenReader:
         )
 
     def _marked(self, draft: Draft, item: Element) -> Draft:
-        """The draft, excluded from the build where the build properties of its element say so."""
+        """The draft with the build properties of its element."""
         for name, inner in added(item):
-            flag = inner.child("ExcludeFromBuild") if name == "buildproperties" else None
-            if flag is not None and flag.text().strip().lower() == "true":
-                exclude(draft)
+            if name == "buildproperties":
+                given = defaultdict(str, {part.tag: part.text() for part in inner})
+                take_build_properties(draft, given.__getitem__, self.report)
         return draft
 
     # -- programming objects
