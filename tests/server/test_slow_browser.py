@@ -19,7 +19,9 @@ from tappet.server.auth.roles import Role
 from tappet.server.settings import ServerSettings
 
 EXPRESSIONS = ["PLC_PRG.sName"] * 4900
-FRAMES = 600
+FRAMES = 200
+BUFFER = 1 << 16
+"""Bytes that the sockets of both sides keep: a frame has more."""
 
 
 def _token(db: Connection) -> str:
@@ -33,6 +35,7 @@ async def test_unfetched_frames_are_replaced(settings: ServerSettings) -> None:
     plc.image[:] = os.urandom(len(plc.image))
     app = create_app(settings, plc.connect)
     listener = socket.create_server(("127.0.0.1", 0))
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER)
     config = uvicorn.Config(app, log_config=None, ws_per_message_deflate=False)
     server = uvicorn.Server(config)
     serving = asyncio.create_task(server.serve(sockets=[listener]))
@@ -46,8 +49,11 @@ async def test_unfetched_frames_are_replaced(settings: ServerSettings) -> None:
             await asyncio.sleep(0.02)
         address = f"ws://127.0.0.1:{listener.getsockname()[1]}/api/v1/online?runtime={link.id}"
         headers = {"Authorization": f"Bearer {token}"}
+        connection = socket.socket()
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
+        connection.connect(listener.getsockname())
         async with websockets.connect(
-            address, additional_headers=headers, max_queue=1, compression=None
+            address, sock=connection, additional_headers=headers, max_queue=1, compression=None
         ) as browser:
             order = {"op": "subscribe", "id": 1, "expressions": EXPRESSIONS, "interval_ms": 10}
             await browser.send(json.dumps(order))
