@@ -9,10 +9,11 @@ from string import Formatter
 import pytest
 
 from tappet.lang import diagnostic_pages
-from tappet.lang.diagnostic_translations import Texts, language_of, said, texts, translated_codes
+from tappet.lang.diagnostic_translations import Texts, said, texts, translated_codes
 from tappet.lang.diagnostics import TABLE, Related, report
 from tappet.lang.rules import all_rules
 from tappet.lang.source import Span
+from tappet.translation.language import language_of
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "backend" / "tappet"

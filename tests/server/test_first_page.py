@@ -35,7 +35,7 @@ async def main():
 
 asyncio.run(main())
 """
-ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries"}
+ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries", "translation"}
 LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "reference", "source"}
 """The tables of messages and of help, and what reports of other processes consist of."""
 CODE = {"display", "literals", "package", "symbol_map", "symbol_types", "values"}

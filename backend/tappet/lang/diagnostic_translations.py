@@ -4,21 +4,18 @@ what their places add, such as advice and names of kinds, `phrases_<language>.cs
 from __future__ import annotations
 
 import csv
-import re
 from collections.abc import Mapping
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from importlib.resources import files
 from types import MappingProxyType
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from tappet.lang.diagnostics import TABLE
-
-Language = Literal["en", "zh"]
-
+from tappet.translation.language import Language
+from tappet.translation.templates import FIELD, Templates
 
 _KINDS = frozenset({"what", "verb", "needed", "given", "count", "expected", "where", "size", "place"})
 """Facts that say what something is; all others may be names."""
-_FIELD = re.compile(r"\{([a-z_]+)\}")
 
 
 class Texts(NamedTuple):
@@ -69,71 +66,33 @@ def _fact(name: str, value: str, language: Language) -> str:
     """A fact in words of the language: one word may be a name of the program unless the fact is a kind."""
     found = phrase(value, language) if name in _KINDS or " " in value else value
     if found == value and name == "reason":
-        found = _filled(value, _messages(language), language) or value
+        found = _messages(language).find(value, partial(_said_in, language)) or value
     return found
 
 
-class _Phrases(NamedTuple):
-    """What places add to messages: whole texts, and patterns of texts that hold others."""
-
-    whole: Mapping[str, str]
-    patterns: tuple[tuple[re.Pattern[str], str], ...]
-
-
-def _pattern(english: str) -> re.Pattern[str]:
-    """What an English template with fields has been filled in to."""
-    parts = _FIELD.split(english.replace("{{", "{").replace("}}", "}"))
-    seen: set[str] = set()
-    for number in range(1, len(parts), 2):
-        name = parts[number]
-        parts[number] = f"(?P={name})" if name in seen else f"(?P<{name}>.+?)"
-        seen.add(name)
-    return re.compile("".join(part if n % 2 else re.escape(part) for n, part in enumerate(parts)), re.DOTALL)
-
-
 @cache
-def _phrases(language: Language) -> _Phrases:
+def _phrases(language: Language) -> Templates:
+    """What places add to messages."""
     if language == "en":
-        return _Phrases({}, ())
+        return Templates(())
     table = files("tappet.lang").joinpath(f"phrases_{language}.csv").read_text(encoding="utf-8")
-    rows = [(row["english"], row["chinese"]) for row in csv.DictReader(table.splitlines())]
-    exact_first = sorted(rows, key=lambda row: -len(_FIELD.sub("", row[0])))
-    patterns = [(_pattern(english), text) for english, text in exact_first if _FIELD.search(english)]
-    return _Phrases(dict(rows), tuple(patterns))
+    return Templates((row["english"], row["chinese"]) for row in csv.DictReader(table.splitlines()))
 
 
 @cache
-def _messages(language: Language) -> tuple[tuple[re.Pattern[str], str], ...]:
+def _messages(language: Language) -> Templates:
     """Whole messages: some are the reason of others."""
     own = _translated(language)
-    codes = sorted(own.keys() & TABLE.keys(), key=lambda code: -len(TABLE[code].message))
-    found = [(TABLE[code].message, own[code].message) for code in codes]
-    return tuple((_pattern(english), text) for english, text in found if _FIELD.sub("", english).strip())
+    found = [(TABLE[code].message, own[code].message) for code in sorted(own.keys() & TABLE.keys())]
+    return Templates(row for row in found if FIELD.sub("", row[0]).strip())
 
 
 @lru_cache(maxsize=10_000)
 def phrase(english: str, language: Language) -> str:
     """What a place adds to a message, such as its advice, in a language; as it is where there are no
     words."""
-    table = _phrases(language)
-    found = table.whole.get(english)
-    if found is not None:
-        return found
-    return _filled(english, table.patterns, language) or english
+    return _phrases(language).find(english, partial(_said_in, language)) or english
 
 
-def _filled(
-    english: str, patterns: tuple[tuple[re.Pattern[str], str], ...], language: Language
-) -> str | None:
-    """The text of the first pattern that fits."""
-    for pattern, text in patterns:
-        match = pattern.fullmatch(english)
-        if match is not None:
-            parts = match.groupdict()
-            return text.format_map({name: phrase(part, language) for name, part in parts.items()})
-    return None
-
-
-def language_of(tag: str | None) -> Language:
-    """The language of our texts for a tag such as `zh-CN`; English for those that we do not speak."""
-    return "zh" if (tag or "").lower().startswith("zh") else "en"
+def _said_in(language: Language, _field: str, fact: str) -> str:
+    return phrase(fact, language)

@@ -16,7 +16,7 @@ from importlib.resources import files
 from types import MappingProxyType
 
 from tappet.iec import words
-from tappet.lang.diagnostic_translations import Language
+from tappet.translation.language import Language
 
 
 @dataclass(frozen=True, slots=True)

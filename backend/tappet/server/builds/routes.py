@@ -7,7 +7,6 @@ from typing import Annotated
 from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
-from tappet.lang.diagnostic_translations import Language
 from tappet.runtime import boot
 from tappet.server.audit import Act, Result
 from tappet.server.audited import ActRecord, audited
@@ -34,6 +33,7 @@ from tappet.server.problems import Problem
 from tappet.server.projects.routes import download as file_response
 from tappet.server.routing import Router
 from tappet.server.source.service import check_wanted, source_setting, store_source
+from tappet.translation.language import Language
 
 router = Router(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
 all_router = Router(prefix="/projects/{project_id}", tags=["build"])

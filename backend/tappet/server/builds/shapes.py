@@ -7,9 +7,10 @@ from typing import Literal
 
 from pydantic import Field, PrivateAttr
 
-from tappet.lang.diagnostic_translations import Language, Texts, said
+from tappet.lang.diagnostic_translations import Texts, said
 from tappet.server.shapes import Reply, Request
 from tappet.server.source.shapes import StoredSource
+from tappet.translation.language import Language
 
 
 class Part(StrEnum):

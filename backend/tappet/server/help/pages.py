@@ -9,11 +9,12 @@ from importlib.resources import files
 from typing import NamedTuple
 
 from tappet import libraries
-from tappet.lang.diagnostic_translations import Language, texts
+from tappet.lang.diagnostic_translations import texts
 from tappet.lang.diagnostics import TABLE
 from tappet.lang.reference import topics
 from tappet.server.help.shapes import HelpEntry, HelpPage, HelpSection
 from tappet.server.problems import not_found
+from tappet.translation.language import Language
 
 
 class _View(NamedTuple):

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from tappet.lang.diagnostic_translations import Language
 from tappet.server.dependencies import Viewer
 from tappet.server.help import pages
 from tappet.server.help.shapes import HelpEntry, HelpPage
 from tappet.server.routing import Router
+from tappet.translation.language import Language
 
 router = Router(prefix="/help", tags=["help"])
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol
 
-from tappet.lang.diagnostic_translations import Language
 from tappet.lang.services import documents as docs
 from tappet.lang.services.documents import Position
 from tappet.lang.services.fix_site import Offering
@@ -15,6 +14,7 @@ from tappet.server.lsp.open_documents import OpenDocuments
 from tappet.server.lsp.protocol.features import TextDocumentPositionParams
 from tappet.server.lsp.protocol.structures import Location, Structure
 from tappet.server.lsp.shown import ShownDocument
+from tappet.translation.language import Language
 
 Methods = Mapping[str, tuple[type[Structure] | None, Callable[[Any, Any], Any]]]
 """By method: its params (None: not read), and what carries it out, with the client and the params."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Final, Literal
 
-from tappet.lang.diagnostic_translations import Language, Texts, phrase, said
+from tappet.lang.diagnostic_translations import Texts, phrase, said
 from tappet.lang.services.documents import Place, Position
 from tappet.lang.services.formatting import Style
 from tappet.lang.services.results import (
@@ -37,6 +37,7 @@ from tappet.server.lsp.protocol.structures import (
 from tappet.server.lsp.protocol.structures import Position as LspPosition
 from tappet.server.lsp.shown import OtherTextError, ShownDocument
 from tappet.server.lsp.utf16 import units
+from tappet.translation.language import Language
 
 LANGUAGE_ID: Final = "iec-st"
 Shown = Callable[[str], ShownDocument]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
-from tappet.lang.diagnostic_translations import Language
 from tappet.lang.services.results import Report
 from tappet.server.lsp import convert
 from tappet.server.lsp.client import Client
 from tappet.server.lsp.protocol.structures import Diagnostic
 from tappet.server.lsp.protocol.synchronization import PublishDiagnosticsParams
+from tappet.translation.language import Language
 
 Published = dict[tuple[str, Language, bool], list[Diagnostic]]
 """Messages of documents in one language: sessions that show the same text share them."""

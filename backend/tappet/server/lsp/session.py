@@ -15,7 +15,6 @@ from typing import Any, Final, Literal
 from msgspec import Raw
 
 from tappet import __version__
-from tappet.lang.diagnostic_translations import Language, language_of
 from tappet.lang.services import documents as docs
 from tappet.lang.services.documents import Position
 from tappet.lang.services.fix_site import Offering, nothing_offered
@@ -35,6 +34,7 @@ from tappet.server.lsp.protocol.structures import Location
 from tappet.server.lsp.publication import Publication
 from tappet.server.lsp.shown import OtherTextError, ShownDocument
 from tappet.server.lsp.text_difference import TextDifference
+from tappet.translation.language import Language, language_of
 
 _REFUSING: Final = frozenset({"textDocument/rename", "textDocument/prepareRename", "tappet/crossReferences"})
 """Requests that say why where the client shows another text than the analysed one; others answer nothing."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from tappet.lang.coding_settings import LIMITS, OF_RULE, PREFIXES
-from tappet.lang.diagnostic_translations import Language, texts
+from tappet.lang.diagnostic_translations import texts
 from tappet.lang.diagnostics import CODING_RULES, TABLE, WARNINGS
 from tappet.server.builds.shapes import BuildReport
 from tappet.server.dependencies import CommissioningDep, Engineer, Viewer
 from tappet.server.routing import Router
 from tappet.server.static_analysis.shapes import CodingRule, CompilerWarning
+from tappet.translation.language import Language
 
 router = Router(tags=["build"])
 
