@@ -80,8 +80,8 @@ class Crash:
                 text = "the last runtime process ended without stopping it (killed, no power)"
                 log.add("warning", "boot", f"{package.application}: {text}; it is started again")
             return True
-        text = f"{self.kept.application}, downloaded last, is not the boot application: {self.reason}"
-        log.add("error", "boot", text)
+        other = f"{self.kept.application}, downloaded last, is not the boot application: {self.reason}"
+        log.add("error", "boot", other)
         return False
 
     @property

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import HTTPConnection
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from tappet.server.problems import Problem
 from tappet.server.settings import ServerSettings
+from tappet.server.spoken import language_of_request
 
 PAGE_POLICY = (
     "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
@@ -72,7 +74,9 @@ class RequestGuard:
             nonlocal replaced
             if not replaced and _is_plain_413(message):
                 replaced = True
-                await _TOO_LARGE.response()(scope, receive, send_with_headers)
+                await _TOO_LARGE.response(language_of_request(HTTPConnection(scope)))(
+                    scope, receive, send_with_headers
+                )
             elif not replaced:
                 await send_with_headers(message)
 
@@ -89,12 +93,13 @@ class RequestGuard:
             f"This server does not answer for '{name[:100]}'. If that is its name, start it with "
             f"--allowed-host {name[:100]}.",
         )
+        response = problem.response(language_of_request(HTTPConnection(scope)))
         if scope["type"] == "http":
-            await problem.response()(scope, receive, send)
+            await response(scope, receive, send)
             return
         socket = WebSocket(scope, receive, send)
         if "websocket.http.response" in scope.get("extensions", {}):
-            await socket.send_denial_response(problem.response())
+            await socket.send_denial_response(response)
         else:
             await socket.close(1008, "unknown host")
 

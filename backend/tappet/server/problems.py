@@ -20,6 +20,10 @@ from tappet.disk_full import is_disk_full
 from tappet.project.errors import ProjectError
 from tappet.project.store import StaleRevision
 from tappet.server.objects.replies import object_detail
+from tappet.server.shapes import InvalidField
+from tappet.server.spoken import in_language, language_of_request
+from tappet.translation.language import Language
+from tappet.translation.sentences import sentence
 
 MEDIA_TYPE = "application/problem+json"
 log = logging.getLogger(__name__)
@@ -49,19 +53,20 @@ class Problem(Exception):  # noqa: N818 - the term of RFC 9457
         self.headers = headers
         self.fields = fields
 
-    def body(self) -> dict[str, Any]:
-        """The JSON object sent to the client."""
+    def body(self, language: Language = "en") -> dict[str, Any]:
+        """The JSON object sent to the client. `type` and names of fields are the same in all languages."""
         return {
             "type": f"urn:tappet:problem:{self.kind}",
-            "title": self.title,
+            "title": sentence(self.title, language),
             "status": self.status,
-            "detail": self.detail,
-            **self.fields,
+            "detail": sentence(self.detail, language),
+            **{name: in_language(field, language) for name, field in self.fields.items()},
         }
 
-    def response(self) -> JSONResponse:
-        """The HTTP response."""
-        return JSONResponse(jsonable_encoder(self.body()), self.status, self.headers, MEDIA_TYPE)
+    def response(self, language: Language = "en") -> JSONResponse:
+        """The HTTP response, with its sentences in a language."""
+        headers = {**(self.headers or {}), "Content-Language": language}
+        return JSONResponse(jsonable_encoder(self.body(language)), self.status, headers, MEDIA_TYPE)
 
 
 def not_found(what: str, name: str) -> Problem:
@@ -71,7 +76,8 @@ def not_found(what: str, name: str) -> Problem:
 
 async def _answer(connection: HTTPConnection, problem: Problem) -> JSONResponse | None:
     """Sends a problem also as the refusal of a WebSocket that is not yet open."""
-    response = problem.response()
+    language = language_of_request(connection)
+    response = problem.response(language)
     if isinstance(connection, WebSocket):
         if "websocket.http.response" in connection.scope.get("extensions", {}):
             await connection.send_denial_response(response)
@@ -141,11 +147,15 @@ def _of_project(error: ProjectError) -> Problem:
 
 def _invalid(error: RequestValidationError | WebSocketRequestValidationError) -> Problem:
     errors = [
-        {"location": ".".join(str(part) for part in item["loc"]), "message": item["msg"]}
+        InvalidField(location=".".join(str(part) for part in item["loc"]), message=item["msg"])
         for item in error.errors()
     ]
-    first = errors[0] if errors else {"location": "request", "message": "invalid"}
-    return Problem(422, "invalid-request", f"{first['location']}: {first['message']}", errors=errors)
+    return invalid_request(errors or [InvalidField(location="request", message="invalid")])
+
+
+def invalid_request(errors: list[InvalidField], kind: str = "invalid-request") -> Problem:
+    """A 422 that names the wrong fields; its sentence is of the first."""
+    return Problem(422, kind, f"{errors[0].location}: {errors[0].message}", errors=errors)
 
 
 async def _on_error(connection: HTTPConnection, error: Exception) -> Any:

@@ -5,7 +5,7 @@ Request bodies refuse unknown fields, so that a misspelt one is an error and not
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, StringConstraints
 from pydantic_core import CoreSchema
@@ -58,6 +58,8 @@ class Reply(BaseModel):
 
 class InvalidField(Reply):
     """One field of a request that is wrong."""
+
+    SENTENCES: ClassVar = ("message",)
 
     location: str = Field(description="Path of the field, such as `body.username`.")
     message: str

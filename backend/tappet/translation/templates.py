@@ -15,8 +15,9 @@ from typing import NamedTuple
 FIELD = re.compile(r"(?<!\{)\{([a-z_]+)\}(?!\})")
 """A double brace stands for one that is shown."""
 
-Say = Callable[[str, str], str]
-"""What becomes of a fact: the name of its field and its text."""
+Say = Callable[[str, str], str | None]
+"""What becomes of a fact: the name of its field and its text; None where there are no words for it."""
+_FEW_LETTERS = 4
 
 
 class _Row(NamedTuple):
@@ -25,19 +26,29 @@ class _Row(NamedTuple):
     pattern: re.Pattern[str]
     translation: str
     frame: bool
-    """Whether all its literal text is punctuation, so that it says nothing by itself."""
+    """Whether it joins texts with hardly more than punctuation, so that it says nothing without them."""
 
 
 class Templates:
-    """Translations of whole texts and of templates with fields. `optional` names fields that may be empty."""
+    """Translations of whole texts and of templates with fields.
 
-    def __init__(self, rows: Iterable[tuple[str, str]], optional: frozenset[str] = frozenset()) -> None:
+    Fields hold one character or more; those of `optional` may be empty, those of `words` have no blanks.
+    """
+
+    def __init__(
+        self,
+        rows: Iterable[tuple[str, str]],
+        optional: frozenset[str] = frozenset(),
+        words: frozenset[str] = frozenset(),
+    ) -> None:
         known = sorted(rows, key=lambda row: (-len(FIELD.sub("", row[0])), row[0]))
         self._whole: Mapping[str, str] = MappingProxyType(
             {_shown(english): _shown(translation) for english, translation in known}
         )
         self._rows = tuple(
-            _row(english, translation, optional) for english, translation in known if FIELD.search(english)
+            _row(english, translation, optional, words)
+            for english, translation in known
+            if FIELD.search(english)
         )
 
     def find(self, text: str, say: Say) -> str | None:
@@ -50,8 +61,8 @@ class Templates:
             if match is not None:
                 facts = match.groupdict()
                 said = {name: say(name, fact) for name, fact in facts.items()}
-                if not row.frame or said != facts:
-                    return filled(row.translation, said)
+                if not row.frame or None not in said.values():
+                    return filled(row.translation, {name: said[name] or facts[name] for name in facts})
         return None
 
 
@@ -65,21 +76,22 @@ def _shown(text: str) -> str:
     return text.replace("{{", "{").replace("}}", "}")
 
 
-def _row(english: str, translation: str, optional: frozenset[str]) -> _Row:
+def _row(english: str, translation: str, optional: frozenset[str], words: frozenset[str]) -> _Row:
     parts = FIELD.split(english)
     literals = parts[::2] = [_shown(literal) for literal in parts[::2]]
-    frame = not any(character.isalnum() for literal in literals for character in literal)
-    return _Row(max(literals, key=len), _pattern(parts, optional), translation, frame)
+    frame = sum(character.isalpha() for literal in literals for character in literal) < _FEW_LETTERS
+    return _Row(max(literals, key=len), _pattern(parts, optional, words), translation, frame)
 
 
-def _pattern(parts: list[str], optional: frozenset[str]) -> re.Pattern[str]:
+def _pattern(parts: list[str], optional: frozenset[str], words: frozenset[str]) -> re.Pattern[str]:
     """What a template has been filled in to; `parts` are its literal texts and, between them, its fields."""
     names = parts[1::2]
     if len(set(names)) < len(names):  # the same fact twice: a first guess may have to be taken back
         return re.compile("".join(_repeated(parts)), re.DOTALL)
     pattern = re.escape(parts[0])
     for number, name in enumerate(names):
-        field = f"(?P<{name}>.{'*' if name in optional else '+'}?)" + re.escape(parts[2 * number + 2])
+        fact = (r"\S" if name in words else ".") + ("*?" if name in optional else "+?")
+        field = f"(?P<{name}>{fact})" + re.escape(parts[2 * number + 2])
         pattern += field if number == len(names) - 1 else f"(?>{field})"
     return re.compile(pattern, re.DOTALL)
 

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { setLanguage } from '@/i18n';
 import { api, ApiError, isCancelled, setUnauthorisedListener } from './client';
 
 const PROJECT = '/api/v1/projects/{project_id}';
@@ -26,9 +27,11 @@ async function failure(promise: Promise<unknown>): Promise<ApiError> {
 
 beforeEach(() => {
   sent.length = 0;
+  vi.stubGlobal('document', { documentElement: {} });
   vi.stubGlobal('location', new URL('http://tappet.test/#/'));
 });
-afterEach(() => {
+afterEach(async () => {
+  await setLanguage('en');
   vi.unstubAllGlobals();
   setUnauthorisedListener(() => undefined);
 });
@@ -40,6 +43,15 @@ describe('a request', () => {
     expect(sent[0]!.url).toBe('http://tappet.test/api/v1/projects');
     expect(sent[0]!.headers.get('X-Tappet-Client')).toBe('1');
     expect(sent[0]!.credentials).toBe('same-origin');
+  });
+
+  it('says the language of the user, as it is by then', async () => {
+    answers(() => json([]));
+    await api.get('/api/v1/projects');
+    await setLanguage('zh');
+    await api.get('/api/v1/projects');
+    await api.post('/api/v1/projects', { body: { name: 'Press' } });
+    expect(sent.map(({ headers }) => headers.get('Accept-Language'))).toEqual(['en', 'zh', 'zh']);
   });
 
   it('has its parameters in the path and in the query, arrays by repetition, null not at all', async () => {

@@ -5,7 +5,8 @@
  *     await api.post('/api/v1/projects', { body: { name } });
  *
  * Paths, parameters, bodies and answers are those of `schema.ts`: what the server does not know does not compile.
- * Every request carries `X-Tappet-Client`, which a foreign page cannot set: the server refuses changes without it.
+ * Every request carries `X-Tappet-Client`, which a foreign page cannot set: the server refuses changes without it, and
+ * `Accept-Language`, the language of the user, in which the server says its sentences.
  */
 import createClient, {
   type Client,
@@ -13,6 +14,7 @@ import createClient, {
   type FetchOptions,
   type Middleware,
 } from 'openapi-fetch';
+import { language, t } from '@/i18n';
 import type { paths } from './schema';
 
 /** RFC 9457 problem details as the server sends them, with the fields of the single problem. */
@@ -59,6 +61,13 @@ async function problemOf(response: Response): Promise<Problem> {
   return fallback;
 }
 
+const languageOfUser: Middleware = {
+  onRequest({ request }) {
+    request.headers.set('Accept-Language', language());
+    return request;
+  },
+};
+
 const errors: Middleware = {
   async onResponse({ response }) {
     if (response.ok) return;
@@ -66,7 +75,7 @@ const errors: Middleware = {
     throw new ApiError(await problemOf(response));
   },
   onError: ({ error }) =>
-    isCancelled(error) ? undefined : new ApiError({ title: 'The server does not answer', status: 0 }),
+    isCancelled(error) ? undefined : new ApiError({ title: t('error.noServer'), status: 0 }),
 };
 
 /** A body as JSON; one that holds files as a form, without the fields that are null. */
@@ -90,7 +99,7 @@ const client = createClient<paths>({
   bodySerializer: serialised,
   fetch: (request) => fetch(request),
 });
-client.use(errors);
+client.use(languageOfUser, errors);
 
 type Method = 'get' | 'post' | 'put' | 'patch' | 'delete';
 type Paths<Verb extends Method> = ClientPathsWithMethod<Client<paths>, Verb>;

@@ -4413,7 +4413,7 @@ export interface components {
             /** Object Ids */
             object_ids: string[];
         };
-        OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"];
+        OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"] | components["schemas"]["Speak"];
         /**
          * OnlineError
          * @description A message that could not be served; the connection stays open.
@@ -5513,6 +5513,22 @@ export interface components {
         SourceTarget: {
             /** Runtime Id */
             runtime_id: string;
+        };
+        /**
+         * Speak
+         * @description The language of sentences from now on, English before; state and layouts are sent again in it.
+         */
+        Speak: {
+            /**
+             * Language
+             * @enum {string}
+             */
+            language: "en" | "zh";
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            op: "speak";
         };
         /**
          * StateChanged

@@ -1,5 +1,6 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import type { RuntimeState } from '@/api/types';
+import { setLanguage } from '@/i18n';
 import { ValueBoard } from './board';
 import { FakeSocket, fakeSockets } from '../../tests/fakeSocket';
 import { OnlineChannel } from './channel';
@@ -40,6 +41,20 @@ describe('online channel', () => {
     expect(sockets[0]?.sent).toEqual([]);
     sockets[0]?.accept();
     expect(sockets[0]?.sent).toEqual([{ op: 'subscribe', id: 1, expressions: ['P.a', 'P.b'], interval_ms: 100 }]);
+  });
+
+  it('tells the language of the user first, and again when it changes', async () => {
+    vi.stubGlobal('document', { documentElement: {} });
+    await setLanguage('zh');
+    const { channel, sockets } = setUp();
+    channel.watch(['P.a'], 100);
+    sockets[0]?.accept();
+    expect(sockets[0]?.sent.map((message) => (message as { op: string }).op)).toEqual(['speak', 'subscribe']);
+    expect(sockets[0]?.sent[0]).toEqual({ op: 'speak', language: 'zh' });
+    await setLanguage('en');
+    channel.speak();
+    expect(sockets[0]?.sent.at(-1)).toEqual({ op: 'speak', language: 'en' });
+    vi.unstubAllGlobals();
   });
 
   it('says when values come at a longer interval than asked for, and when no longer', () => {

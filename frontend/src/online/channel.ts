@@ -5,6 +5,7 @@
  * A changed group is subscribed again under a new number, and the old subscription ends when the answer is there:
  * values never flicker while the user scrolls.
  */
+import { language } from '@/i18n';
 import { BROWSER_SOCKETS, ReconnectingSocket, type SocketEnvironment } from '@/api/socket';
 import type { ImagePlace, RuntimeState } from '@/api/types';
 import type { ValueBoard } from './board';
@@ -55,7 +56,10 @@ export class OnlineChannel {
     this.socket = new ReconnectingSocket(
       url,
       {
-        opened: () => this.resubscribe(),
+        opened: () => {
+          if (language() !== 'en') this.speak();
+          this.resubscribe();
+        },
         message: (data) => this.message(data),
         lost: () => {
           this.announced.clear();
@@ -64,6 +68,11 @@ export class OnlineChannel {
       },
       environment,
     );
+  }
+
+  /** Tells the server the language of its sentences: what it has said comes again in it. */
+  speak(): void {
+    this.socket.send({ op: 'speak', language: language() });
   }
 
   /** Watches expressions until the handle is released; `update` changes what is watched. */

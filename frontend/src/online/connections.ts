@@ -1,5 +1,6 @@
 /** One channel for each runtime that an application is logged in to; they come and go with the logins. */
 import { socketUrl } from '@/api/client';
+import { onLanguageChange } from '@/i18n';
 import { connectionLost, forcesReceived, runtimeStateReceived, useOnline, valuesPaced } from '@/workbench/onlineSession';
 import { BROWSER_CLOCK, ValueBoard } from './board';
 import { OnlineChannel } from './channel';
@@ -34,4 +35,5 @@ function follow(): void {
 export function followSessions(): void {
   follow();
   useOnline.subscribe(follow);
+  onLanguageChange(() => channels.forEach((channel) => channel.speak()));
 }

@@ -85,9 +85,9 @@ def test_what_of_a_system_is_not_read_is_said() -> None:
         "refused Io: I/O devices of the system project are not read; add the devices here: "
         "Device 1 (EtherCAT)",
         "refused Line: links with 'Device 1 (EtherCAT) > Term 2 (EL2008)' are not read; map the variables to "
-        "channels of a device here: GVL.aValve[1] with Channel 1 > Output",
+        "channels of a device here: GVL.aValve[1] ↔ Channel 1 > Output",
         "refused Line: links with the axis 'NC-Task 1 SAF > Axes > Lift' are not read: "
-        "MAIN.lift.PlcToNc with Inputs > In",
+        "MAIN.lift.PlcToNc ↔ Inputs > In",
     ]
 
 

@@ -75,8 +75,12 @@ class Decided:
         unknown = decision.texts.keys() - there.data.model_dump().keys()
         if unknown:
             raise InvalidDataError(f"'{there.name}' has no text '{min(unknown)}'")
-        known = "the changes of both since their common version" if ancestor else "what either of both has"
-        said = "as the user has joined it" if decision.texts else f"has {known}"
+        known = (
+            "has the changes of both since their common version"
+            if ancestor
+            else "has what either of both has"
+        )
+        said = "as the user has joined it" if decision.texts else known
         return Given(joined.data | decision.texts, said)
 
     def compare_texts(self, draft: Draft, there: ProjectObject) -> Comparison:

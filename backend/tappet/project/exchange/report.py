@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -30,6 +30,8 @@ class ExchangeError(ProjectError):
 
 class Entry(BaseModel):
     """One line of a report."""
+
+    SENTENCES: ClassVar = ("text",)
 
     model_config = ConfigDict(frozen=True, json_schema_serialization_defaults_required=True)
 

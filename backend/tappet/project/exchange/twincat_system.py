@@ -225,7 +225,9 @@ class _System:
         more = f" and {len(names) - _NAMES_SHOWN} more" if len(names) > _NAMES_SHOWN else ""
         listed = f": {', '.join(names[:_NAMES_SHOWN])}{more}" if names else ""
         advice = (
-            "; add the devices here" if item.tag == "Io" else "; add the axes here" * (item.tag == "Motion")
+            "; add the devices here"
+            if item.tag == "Io"
+            else ("; add the axes here" if item.tag == "Motion" else "")
         )
         text = f"{_PARTS[item.tag]} of the system project are not read{advice}{listed}"
         self.report.add("refused", self.source, text, name=item.tag, line=item.line)
@@ -239,7 +241,7 @@ class _System:
                     continue
                 for second in first.children("OwnerB"):
                     links = [
-                        f"{_variable(link.get('VarA'))} with {' > '.join(link.get('VarB').split('^'))}"
+                        f"{_variable(link.get('VarA'))} ↔ {' > '.join(link.get('VarB').split('^'))}"
                         for link in second.children("Link")
                     ]
                     if not links:
@@ -247,8 +249,12 @@ class _System:
                     more = f" and {len(links) - _LINKS_SHOWN} more" if len(links) > _LINKS_SHOWN else ""
                     place = " > ".join(second.get("Name").split("^")[1:])
                     axis = second.get("Name").startswith("TINC^")
-                    advice = "" if axis else "; map the variables to channels of a device here"
-                    described = f"links with {'the axis ' if axis else ''}'{place}' are not read{advice}"
+                    described = (
+                        f"links with the axis '{place}' are not read"
+                        if axis
+                        else f"links with '{place}' are not read; map the variables to channels of a device "
+                        "here"
+                    )
                     text = f"{described}: {', '.join(links[:_LINKS_SHOWN])}{more}"
                     self.report.add("refused", source, text, name=plc, line=second.line)
 

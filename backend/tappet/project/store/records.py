@@ -149,12 +149,17 @@ class StaleRevision(ProjectError):  # noqa: N818 - the name of the contract
         yours: Mapping[str, Any],
         author: str,
     ) -> None:
-        what = f"'{current.name}' was changed" if current is not None else "The object was deleted"
-        super().__init__(
-            f"{what} by {author} after you opened it (you have revision {base_revision}"
-            + (f", stored is {current.revision}" if current is not None else "")
-            + "). Compare the two versions and save again"
-        )
+        if current is not None:
+            what = (
+                f"'{current.name}' was changed by {author} after you opened it (you have revision "
+                f"{base_revision}, stored is {current.revision}). Compare the two versions and save again"
+            )
+        else:
+            what = (
+                f"The object was deleted by {author} after you opened it (you have revision "
+                f"{base_revision}). Compare the two versions and save again"
+            )
+        super().__init__(what)
         self.object_id = object_id
         self.base_revision = base_revision
         self.current = current

@@ -38,6 +38,8 @@ class CallFrame(CodePlace):
 class RuntimeException(CodePlace):
     """Why an application stopped."""
 
+    SENTENCES: ClassVar = ("message",)
+
     code: int
     name: Annotated[str, Meta(description="Name of the code, such as `DIV_ZERO`.")]
     message: str
@@ -51,6 +53,8 @@ class RuntimeException(CodePlace):
 
 class LogEntry(Struct, frozen=True):
     """One line of a runtime's log."""
+
+    SENTENCES: ClassVar = ("message",)
 
     id: int
     at: Instant

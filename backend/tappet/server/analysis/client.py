@@ -20,14 +20,11 @@ from tappet.server.lsp.protocol.synchronization import (
     DidCloseTextDocumentParams,
     DidOpenTextDocumentParams,
 )
+from tappet.translation.language import Language, language_of
+from tappet.translation.sentences import sentence
 
 _ERROR: Final = 1
 """`MessageType.Error` of the protocol."""
-_SAID = {
-    "en": "The analysis of this project ended unexpectedly ({reason}). It starts again with the next edit or "
-    "request; no text is lost.",
-    "zh": "本工程的分析意外结束（{reason}）。下一次编辑或请求时会重新启动；文本不会丢失。",
-}
 
 log = logging.getLogger(__name__)
 
@@ -111,19 +108,26 @@ class Client:
         for identifier, method in list(self._waiting.items()):
             if method != "initialize":
                 del self._waiting[identifier]
-                self.outbox.put(rpc.failure(identifier, rpc.REQUEST_FAILED, reason))
+                said = sentence(reason, self._language())
+                self.outbox.put(rpc.failure(identifier, rpc.REQUEST_FAILED, said))
 
     def lost(self, reason: str) -> None:
         """The analysis has ended: say so and answer what waits."""
-        locale = None
+        text = (
+            f"The analysis of this project ended unexpectedly ({reason}). It starts again with the next edit "
+            "or request; no text is lost."
+        )
+        said = sentence(text, self._language())
+        self.outbox.put(rpc.notification("window/showMessage", {"type": _ERROR, "message": said}))
+        self.refuse(text)
+
+    def _language(self) -> Language:
+        """What the browser has asked for when it began."""
         if self._initialize is not None:
             with suppress(rpc.RpcError):
                 params = msgspec.Raw(self._initialize)
-                locale = rpc.params_as(InitializeParams, "initialize", params).locale
-        language = "zh" if locale is not None and locale.lower().startswith("zh") else "en"
-        said = _SAID[language].format(reason=reason)
-        self.outbox.put(rpc.notification("window/showMessage", {"type": _ERROR, "message": said}))
-        self.refuse(said)
+                return language_of(rpc.params_as(InitializeParams, "initialize", params).locale)
+        return "en"
 
 
 def _text(json: msgspec.Raw) -> str:

@@ -22,6 +22,7 @@ from tappet.server.builds.shapes import BuildReport, LoginReport, Relation
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import LoadMode
+from tappet.translation.language import Language
 
 log = logging.getLogger(__name__)
 Step = Literal["download", "online_change", "start"]
@@ -101,8 +102,11 @@ class Commissioning:
 
         return await self.builder.check(await run_in_threadpool(read))
 
-    async def compare(self, project_id: str, application_id: str, link: RuntimeLink) -> LoginReport:
-        """What login finds; builds when the loaded application is one of this project."""
+    async def compare(
+        self, project_id: str, application_id: str, link: RuntimeLink, language: Language = "en"
+    ) -> LoginReport:
+        """What login finds; builds when the loaded application is one of this project. Messages of the
+        compiler are in the words of `language`."""
         application = await self.application(project_id, application_id)
         if not link.connected:
             link.loaded_symbols()  # raises the problem that says since when
@@ -128,7 +132,7 @@ class Commissioning:
         built = await self.builder.build(application, _base(loaded))
         if not built.report.ok:
             reason = "The project has errors; the running application is older than it."
-            return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason, *_first_errors(built)])
+            return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason, *_first_errors(built, language)])
         if built.report.code_id == info.code_id:
             return LoginReport(relation=Relation.SAME, reasons=[])
         if built.change_base == info.code_id:
@@ -203,7 +207,7 @@ async def _start(link: RuntimeLink, built: Built) -> None:
                 409,
                 "start-failed",
                 f"'{built.application.name}' was downloaded to '{link.name}', but does not start: {why}.",
-                exception=link.state().model_dump(mode="json")["exception"],
+                exception=link.state().exception,
             ) from refusal
 
 
@@ -214,7 +218,7 @@ def _package(built: Built, purpose: str) -> bytes:
             422,
             "build-errors",
             f"'{built.application.name}' has errors and cannot be {purpose}.",
-            diagnostics=[d.model_dump() for d in built.report.diagnostics if d.severity == "error"],
+            diagnostics=[d for d in built.report.diagnostics if d.severity == "error"],
         )
     return built.package
 
@@ -223,6 +227,6 @@ def _base(stored: StoredPackage | None) -> tuple[str, bytes] | None:
     return (stored.code_id, stored.data) if stored is not None else None
 
 
-def _first_errors(built: Built) -> list[str]:
-    errors = [d for d in built.report.diagnostics if d.severity == "error"]
+def _first_errors(built: Built, language: Language) -> list[str]:
+    errors = [d.in_language(language) for d in built.report.diagnostics if d.severity == "error"]
     return [f"{d.object_path}: {d.code}: {d.message}" for d in errors[:3]]

@@ -33,6 +33,7 @@ from tappet.server.problems import Problem
 from tappet.server.projects.routes import download as file_response
 from tappet.server.routing import Router
 from tappet.server.source.service import check_wanted, source_setting, store_source
+from tappet.server.spoken import LanguageDep, in_language
 from tappet.translation.language import Language
 
 router = Router(prefix="/projects/{project_id}/applications/{application_id}", tags=["build"])
@@ -146,9 +147,11 @@ async def log_in(
     who: Viewer,
     commissioning: CommissioningDep,
     runtimes: RuntimesDep,
+    language: LanguageDep,
 ) -> LoginReport:
     """Compare the application with the one in the runtime: shown at once, changed online, or downloaded."""
-    return await commissioning.compare(project_id, application_id, runtimes.get(body.runtime_id))
+    link = runtimes.get(body.runtime_id)
+    return in_language(await commissioning.compare(project_id, application_id, link, language), language)
 
 
 @router.post("/logout", status_code=204)
@@ -166,6 +169,7 @@ async def download(
     commissioning: CommissioningDep,
     runtimes: RuntimesDep,
     store: StoreDep,
+    language: LanguageDep,
 ) -> DownloadReport:
     """Build and load the application, by download (which stops) or online change (which does not)."""
     link = runtimes.get(body.runtime_id)
@@ -190,7 +194,7 @@ async def download(
             problem = refused.detail
             await run_in_threadpool(act.end, Result.FAILED, problem)
     info = link.info
-    return DownloadReport(
+    report = DownloadReport(
         application=built.application.name,
         code_id=built.report.code_id or "",
         data_id=built.report.data_id or "",
@@ -198,3 +202,4 @@ async def download(
         source=source,
         source_problem=problem,
     )
+    return in_language(report, language)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field, PrivateAttr
 
@@ -90,6 +90,8 @@ class LoginTarget(Request):
 class LoginReport(Reply):
     """Whether values may be shown at once, and what must be loaded first otherwise."""
 
+    SENTENCES: ClassVar = ("reasons",)
+
     relation: Relation
     reasons: list[str] = Field(description="What differs, one sentence each.")
     loaded_project: str | None = Field(
@@ -111,6 +113,8 @@ class DownloadOrder(Request):
 
 class DownloadReport(Reply):
     """What the runtime now has."""
+
+    SENTENCES: ClassVar = ("source_problem",)
 
     application: str
     code_id: str

@@ -27,6 +27,7 @@ from tappet.server.projects.part import PartDep
 from tappet.server.projects.replies import project_summary
 from tappet.server.projects.routes import MAX_ARCHIVE_BYTES, download
 from tappet.server.routing import Router
+from tappet.server.spoken import LanguageDep, in_language
 
 if TYPE_CHECKING:
     from tappet.project.exchange.importing import Imported
@@ -60,6 +61,7 @@ def preview_files(
     files: list[UploadFile],
     who: Engineer,
     store: StoreDep,
+    language: LanguageDep,
     project_id: Annotated[
         str | None, Form(description="The project to import into; null: a new one.")
     ] = None,
@@ -68,7 +70,8 @@ def preview_files(
     """What an import of these files would bring, and what it would say; nothing is changed."""
     project = store.load(project_id) if project_id is not None else None
     found = _imported(replace(_upload(files).order(project, place=place), preview=True))
-    return ImportPreview(name=found.project.name, nodes=found.nodes, report=found.report)
+    preview = ImportPreview(name=found.project.name, nodes=found.nodes, report=found.report)
+    return in_language(preview, language)
 
 
 @router.post("/projects/{project_id}/compare-import", max_body_size=MAX_ARCHIVE_BYTES)
@@ -95,6 +98,7 @@ def import_files_as_project(
     act: Annotated[ActRecord, audited("project-imported", Role.ENGINEER)],
     files: list[UploadFile],
     store: StoreDep,
+    language: LanguageDep,
     name: Annotated[str | None, Form(description="Another name than the one in the files.")] = None,
     chosen: Chosen = None,
 ) -> ImportResult:
@@ -111,7 +115,7 @@ def import_files_as_project(
         free_name=True,
     )
     act.resulted(subject=info.name, project_id=info.id)
-    return ImportResult(project=project_summary(info), report=imported.report)
+    return in_language(ImportResult(project=project_summary(info), report=imported.report), language)
 
 
 @router.post("/projects/{project_id}/import-files", max_body_size=MAX_ARCHIVE_BYTES)
@@ -120,6 +124,7 @@ def import_files_into_project(
     project_id: str,
     files: list[UploadFile],
     store: StoreDep,
+    language: LanguageDep,
     place: PlaceId = None,
     chosen: Chosen = None,
     existing: Annotated[
@@ -142,7 +147,8 @@ def import_files_into_project(
         imported = _imported(order, store, project_id)
         grown = partial(_unless_changed, project, imported.project)
         if store.edit(project_id, act.who.username, "import", grown, _named(files)):
-            return ImportResult(project=project_summary(store.project(project_id)), report=imported.report)
+            summary = project_summary(store.project(project_id))
+            return in_language(ImportResult(project=summary, report=imported.report), language)
         project = store.load(project_id)
     raise Problem(409, "project-busy", f"'{info.name}' is changed by others all the time; try again.")
 

@@ -143,10 +143,18 @@ def notification(method: str, params: Any) -> str:
 class Endpoint:
     """One side of a JSON-RPC connection. Made in the event loop that serves it."""
 
-    def __init__(self, send: Send, find: Callable[[str, bool], Work | None], thread: Executor) -> None:
-        """`send` writes a message; `find` gives the work of a method (flag: a request), None if unknown."""
+    def __init__(
+        self,
+        send: Send,
+        find: Callable[[str, bool], Work | None],
+        thread: Executor,
+        say: Callable[[str], str] = str,
+    ) -> None:
+        """`send` writes a message; `find` gives the work of a method (flag: a request), None if unknown;
+        `say` puts a refusal into the language of the client."""
         self._send = send
         self._find = find
+        self._say = say
         self._loop = asyncio.get_running_loop()
         self._thread = thread
         self._queue: deque[tuple[asyncio.Future[Any], Callable[[], Any]]] = deque()
@@ -276,4 +284,4 @@ class Endpoint:
         task.add_done_callback(self._tasks.discard)
 
     async def _answer_error(self, identifier: Id | None, code: int, message: str) -> None:
-        await self._send(Outgoing(failure(identifier, code, message), identifier))
+        await self._send(Outgoing(failure(identifier, code, self._say(message)), identifier))

@@ -35,6 +35,7 @@ from tappet.server.lsp.publication import Publication
 from tappet.server.lsp.shown import OtherTextError, ShownDocument
 from tappet.server.lsp.text_difference import TextDifference
 from tappet.translation.language import Language, language_of
+from tappet.translation.sentences import sentence
 
 _REFUSING: Final = frozenset({"textDocument/rename", "textDocument/prepareRename", "tappet/crossReferences"})
 """Requests that say why where the client shows another text than the analysed one; others answer nothing."""
@@ -70,7 +71,9 @@ class LanguageSession:
         """`advise`: advice is part of the message texts. `canonical`: one spelling for each document uri.
         `offering`: libraries that have something of a name."""
         self.analysis = analysis
-        self.endpoint = rpc.Endpoint(send, self._find, analysis.thread)
+        self.endpoint = rpc.Endpoint(
+            send, self._find, analysis.thread, lambda text: sentence(text, self.language)
+        )
         self.exit = asyncio.Event()
         """Set when the client has said that it ends."""
         self.advise = advise

@@ -20,12 +20,15 @@ from tappet.server.online.shapes import (
     ImagePlace,
     OnlineError,
     Paced,
+    Speak,
     StateChanged,
     Subscribe,
     Subscribed,
 )
 from tappet.server.runtimes.links import Change, RuntimeLink
 from tappet.server.sockets import SessionWatch, close_with_session, until_one_ends
+from tappet.server.spoken import in_language
+from tappet.translation.language import Language
 
 MOST_SUBSCRIPTIONS = 100
 """Of one socket."""
@@ -56,6 +59,7 @@ class OnlineChannel:
         self._session = session
         self._quota = quota
         self._subscriptions: dict[int, _Subscription] = {}
+        self._language: Language = "en"
         self.outbox = Outbox()
 
     async def run(self) -> None:
@@ -99,8 +103,17 @@ class OnlineChannel:
         if isinstance(order, Subscribe):
             await self._quota.pay(1 + len(order.expressions))
             self._subscribe(order)
+        elif isinstance(order, Speak):
+            await self._quota.pay(1 + len(self._subscriptions))
+            self._speak(order.language)
         else:
             self._unsubscribe(order.id)
+
+    def _speak(self, language: Language) -> None:
+        if language != self._language:
+            self._language = language
+            self._on_change(Change.STATE)
+            self._on_change(Change.APPLICATION)
 
     def _subscribe(self, order: Subscribe, *, renewed: bool = False) -> None:
         self._unsubscribe(order.id)
@@ -169,7 +182,7 @@ class OnlineChannel:
                 await self._socket.send_bytes(item)
 
     def _enqueue(self, message: BaseModel) -> None:
-        self.outbox.put_message(message.model_dump_json())
+        self.outbox.put_message(in_language(message, self._language).model_dump_json())
 
     def _error(self, subscription: int | None, detail: str) -> None:
         self._enqueue(OnlineError(id=subscription, detail=detail))

@@ -6,13 +6,14 @@ Samples are binary frames, little endian: u32 subscription, u32 flags (0), u64 c
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from tappet.server.runtimes.shapes import RuntimeState
 from tappet.server.shapes import Reply, Request
 from tappet.server.values.shapes import MAX_EXPRESSIONS, Expression
+from tappet.translation.language import Language
 
 SubscriptionId = Annotated[int, Field(ge=0, le=0xFFFFFFFF, strict=True)]
 
@@ -33,7 +34,14 @@ class Unsubscribe(Request):
     id: SubscriptionId
 
 
-ClientMessage = Annotated[Subscribe | Unsubscribe, Field(discriminator="op")]
+class Speak(Request):
+    """The language of sentences from now on, English before; state and layouts are sent again in it."""
+
+    op: Literal["speak"]
+    language: Language
+
+
+ClientMessage = Annotated[Subscribe | Unsubscribe | Speak, Field(discriminator="op")]
 
 
 class ImagePlace(Reply):
@@ -47,6 +55,8 @@ class ImagePlace(Reply):
 class Item(Reply):
     """How to read one value of the frames. `kind` is `error` when there is none; structures and arrays have
     no bytes of their own (size 0)."""
+
+    SENTENCES: ClassVar = ("error",)
 
     expression: str
     offset: int = Field(description="Bytes from the end of the frame's header.")
@@ -100,6 +110,8 @@ class ForcesChanged(Reply):
 
 class OnlineError(Reply):
     """A message that could not be served; the connection stays open."""
+
+    SENTENCES: ClassVar = ("detail",)
 
     op: Literal["error"] = "error"
     id: int | None = None

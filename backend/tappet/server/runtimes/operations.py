@@ -22,10 +22,12 @@ from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import RequireRole, link_of
-from tappet.server.problems import Problem
+from tappet.server.problems import Problem, invalid_request
 from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.shapes import RuntimeState
+from tappet.server.shapes import InvalidField
+from tappet.server.spoken import LanguageDep, in_language
 
 T = TypeVar("T")
 REF = "#/components/schemas/{name}"
@@ -97,6 +99,7 @@ def _endpoint(kind: type[WireOperation[Any]], rest: Rest) -> Callable[..., Await
 
     async def endpoint(
         request: Request,
+        language: LanguageDep,
         who: ActRecord | Identity = guard,
         link: RuntimeLink = Depends(link_of),  # noqa: B008 - how FastAPI declares dependencies
     ) -> Any:
@@ -110,10 +113,10 @@ def _endpoint(kind: type[WireOperation[Any]], rest: Rest) -> Callable[..., Await
         if rest.answer == "state":
             await link.refresh()
         if rest.answer == "state":
-            return link.state()
+            return in_language(link.state(), language)
         if reply is None and answer_type(kind, rest) is None:
             return Response(status_code=204)
-        content = msgspec.json.encode(shape(reply) if shape is not None else reply)
+        content = msgspec.json.encode(in_language(shape(reply) if shape is not None else reply, language))
         return Response(content, media_type="application/json")
 
     return endpoint
@@ -148,8 +151,7 @@ def _checked(where: str, read: Callable[[], T]) -> T:
 
 
 def _invalid(location: str, reason: str) -> Problem:
-    wrong = [{"location": location, "message": reason}]
-    return Problem(422, "invalid-request", f"{location}: {reason}", errors=wrong)
+    return invalid_request([InvalidField(location=location, message=reason)])
 
 
 # -- the API document ----------------------------------------------------------------------------------

@@ -27,6 +27,7 @@ from tappet.server.runtimes.shapes import (
     Symbol,
 )
 from tappet.server.settings import LOCAL_RUNTIME
+from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.tables import runtimes as table
 from tappet.server.values import service as values
 
@@ -34,9 +35,9 @@ router = Router(prefix="/runtimes", tags=["runtimes"])
 
 
 @router.get("")
-async def list_runtimes(who: Viewer, runtimes: RuntimesDep) -> list[RuntimeState]:
+async def list_runtimes(who: Viewer, runtimes: RuntimesDep, language: LanguageDep) -> list[RuntimeState]:
     """All runtimes with their state."""
-    return [link.state() for link in runtimes.all()]
+    return in_language([link.state() for link in runtimes.all()], language)
 
 
 @router.post("", status_code=201)
@@ -59,9 +60,9 @@ async def add_runtime(
 
 
 @router.get("/{runtime_id}")
-async def get_runtime(who: Viewer, link: LinkDep) -> RuntimeState:
+async def get_runtime(who: Viewer, link: LinkDep, language: LanguageDep) -> RuntimeState:
     """State of one runtime."""
-    return link.state()
+    return in_language(link.state(), language)
 
 
 @router.delete("/{runtime_id}", status_code=204)

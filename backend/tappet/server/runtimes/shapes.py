@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, StringConstraints
 
@@ -27,6 +27,8 @@ class NewRuntime(Request):
 
 class RuntimeState(Reply):
     """A runtime as it is now; while not connected, `since` says since when and the rest is the last known."""
+
+    SENTENCES: ClassVar = ("problem", "scheduling")
 
     id: str
     name: str

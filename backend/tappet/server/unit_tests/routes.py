@@ -10,6 +10,7 @@ from tappet.server.builds.builder import Application
 from tappet.server.dependencies import DatabaseDep, Engineer, ServicesDep, StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.routing import Router
+from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.unit_tests import last_runs
 from tappet.server.unit_tests.shapes import TestOrder, TestReport, TestRun
 
@@ -18,11 +19,16 @@ router = Router(prefix="/projects/{project_id}/applications/{application_id}/tes
 
 @router.get("")
 def last_run(
-    project_id: str, application_id: str, who: Viewer, store: StoreDep, database: DatabaseDep
+    project_id: str,
+    application_id: str,
+    who: Viewer,
+    store: StoreDep,
+    database: DatabaseDep,
+    language: LanguageDep,
 ) -> TestRun | None:
     """The last run of the tests of the application, whoever started it; null before the first one."""
     application = Application.of(project_id, store.load(project_id), application_id)
-    return database.read(lambda db: last_runs.read(db, application))
+    return in_language(database.read(lambda db: last_runs.read(db, application)), language)
 
 
 @router.post("")
@@ -32,6 +38,7 @@ async def run_tests(
     body: TestOrder,
     who: Engineer,
     services: ServicesDep,
+    language: LanguageDep,
 ) -> TestReport:
     """Run the test suites of the application as it is stored, on simulated time, beside the server.
 
@@ -45,7 +52,7 @@ async def run_tests(
     await services.database.write_async(
         lambda db: last_runs.keep(db, application, info.revision, who.username, report, seconds, body.only)
     )
-    return report
+    return in_language(report, language)
 
 
 @router.delete("", status_code=204)

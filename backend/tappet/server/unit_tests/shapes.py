@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -28,6 +28,7 @@ class TestFailure(Reply):
     """Why a test is not good: an assertion that did not hold, or an exception, and where."""
 
     __test__ = False
+    SENTENCES: ClassVar = ("message",)
 
     message: str
     expected: str | None
@@ -70,6 +71,7 @@ class TestReport(Reply):
     """All suites of an application."""
 
     __test__ = False
+    SENTENCES: ClassVar = ("problem",)
 
     ok: bool
     total: int

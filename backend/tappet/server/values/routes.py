@@ -10,6 +10,7 @@ from tappet.server.auth.roles import Role
 from tappet.server.dependencies import LinkDep, Viewer
 from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
+from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.values import service as values
 from tappet.server.values.service import Written
 from tappet.server.values.shapes import Forces, ReadOrder, UnforceOrder, Values, WriteOrder
@@ -28,9 +29,9 @@ def _recording(act: ActRecord, action: str, link: RuntimeLink) -> values.Begin:
 
 
 @router.post("/values/read")
-async def read_values(body: ReadOrder, who: Viewer, link: LinkDep) -> Values:
+async def read_values(body: ReadOrder, who: Viewer, link: LinkDep, language: LanguageDep) -> Values:
     """Read values of one moment. An unknown expression carries its own error, the others are read."""
-    return Values(values=await values.read(link, body.expressions))
+    return in_language(Values(values=await values.read(link, body.expressions)), language)
 
 
 @router.post("/values/write")

@@ -17,6 +17,7 @@ from tappet.runtime.operations.flight import ReadFlight
 from tappet.runtime.operations.values import Force, ListForces, Read, Unforce, Write
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink, path_of
+from tappet.server.shapes import InvalidField
 from tappet.server.values.shapes import NewValue, Value
 
 MAX_BYTES = 4 * 1024 * 1024
@@ -169,18 +170,17 @@ def json_value(value: Any) -> Any:
 async def _set(link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, force: bool) -> None:
     symbols = link.loaded_symbols()
     orders: list[tuple[VarRef, bytes]] = []
-    errors: list[dict[str, str]] = []
+    errors: list[InvalidField] = []
     for wanted in values:
         try:
             ref = symbols.resolve(wanted.expression)
             _check_writable(ref)
             orders.append((ref, symbols.encode(ref, wanted.value)))
         except SymbolError as error:
-            errors.append(
-                {"location": wanted.expression, "message": explain(symbols, wanted.expression, error)}
-            )
+            said = explain(symbols, wanted.expression, error)
+            errors.append(InvalidField(location=wanted.expression, message=said))
         except ValueError as error:
-            errors.append({"location": wanted.expression, "message": f"{error}."})
+            errors.append(InvalidField(location=wanted.expression, message=f"{error}."))
     if errors:
         raise _refusal(errors)
     old = await _read_refs(link, [ref for ref, _ in orders])
@@ -206,16 +206,16 @@ def _check_writable(ref: VarRef) -> None:
         )
 
 
-def _refusal(errors: list[dict[str, str]]) -> Problem:
+def _refusal(errors: list[InvalidField]) -> Problem:
     more = f" ({len(errors)} values are wrong)" if len(errors) > 1 else ""
-    detail = f"{errors[0]['location']}: {errors[0]['message']}{more} Nothing was written."
+    detail = f"{errors[0].location}: {errors[0].message}{more} Nothing was written."
     return Problem(422, "values-refused", detail, errors=errors)
 
 
 def _resolve_or_refuse(symbols: SymbolMap, expression: str) -> VarRef:
     found = try_resolve(symbols, expression)
     if isinstance(found, str):
-        raise _refusal([{"location": expression, "message": found}])
+        raise _refusal([InvalidField(location=expression, message=found)])
     return found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, JsonValue, StringConstraints
 
@@ -21,6 +21,8 @@ class ReadOrder(Request):
 
 class Value(Reply):
     """A value, or why there is none."""
+
+    SENTENCES: ClassVar = ("error",)
 
     expression: str
     type: str | None = None
