@@ -17,8 +17,18 @@ LATIN_MARK = re.compile(r"[\u3400-\u9fff](?:[,;!?]|: |\.(?:\s|$)|\.\.\.)")
 """Punctuation of the Latin script where that of Chinese belongs."""
 CODE = re.compile(r"“[^”]*”|[A-Za-z_]+\([^）)]*\)|VAR_[^，]*")
 """Quoted text and calls, which have the punctuation of the language they are in."""
-NAMED = {"W1210 advice"}
+NAMED = {
+    "W1210 advice",
+    "expected <project>",
+    "damaged object code: {error}",
+    "the object code does not define {names}",
+    "nothing listens there; is `tappet runtime` running?",
+    "unknown mode '{mode}'; known are download and online_change",
+}
 """Texts with terms that are names of the language there."""
+QUOTED = re.compile(r"“[^”]*”")
+HALF_BRACKET = re.compile(r"[\u3400-\u9fff”] ?\((?!.*:=)|(?<![A-Za-z_])\([^):]*[\u3400-\u9fff][^):]*\)")
+"""A bracket of the Latin script beside or around Chinese."""
 VALUE = re.compile(r"\{\{?\w+\}?\}")
 NOTE = re.compile(r"\s*\(.*?\)")
 
@@ -74,6 +84,9 @@ def _pairs() -> Iterator[tuple[str, str, str]]:
             yield f"{code} {column}", diagnostics[code][column], row[column]
     for english, row in _table("lang/phrases_zh.csv", "english").items():
         yield english, english, row["chinese"]
+    for table in sorted((BACKEND / "translation" / "zh").glob("*.csv")):
+        for english, row in _table(f"translation/zh/{table.name}", "english").items():
+            yield english, english, row["translation"]
     for words, row in _table("lang/reference.csv", "words").items():
         yield words, row["en"], row["zh"]
     for name, row in _table("server/help/views.csv", "name").items():
@@ -119,5 +132,15 @@ def test_chinese_has_its_own_punctuation() -> None:
         f"{place}: {chinese}"
         for place, _, chinese in _pairs()
         if LATIN_MARK.search(CODE.sub("值", VALUE.sub("值", chinese)))
+    ]
+    assert found == [], "\n".join(found)
+
+
+def test_chinese_has_brackets_of_its_own() -> None:
+    """Those of the Latin script belong to code such as `LIMIT(最小值, 值, 最大值)`."""
+    found = [
+        f"{place}: {chinese}"
+        for place, _, chinese in _pairs()
+        if HALF_BRACKET.search(QUOTED.sub("“x”", VALUE.sub("x", chinese)))
     ]
     assert found == [], "\n".join(found)

@@ -12,7 +12,7 @@ WORDS: dict[str, tuple[str, str]] = {
     "project": ("Project", "工程"),
     "author": ("Author", "作者"),
     "printed": ("Printed", "打印时间"),
-    "revision": ("Revision", "版本"),
+    "revision": ("Revision", "修订版"),
     "declaration": ("Declaration", "声明"),
     "implementation": ("Implementation", "实现"),
     "variables": ("Variables", "变量"),

@@ -147,7 +147,10 @@ def _of_project(error: ProjectError) -> Problem:
 
 def _invalid(error: RequestValidationError | WebSocketRequestValidationError) -> Problem:
     errors = [
-        InvalidField(location=".".join(str(part) for part in item["loc"]), message=item["msg"])
+        InvalidField(
+            location=".".join(str(part) for part in item["loc"]),
+            message=item["msg"].removeprefix("Value error, "),
+        )
         for item in error.errors()
     ]
     return invalid_request(errors or [InvalidField(location="request", message="invalid")])

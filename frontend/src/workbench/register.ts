@@ -15,6 +15,7 @@ import { registerWindowCommands } from './commands/window';
 import { useMessageBadge } from './messages/badge';
 import MessagesPanel from './messages/MessagesPanel';
 import { translateMessages } from './messages/store';
+import { sayAgain } from './sayAgain';
 import { followExceptions } from './online/exception';
 import { registerPanel } from './panels';
 import { registerTests } from './tests/register';
@@ -110,7 +111,10 @@ export function registerWorkbench(): void {
   registerWindowCommands();
   registerHelpCommands();
   followExceptions();
-  onLanguageChange(() => void guard(translateMessages));
+  onLanguageChange(() => {
+    void guard(translateMessages);
+    void guard(sayAgain);
+  });
 }
 
 /** The entries of the View menu; after all rooms have registered their panels. */
