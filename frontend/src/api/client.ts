@@ -74,8 +74,7 @@ const errors: Middleware = {
     if (response.status === 401) onUnauthorised();
     throw new ApiError(await problemOf(response));
   },
-  onError: ({ error }) =>
-    isCancelled(error) ? undefined : new ApiError({ title: t('error.noServer'), status: 0 }),
+  onError: ({ error }) => (isCancelled(error) ? undefined : new ApiError({ title: t('error.noServer'), status: 0 })),
 };
 
 /** A body as JSON; one that holds files as a form, without the fields that are null. */

@@ -1,7 +1,13 @@
 /** One channel for each runtime that an application is logged in to; they come and go with the logins. */
 import { socketUrl } from '@/api/client';
 import { onLanguageChange } from '@/i18n';
-import { connectionLost, forcesReceived, runtimeStateReceived, useOnline, valuesPaced } from '@/workbench/onlineSession';
+import {
+  connectionLost,
+  forcesReceived,
+  runtimeStateReceived,
+  useOnline,
+  valuesPaced,
+} from '@/workbench/onlineSession';
 import { BROWSER_CLOCK, ValueBoard } from './board';
 import { OnlineChannel } from './channel';
 
