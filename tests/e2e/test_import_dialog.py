@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import FilePayload, Locator, Page, expect
+from playwright.sync_api import Browser, FilePayload, Locator, Page, expect
 from tests.project.archives import archive
 from tests.project.exchange.twincat_project import FILES
 
+from .conftest import Server, new_profile, start_page
+from .ui import Ui
 from .workbench import choose_menu, implementation, open_object, open_project, tree_item
 
 pytestmark = pytest.mark.e2e
@@ -174,3 +176,27 @@ def test_objects_that_exist_are_overwritten_renamed_merged_or_skipped(page: Page
     report.get_by_role("row").filter(has_text="as the user has joined it").dblclick()
     expect(page.locator(".monaco-editor:visible").first).to_contain_text("by\xa0hand")
     expect(tree_item(page, "FB_Pump_1")).to_have_count(0)
+
+
+def test_a_chinese_workbench_reads_remarks_and_refusals_in_chinese(browser: Browser, server: Server) -> None:
+    with new_profile(browser, "zh") as profile, start_page(profile, server) as page:
+        ui = Ui(page, "zh")
+        page.get_by_role("button", name=ui.name("command.newProject")).first.click()
+        page.get_by_role("textbox").last.fill("Bottling line")
+        page.get_by_role("dialog").get_by_role("button", name=ui.name("action.create"), exact=True).click()
+        expect(page.get_by_text("名为“Bottling line”的工程已存在")).to_be_visible()
+        page.keyboard.press("Escape")
+        open_project(page)
+        ui.command("command.import")
+        dialog = page.get_by_role("dialog")
+        dialog.locator("input[type=file]").first.set_input_files(
+            [file("bad.xml", b"<project"), file("Cut.st", b"FUNCTION_BLOCK FB_Cut\nVAR\nEND_VAR\n")]
+        )
+        dialog.get_by_role("button", name=ui.name("exchange.next")).click()
+        expect(dialog.get_by_text("缺少 END_FUNCTION_BLOCK；对象在文件末尾结束")).to_be_visible()
+        dialog.get_by_role("button", name=ui.name("exchange.import"), exact=True).click()
+        rows = page.get_by_role("dialog").get_by_role("row")
+        expect(rows.filter(has_text="bad.xml")).to_contain_text("不是有效的 XML（")
+        expect(rows.filter(has_text="FB_Cut").first).to_contain_text(
+            "缺少 END_FUNCTION_BLOCK；对象在文件末尾结束"
+        )

@@ -133,7 +133,7 @@ function ComparedDialog({ projectId, projectName, opened, close }: ComparedDialo
   const query = useDifferences(projectId, opened, ignoring);
   const comparison = query.data ?? opened;
   const { choices, choose, refused, count, merge } = useMerge(projectId, comparison, query.refetch);
-  const title = opened.at ? `${opened.title} (${secondText(opened.at)})` : opened.title;
+  const title = opened.at ? t('text.andMore', { text: opened.title, more: secondText(opened.at) }) : opened.title;
   return (
     <Dialog
       title={t('compare.title', { name: projectName, other: opened.title })}

@@ -113,7 +113,8 @@ describe('texts', () => {
     const plain = (text: string) => text.replace(/…$/, '').trim().toLowerCase();
     for (const [key, text] of Object.entries(en)) {
       const chinese = zh[key];
-      if (chinese === undefined || other.has(key)) continue;
+      // Names of what is filled in say in Chinese what it is.
+      if (chinese === undefined || other.has(key) || key.startsWith('field.')) continue;
       words.set(plain(text), (words.get(plain(text)) ?? new Set()).add(plain(chinese)));
     }
     const several = [...words].filter(([, chinese]) => chinese.size > 1).map(([text, chinese]) => [text, ...chinese]);

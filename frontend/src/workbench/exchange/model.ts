@@ -1,6 +1,7 @@
 /** Imports as data: places, the report, the files to read. Pure functions. */
 import { hasRole } from '@/project/kinds';
 import type { ImportEntry, ImportFormats, ObjectSummary } from '@/api/types';
+import { t } from '@/i18n';
 import { childrenOf, forestOf, lineage, type Forest } from '@/project/tree';
 
 export interface Place {
@@ -74,11 +75,11 @@ export function placeText(entry: Pick<ImportEntry, 'source' | 'line'>): string {
   return entry.line == null ? entry.source : `${entry.source}:${entry.line}`;
 }
 
-/** The report as text: one line an entry, as `tappet import` prints it. */
+/** The report as text, in the language of the user: one line an entry, as `tappet import` prints it. */
 export function reportText(entries: readonly ImportEntry[]): string {
   const lines = entries.map((entry) => {
     const name = entry.object ? ` ${entry.object}` : '';
-    return `${placeText(entry)}: ${entry.outcome}${name}${entry.text ? `: ${entry.text}` : ''}`;
+    return `${placeText(entry)}: ${t(`exchange.outcome.${entry.outcome}`)}${name}${entry.text ? `: ${entry.text}` : ''}`;
   });
   return lines.map((line) => `${line}\n`).join('');
 }

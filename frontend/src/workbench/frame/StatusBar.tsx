@@ -250,14 +250,16 @@ function CursorItem() {
   const context = useCommandContext();
   const tabMoves = useRegistry((state) => state.commands.get('st.tabMovesFocus')?.checked?.(context) === true);
   if (!cursor) return null;
+  const position = t('status.position', { line: cursor.line, column: cursor.column });
   return (
     <>
       <button className={styles.item} title={t('status.tabRules')} onClick={() => void runCommand('st.tabMovesFocus')}>
         {t(tabMoves ? 'status.tabMoves' : 'status.tabIndents')}
       </button>
       <span className={styles.item}>
-        {t('status.position', { line: cursor.line, column: cursor.column })}
-        {cursor.selected ? ` (${t('status.selected', { count: cursor.selected })})` : ''}
+        {cursor.selected
+          ? t('text.andMore', { text: position, more: t('status.selected', { count: cursor.selected }) })
+          : position}
       </span>
     </>
   );

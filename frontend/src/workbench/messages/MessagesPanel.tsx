@@ -176,9 +176,9 @@ type Text = ReturnType<typeof useText>;
 function positionText(line: Diagnostic, t: Text): string {
   if (line.line === null) return '';
   const place = t('messages.lineColumn', { line: line.line, column: line.column ?? 1 });
-  return line.part
-    ? `${place} (${t(line.part === 'declaration' ? 'messages.declaration' : 'messages.implementation')})`
-    : place;
+  if (!line.part) return place;
+  const more = t(line.part === 'declaration' ? 'messages.declaration' : 'messages.implementation');
+  return t('text.andMore', { text: place, more });
 }
 
 function summary(

@@ -1,6 +1,6 @@
 /** The coding rules of an application as data: groups, search, switching on and off. Pure functions. */
 import type { CodingRule, StaticAnalysisData } from '@/api/types';
-import type { TextKey } from '@/i18n';
+import { textOf, type TextKey } from '@/i18n';
 
 export const LEVELS = ['off', 'warning', 'error'] as const;
 export type Level = (typeof LEVELS)[number];
@@ -72,9 +72,10 @@ export function onIn(chosen: StaticAnalysisData, rules: readonly CodingRule[]): 
   return rules.filter((rule) => levelOf(chosen, rule.code) !== 'off').length;
 }
 
-/** A message of the table for people: what is filled in later is a name in angle marks, braces stand once. */
+/** A message of the table for people: what is filled in later is a word in angle marks, braces stand once. */
 export function messageText(message: string): string {
-  return message.replace(/['“]?\{(\w+)\}['”]?/g, '‹$1›').replace(/([{}])\1/g, '$1');
+  const word = (_: string, field: string) => `‹${textOf(`field.${field}`) ?? field}›`;
+  return message.replace(/['“]?(?<!\{)\{(\w+)\}(?!\})['”]?/g, word).replace(/([{}])\1/g, '$1');
 }
 
 /** Keys of texts; the codes come from the server, and each has its two texts. */

@@ -46,6 +46,7 @@ describe('static analysis settings', () => {
   it('are described without the marks of the template', () => {
     expect(messageText("The name of {what} '{name}' is wrong")).toBe('The name of ‹what› ‹name› is wrong');
     expect(messageText('“{name}”有 {count} 个参数')).toBe('‹name›有 ‹count› 个参数');
+    expect(messageText('‘{nobody}’')).toBe('‘‹nobody›’');
     expect(messageText("Write {{attribute 'strict'}} above")).toBe("Write {attribute 'strict'} above");
   });
 
