@@ -181,22 +181,24 @@ def test_objects_that_exist_are_overwritten_renamed_merged_or_skipped(page: Page
 def test_a_chinese_workbench_reads_remarks_and_refusals_in_chinese(browser: Browser, server: Server) -> None:
     with new_profile(browser, "zh") as profile, start_page(profile, server) as page:
         ui = Ui(page, "zh")
-        page.get_by_role("button", name=ui.name("command.newProject")).first.click()
-        page.get_by_role("textbox").last.fill("Bottling line")
-        page.get_by_role("dialog").get_by_role("button", name=ui.name("action.create"), exact=True).click()
-        expect(page.get_by_text("名为“Bottling line”的工程已存在")).to_be_visible()
-        page.keyboard.press("Escape")
         open_project(page)
-        ui.command("command.import")
+        open_object(page, "Tappet Soft PLC")
+        ui.button("runtime.add", page.locator("body")).click()
         dialog = page.get_by_role("dialog")
+        for at, text in enumerate(("Local", "ws://127.0.0.1:9", "none")):
+            dialog.get_by_role("textbox").nth(at).fill(text)
+        ui.button("action.add", dialog).click()
+        expect(page.get_by_text("已有运行时“Local”。").first).to_be_visible()
+        page.keyboard.press("Escape")
+        ui.command("command.import")
         dialog.locator("input[type=file]").first.set_input_files(
             [file("bad.xml", b"<project"), file("Cut.st", b"FUNCTION_BLOCK FB_Cut\nVAR\nEND_VAR\n")]
         )
-        dialog.get_by_role("button", name=ui.name("exchange.next")).click()
-        expect(dialog.get_by_text("缺少 END_FUNCTION_BLOCK；对象在文件末尾结束")).to_be_visible()
-        dialog.get_by_role("button", name=ui.name("exchange.import"), exact=True).click()
+        ui.button("exchange.next", dialog).click()
+        expect(dialog.get_by_text("缺少 END_FUNCTION_BLOCK；对象在下一个对象开始处结束")).to_be_visible()
+        ui.button("exchange.import", dialog).click()
         rows = page.get_by_role("dialog").get_by_role("row")
         expect(rows.filter(has_text="bad.xml")).to_contain_text("不是有效的 XML（")
         expect(rows.filter(has_text="FB_Cut").first).to_contain_text(
-            "缺少 END_FUNCTION_BLOCK；对象在文件末尾结束"
+            "缺少 END_FUNCTION_BLOCK；对象在下一个对象开始处结束"
         )

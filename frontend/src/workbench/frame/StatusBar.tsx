@@ -14,7 +14,7 @@ import {
 import { useMemo } from 'react';
 import type { LoginRelation } from '@/api/types';
 import { useSession } from '@/session/session';
-import { useText } from '@/i18n';
+import { listed, useText } from '@/i18n';
 import { timeText } from '../clock';
 import { showPanel } from '../docking/dock';
 import { usePresence } from '../events';
@@ -211,10 +211,11 @@ function MessageItem() {
       <button className={styles.item} onClick={() => showPanel('messages')}>
         <CircleX size={13} className={count.error ? styles.error : undefined} aria-hidden />
         <span aria-hidden>{count.error}</span>
-        <span className="visually-hidden">{t('messages.error', { count: count.error })},</span>
         <TriangleAlert size={13} className={count.warning ? styles.warn : undefined} aria-hidden />
         <span aria-hidden>{count.warning}</span>
-        <span className="visually-hidden">{t('messages.warning', { count: count.warning })}</span>
+        <span className="visually-hidden">
+          {listed([t('messages.error', { count: count.error }), t('messages.warning', { count: count.warning })])}
+        </span>
       </button>
     </Tooltip>
   );
