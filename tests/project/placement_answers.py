@@ -61,6 +61,7 @@ def every_kind() -> Project:
     add(application.id, "persistent", "Kept")
     add(application.id, "scene", "Scene")
     add(None, "script", "Script")
+    add(None, "page_setup", "Page Setup")
     inner = add(application.id, "application", "Second")
     drop("library_manager", inner)
     drop("task_configuration", inner)

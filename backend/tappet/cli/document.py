@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from argparse import Namespace
+from argparse import BooleanOptionalAction, Namespace
 from pathlib import Path
+from typing import get_args
 
 from tappet.cli.arguments import ArgumentParser
 from tappet.cli.errors import UsageError
 from tappet.cli.inputs import load_project
+from tappet.project.papers import Orientation, Paper
 from tappet.whole_file import write_output
 
+PARTS = {
+    "title-page": "with a title page, or without one",
+    "contents": "with a table of contents",
+    "variables": "with tables of variables",
+    "cross-references": "with the places of all names",
+}
 FORMATS = {".pdf": "pdf", ".html": "html", ".htm": "html"}
 
 
@@ -27,23 +35,31 @@ def document_arguments(parser: ArgumentParser) -> None:
         help="only this object with all below it, by its path or name; may be given several times",
     )
     parser.add_argument("--language", choices=("en", "zh"), default="en", help="of the words (default: en)")
-    parser.add_argument("--paper", choices=("a4", "us-letter"), default="a4", help="of the PDF (default: a4)")
-    parser.add_argument("--author", default="", metavar="NAME", help="for the title page")
-    parser.add_argument("--footer", default="", metavar="TEXT", help="at the foot of each page")
-    parser.add_argument("--no-contents", action="store_true", help="without a table of contents")
-    parser.add_argument("--no-variables", action="store_true", help="without tables of variables")
-    parser.add_argument("--cross-references", action="store_true", help="with the places of all names")
+    parser.add_argument("--paper", choices=get_args(Paper), help="instead of that of the page setup (or a4)")
+    parser.add_argument(
+        "--orientation", choices=get_args(Orientation), help="instead of that of the page setup"
+    )
+    parser.add_argument("--author", metavar="NAME", help="for the title page and {author}")
+    parser.add_argument(
+        "--footer", metavar="TEXT", help="at the left of the foot, with placeholders such as {project}"
+    )
+    for part, words in PARTS.items():
+        parser.add_argument(f"--{part}", action=BooleanOptionalAction, help=words)
 
 
 def document(given: Namespace) -> int:
     """Writes the file."""
     from datetime import datetime
 
-    from tappet.documentation.compose import Printing, compose
+    from pydantic import ValidationError
+
+    from tappet.documentation.compose import compose
     from tappet.documentation.html import write_html
     from tappet.documentation.pdf import write_pdf
+    from tappet.documentation.printing import Printing
     from tappet.project.errors import ProjectError
     from tappet.project.exchange.parts import chosen_ids
+    from tappet.project.objects import describe
 
     kind = FORMATS.get(given.output.suffix.lower())
     if kind is None:
@@ -55,19 +71,23 @@ def document(given: Namespace) -> int:
         if found is None:
             raise UsageError(f"the project '{project.name}' has no object '{path}'")
         tops.append(found.id)
-    printing = Printing(
-        language=given.language,
-        paper=given.paper,
-        objects=chosen_ids(project, tops) if tops else None,
-        contents=not given.no_contents,
-        variables=not given.no_variables,
-        cross_references=given.cross_references,
-        author=given.author,
-        footer=given.footer,
-    )
-    composed = compose(project, printing, datetime.now().astimezone())
     try:
+        printing = Printing(
+            language=given.language,
+            objects=chosen_ids(project, tops) if tops else None,
+            paper=given.paper,
+            orientation=given.orientation,
+            title_page=given.title_page,
+            contents=given.contents,
+            variables=given.variables,
+            cross_references=given.cross_references,
+            author=given.author,
+            footer=given.footer,
+        )
+        composed = compose(project, printing, datetime.now().astimezone())
         content = write_pdf(composed) if kind == "pdf" else write_html(composed)
+    except ValidationError as error:
+        raise UsageError(describe(error)) from error
     except ProjectError as error:
         raise UsageError(str(error)) from error
     write_output(given.output, content)

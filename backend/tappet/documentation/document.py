@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from tappet.project.picture import Picture
+from tappet.project.running_text import Piece
+
 Style = Literal["code", "keyword", "type", "comment", "string", "number", "pragma"]
 
 
@@ -50,6 +53,45 @@ class Section:
     about: str
     """What it is: `function block`."""
     blocks: tuple[Listing | Table | Note, ...]
+    path: str = ""
+    """Of an object in the tree."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A page of paper; all in mm."""
+
+    width: float
+    height: float
+    margins: tuple[float, float, float, float]
+    """Top, right, bottom, left."""
+
+
+@dataclass(frozen=True, slots=True)
+class Logo:
+    """A picture on the title page and at the head of the others."""
+
+    picture: Picture
+    on_title_page: bool
+    in_header: Literal["none", "left", "right"]
+
+    def size_on_title_page(self) -> tuple[float, float]:
+        """Width and height in mm."""
+        return self._size_within(80, 40)
+
+    def size_in_header(self, margin: float) -> tuple[float, float]:
+        """The same where the margin at the top of the page is so wide."""
+        return self._size_within(40, min(10, margin * 0.6))
+
+    def _size_within(self, width: float, height: float) -> tuple[float, float]:
+        """As far as its shape allows."""
+        scale = min(width / self.picture.width, height / self.picture.height)
+        return round(self.picture.width * scale, 2), round(self.picture.height * scale, 2)
+
+
+Running = tuple[tuple[Piece, ...], tuple[Piece, ...], tuple[Piece, ...]]
+"""Left, centre and right of a head or foot; placeholders that are left are those whose text differs from page
+to page: `object`, `path`, `page`, `pages`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +103,13 @@ class Document:
     facts: tuple[tuple[str, str], ...]
     """Lines of the title page."""
     language: Literal["en", "zh"]
-    paper: Literal["a4", "us-letter"]
-    footer: str
+    sheet: Sheet
+    title_page: bool
+    logo: Logo | None
+    header: Running
+    footer: Running
     contents: str
     """Title of the table of contents; empty: there is none."""
-    page: str
-    """`Page {page} of {pages}`."""
     sections: tuple[Section, ...]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from html import escape
 
 from tappet.documentation.document import Document, Listing, Section, Table
+from tappet.documentation.page_css import data_uri, page_css
 
 _STYLE = """
 :root { color-scheme: light; }
@@ -14,6 +15,7 @@ body { margin: 0 auto; max-width: 60rem; padding: 2rem; color: #1b1f24; backgrou
 header { margin: 20vh 0 4rem; }
 header h1 { font-size: 2.4rem; margin: 0 0 1rem; }
 header p { white-space: pre-wrap; }
+header img { display: block; margin: 0 0 2rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.5rem; }
 dt, small, th { color: #57606a; }
 dd { margin: 0; }
@@ -35,11 +37,10 @@ pre span.l::before { counter-increment: line; content: counter(line); position: 
   margin-left: -3.5rem; width: 2.5rem; text-align: right; color: #6e7781; }
 .keyword { color: #0033b3; font-weight: 600; } .type { color: #00627a; } .comment { color: #4b6b3c; }
 .string { color: #8a3b12; } .number { color: #7a3e9d; } .pragma { color: #6e5494; }
-@page { margin: 18mm 16mm; @bottom-right { content: counter(page) " / " counter(pages); font-size: 9px; } }
 @media print { body { max-width: none; padding: 0; font-size: 11px; } header { break-after: page; }
   nav { break-after: page; } pre { font-size: 9.5px; border: 0; padding: 0; } }
 """
-_POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 _TONGUES = {"en": "en", "zh": "zh-Hans"}
 
 
@@ -52,11 +53,10 @@ def _page(document: Document) -> Iterator[str]:
     title = escape(document.title)
     yield f'<!doctype html><html lang="{_TONGUES[document.language]}"><head><meta charset="utf-8">'
     yield f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
-    yield f"<title>{title}</title><style>{_STYLE}</style></head><body>"
-    yield f"<header><h1>{title}</h1><p>{escape(document.description)}</p><dl>"
-    for name, value in document.facts:
-        yield f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>"
-    yield "</dl></header>"
+    style = _STYLE + "\n".join(page_css(document))
+    yield f"<title>{title}</title><style>{style}</style></head><body>"
+    if document.title_page:
+        yield from _title_page(document)
     if document.contents:
         yield f"<nav><h2>{escape(document.contents)}</h2><ol>"
         for number, section in enumerate(document.sections):
@@ -66,15 +66,27 @@ def _page(document: Document) -> Iterator[str]:
     yield "<main>"
     for number, section in enumerate(document.sections):
         yield from _section(number, section)
-    if document.footer:
-        yield f"<p><small>{escape(document.footer)}</small></p>"
     yield "</main></body></html>"
+
+
+def _title_page(document: Document) -> Iterator[str]:
+    title = escape(document.title)
+    yield "<header>"
+    if document.logo is not None and document.logo.on_title_page:
+        width, height = document.logo.size_on_title_page()
+        size = f"width: {width:g}mm; height: {height:g}mm"
+        yield f'<img src="{data_uri(document.logo)}" alt="" style="{size}">'
+    yield f"<h1>{title}</h1><p>{escape(document.description)}</p><dl>"
+    for name, value in document.facts:
+        yield f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>"
+    yield "</dl></header>"
 
 
 def _section(number: int, section: Section) -> Iterator[str]:
     level = min(6, section.level + 1)
     about = f"<small>{escape(section.about)}</small>" if section.about else ""
-    yield f'<section><h{level} id="s{number}">{escape(section.title)}{about}</h{level}>'
+    names = f'data-object="{escape(section.title)}" data-path="{escape(section.path)}"'
+    yield f'<section><h{level} id="s{number}" {names}>{escape(section.title)}{about}</h{level}>'
     for block in section.blocks:
         if isinstance(block, Listing):
             yield f'<p class="title">{escape(block.title)}</p>'

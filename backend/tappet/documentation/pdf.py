@@ -13,7 +13,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from tappet.documentation.document import Document, Listing, Table
+from tappet.documentation.document import Document, Listing, Logo, Table
 from tappet.documentation.typesetting import PAGE, TypesettingError, typeset
 from tappet.limited_process import LimitExceededError
 from tappet.project.errors import ProjectError
@@ -68,6 +68,8 @@ def write_pdf(document: Document, *, system_fonts: bool = True) -> bytes:
         folder = Path(name)
         (folder / "data.json").write_text(json.dumps(_data(document)), encoding="utf-8")
         (folder / PAGE).write_bytes(page)
+        if document.logo is not None:
+            (folder / _logo_file(document.logo)).write_bytes(document.logo.picture.content)
         try:
             return typeset(folder, system_fonts=system_fonts)
         except LimitExceededError as error:
@@ -86,19 +88,42 @@ def _data(document: Document) -> dict[str, Any]:
         "description": document.description,
         "facts": document.facts,
         "language": document.language,
-        "paper": document.paper,
+        "width": document.sheet.width,
+        "height": document.sheet.height,
+        "margins": document.sheet.margins,
+        "title_page": document.title_page,
+        "logo": _logo(document),
+        "header": document.header,
         "footer": document.footer,
         "contents": document.contents,
-        "page": document.page,
         "sections": [
             {
                 "level": section.level,
                 "title": _wrapping(section.title),
                 "about": section.about,
+                "name": section.title,
+                "path": section.path,
                 "blocks": [_block(block) for block in section.blocks],
             }
             for section in document.sections
         ],
+    }
+
+
+def _logo_file(logo: Logo) -> str:
+    return f"logo.{logo.picture.ending}"
+
+
+def _logo(document: Document) -> dict[str, Any] | None:
+    """The file of the picture, and its width and height in mm at its two places."""
+    logo = document.logo
+    if logo is None:
+        return None
+    return {
+        "file": _logo_file(logo),
+        "title": logo.size_on_title_page() if logo.on_title_page else None,
+        "place": logo.in_header,
+        "header": logo.size_in_header(document.sheet.margins[0]),
     }
 
 

@@ -17,10 +17,13 @@ from pydantic import (
     StrictBool,
     model_validator,
 )
+from pydantic.fields import FieldInfo
 
 from tappet.project.durations import duration_ns
 from tappet.project.errors import InvalidTimeError
 
+ENCODED = "contentEncoding"
+"""In the JSON schema of a field: its text is other content, which is not searched or printed as text."""
 MAX_TEXT = 16 * 1024 * 1024
 """Characters in one text of an object; more is no source but a data file."""
 
@@ -78,6 +81,16 @@ class Data(BaseModel):
         """What the declaration text says this is (`program`, `struct` ...), None where the kind says it
         all."""
         return None
+
+
+def encoded_fields(model: type[BaseModel]) -> frozenset[str]:
+    """The fields whose texts are encoded content, such as a picture."""
+    return frozenset(name for name, field in model.model_fields.items() if _is_encoded(field))
+
+
+def _is_encoded(field: FieldInfo) -> bool:
+    extra = field.json_schema_extra
+    return isinstance(extra, dict) and ENCODED in extra
 
 
 class NoData(Data):

@@ -1061,6 +1061,7 @@ export interface paths {
          * Document Project
          * @description The project, or objects of it, to be printed: title page, contents, texts with line numbers, tables.
          *
+         *     What is not given is as the page setup of the project has it, an object of the kind `page_setup`.
          *     A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them;
          *     one that needs more memory or time than there is for it is `document-too-large`.
          */
@@ -3990,6 +3991,32 @@ export interface components {
             runtime_id: string;
         };
         /**
+         * Margins
+         * @description Paper around the text, in mm; head and foot of the pages stand in them. Printers reach to 5 mm.
+         */
+        Margins: {
+            /**
+             * Bottom
+             * @default 20
+             */
+            bottom: number;
+            /**
+             * Left
+             * @default 17
+             */
+            left: number;
+            /**
+             * Right
+             * @default 17
+             */
+            right: number;
+            /**
+             * Top
+             * @default 22
+             */
+            top: number;
+        };
+        /**
          * Me
          * @description The user behind a request.
          */
@@ -4312,7 +4339,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -4447,6 +4474,135 @@ export interface components {
              * @enum {string}
              */
             op: "paced";
+        };
+        /**
+         * PageSetupData
+         * @description How the documentation of a project is printed, as HTML and PDF.
+         */
+        PageSetupData: {
+            /**
+             * Author
+             * @description Empty: who prints.
+             * @default
+             */
+            author: string;
+            /**
+             * Company
+             * @default
+             */
+            company: string;
+            /**
+             * Contents
+             * @description With a table of contents.
+             * @default true
+             */
+            contents: boolean;
+            /**
+             * Cross References
+             * @description With the places of all names of the project.
+             * @default false
+             */
+            cross_references: boolean;
+            /**
+             * @default {
+             *       "centre": "",
+             *       "left": "",
+             *       "right": "{page_of_pages}"
+             *     }
+             */
+            footer: components["schemas"]["Running"];
+            /**
+             * @description Not on the title page, of which it would say the same.
+             * @default {
+             *       "centre": "",
+             *       "left": "{project}",
+             *       "right": ""
+             *     }
+             */
+            header: components["schemas"]["Running"];
+            /**
+             * Logo
+             * @description PNG or JPEG in base64, at most 256 KiB and 4,000 pixels a side.
+             */
+            logo: string | null;
+            /**
+             * Logo In Header
+             * @default none
+             * @enum {string}
+             */
+            logo_in_header: "none" | "left" | "right";
+            /**
+             * Logo On Title Page
+             * @default true
+             */
+            logo_on_title_page: boolean;
+            /**
+             * @default {
+             *       "bottom": 20,
+             *       "left": 17,
+             *       "right": 17,
+             *       "top": 22
+             *     }
+             */
+            margins: components["schemas"]["Margins"];
+            /**
+             * Orientation
+             * @default portrait
+             * @enum {string}
+             */
+            orientation: "portrait" | "landscape";
+            /**
+             * Paper
+             * @default a4
+             * @enum {string}
+             */
+            paper: "a3" | "a4" | "a5" | "us-letter" | "us-legal" | "us-tabloid";
+            /**
+             * Title Page
+             * @default true
+             */
+            title_page: boolean;
+            /**
+             * Variables
+             * @description With tables of the variables that are declared.
+             * @default true
+             */
+            variables: boolean;
+        };
+        /**
+         * PageSetupObject
+         * @description How the documentation of the project is printed.
+         */
+        PageSetupObject: {
+            data: components["schemas"]["PageSetupData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "page_setup";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * ParameterValue
@@ -5074,6 +5230,27 @@ export interface components {
          * @enum {string}
          */
         Role: "viewer" | "operator" | "engineer" | "admin";
+        /**
+         * Running
+         * @description What stands at the head or foot of each page, as plain text with placeholders such as {project}.
+         */
+        Running: {
+            /**
+             * Centre
+             * @default
+             */
+            centre: string;
+            /**
+             * Left
+             * @default
+             */
+            left: string;
+            /**
+             * Right
+             * @default
+             */
+            right: string;
+        };
         /**
          * RuntimeException
          * @description Why an application stopped.
@@ -8761,14 +8938,18 @@ export interface operations {
             query?: {
                 format?: "pdf" | "html";
                 language?: "en" | "zh";
-                paper?: "a4" | "us-letter";
+                paper?: ("a3" | "a4" | "a5" | "us-letter" | "us-legal" | "us-tabloid") | null;
+                orientation?: ("portrait" | "landscape") | null;
+                title_page?: boolean | null;
                 /** @description With a table of contents. */
-                contents?: boolean;
+                contents?: boolean | null;
                 /** @description With tables of the variables. */
-                variables?: boolean;
+                variables?: boolean | null;
                 /** @description With the places of all names, by name. */
-                cross_references?: boolean;
-                footer?: string;
+                cross_references?: boolean | null;
+                author?: string | null;
+                /** @description At the left of the foot, with placeholders such as {project}. */
+                footer?: string | null;
                 /** @description Only these objects with all below them; none: everything. */
                 object?: string[];
                 /** @description Not these objects with all below them, but for what `object` names of it. */

@@ -10,6 +10,7 @@ from typing import Any
 
 from tappet.iec.languages import language_of
 from tappet.iec.tokens import COMMENT, pieces
+from tappet.project.data import encoded_fields
 from tappet.project.kind_registry import kind_of
 from tappet.project.model import ProjectObject
 from tappet.project.search.query import Area
@@ -73,8 +74,9 @@ def contents_of(item: ProjectObject) -> Iterator[Content]:
             continue
         area = Area.DECLARATIONS if part == "declaration" else Area.IMPLEMENTATIONS
         yield Content(area, (field,), text, part)
+    left_out = _NOT_SEARCHED | encoded_fields(type(item.data))
     for field, value in data.items():
-        if field not in _PARTS and field not in _NOT_SEARCHED:
+        if field not in _PARTS and field not in left_out:
             for path, text, writable in _leaves(value, (field,)):
                 yield Content(Area.TABLES, path, text, writable=writable)
 

@@ -9,18 +9,18 @@ from typing import Annotated, Literal
 from fastapi import Query
 from fastapi.responses import Response
 
+from tappet.project.papers import Orientation, Paper
+from tappet.project.running_text import PlainLine, RunningText
 from tappet.server.dependencies import StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.projects.part import PartDep
 from tappet.server.projects.routes import download
 from tappet.server.routing import Router
-from tappet.server.shapes import Line
 
 router = Router(tags=["projects"])
 MOST_AT_ONCE = 2
 PATIENCE_S = 60.0
 _PLACES = threading.BoundedSemaphore(MOST_AT_ONCE)
-Note = Annotated[Line, Query(max_length=200)]
 
 
 @router.get(
@@ -42,31 +42,43 @@ def document_project(
     part: PartDep,
     format: Literal["pdf", "html"] = "pdf",
     language: Literal["en", "zh"] = "en",
-    paper: Literal["a4", "us-letter"] = "a4",
-    contents: Annotated[bool, Query(description="With a table of contents.")] = True,
-    variables: Annotated[bool, Query(description="With tables of the variables.")] = True,
-    cross_references: Annotated[bool, Query(description="With the places of all names, by name.")] = False,
-    footer: Note = "",
+    paper: Paper | None = None,
+    orientation: Orientation | None = None,
+    title_page: bool | None = None,
+    contents: Annotated[bool | None, Query(description="With a table of contents.")] = None,
+    variables: Annotated[bool | None, Query(description="With tables of the variables.")] = None,
+    cross_references: Annotated[
+        bool | None, Query(description="With the places of all names, by name.")
+    ] = None,
+    author: Annotated[PlainLine | None, Query()] = None,
+    footer: Annotated[
+        RunningText | None, Query(description="At the left of the foot, with placeholders such as {project}.")
+    ] = None,
 ) -> Response:
     """The project, or objects of it, to be printed: title page, contents, texts with line numbers, tables.
 
+    What is not given is as the page setup of the project has it, an object of the kind `page_setup`.
     A PDF with characters that no font of the server has is the problem `missing-glyphs`, which names them;
     one that needs more memory or time than there is for it is `document-too-large`.
     """
-    from tappet.documentation.compose import Printing, compose  # only for who prints
+    from tappet.documentation.compose import compose  # only for who prints
     from tappet.documentation.html import write_html
     from tappet.documentation.pdf import write_pdf
+    from tappet.documentation.printing import Printing
 
     info, project = store.snapshot(project_id)
     printing = Printing(
         language=language,
-        paper=paper,
         objects=part.ids(project),
+        paper=paper,
+        orientation=orientation,
+        title_page=title_page,
         contents=contents,
         variables=variables,
         cross_references=cross_references,
-        author=who.username,
+        author=author,
         footer=footer,
+        printed_by=who.username,
     )
     document = compose(project, printing, datetime.now().astimezone(), info.revision)
     if format == "html":
