@@ -181,7 +181,7 @@ LOADED_BY_NAME = {
     "python_multipart": "FastAPI, for uploads",
 }
 """Dependencies without an import, and what loads them."""
-IMPORTED_AS = {"argon2_cffi": "argon2", "google_re2": "re2", "pyelftools": "elftools"}
+IMPORTED_AS = {"argon2_cffi": "argon2", "google_re2": "re2", "pillow": "PIL", "pyelftools": "elftools"}
 
 
 @pytest.mark.parametrize("entry", PROJECT["project"]["dependencies"])

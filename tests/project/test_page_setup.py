@@ -69,7 +69,7 @@ def with_setup(project: Project, **data: Any) -> Project:
         ({"company": "a\nb"}, "company: a text on pages is one line"),
         (
             {"header": {"left": "{pages"}},
-            "header.left: '{pages' is not closed; {{ is a brace, placeholders",
+            "header.left: '{pages' is not closed; a brace itself is written twice, placeholders",
         ),
         (
             {"footer": {"right": "{Page}"}},

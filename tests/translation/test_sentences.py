@@ -26,6 +26,7 @@ PARTS = (
 )  # fmt: skip
 FILES_FOR_OTHERS = {
     "documentation/html.py": "markup",
+    "documentation/page_css.py": "markup",
     "documentation/typesetting.py": "the log of the server",
     "documentation/words.py": "has its own Chinese words",
     "libraries/missing.py": "messages of the compiler: phrases_zh.csv",
@@ -86,6 +87,7 @@ FOR_OTHERS = {
     f"{{error 'The body of {PLACE} is in {PLACE}, which cannot be compiled yet; it was imported and is kept "
     "unchanged; write it in ST to run it'}",
     # halves of sentences that are in the table as wholes
+    "placeholders are ",
     "; look-around and back references cannot be searched for", "invalid perl operator",
     "invalid escape sequence", "Value error, ", f"{PLACE} became {PLACE}", f"the {PLACE} '{PLACE}'",
     f"The runtime '{PLACE}' is not connected since {PLACE} UTC", f"image offset {PLACE}.{PLACE}",

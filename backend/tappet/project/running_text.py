@@ -46,7 +46,9 @@ def pieces_of(text: str) -> tuple[Piece, ...]:
     for match in _PIECE.finditer(text):
         name = match["name"]
         if match["open"]:
-            raise ValueError(f"'{text[match.start() :]}' is not closed; {{{{ is a brace, {_known()}")
+            raise ValueError(
+                f"'{text[match.start() :]}' is not closed; a brace itself is written twice, {_known()}"
+            )
         if name is None:
             plain = "{" if match[0] == "{{" else match[0]
             if found and not found[-1].placeholder:
@@ -56,7 +58,7 @@ def pieces_of(text: str) -> tuple[Piece, ...]:
         elif name in PLACEHOLDERS:
             found.append(Piece(name))
         else:
-            raise ValueError(f"'{{{name}}}' is no placeholder; {_known()}, {{{{ is a brace")
+            raise ValueError(f"'{match[0]}' is no placeholder; {_known()}; a brace itself is written twice")
     return tuple(found)
 
 
