@@ -38,7 +38,7 @@ def test_the_project_and_the_object_in_the_editor_are_printed(page: Page) -> Non
     assert "GVL_IO" in text
     html = print_("The object in the editor: PLC_PRG", "HTML").decode()
     assert "PLC_PRG" in html
-    assert "Plant &lt;4&gt;" in html
+    assert r"Plant \3c 4\3e " in html  # a string of the style
     # PLC_PRG with its three actions
     assert ('id="s3"' in html, 'id="s4"' in html) == (True, False)
 

@@ -18,6 +18,8 @@ import type { Part } from './partUri';
 
 /** What an object is to the workbench itself, whatever its kind is called. */
 export type Role =
+  /** How the documentation of the project is printed. */
+  | 'page-setup'
   /** Built, downloaded and logged in to; the commands act on the active one. */
   | 'application'
   /** Carries applications; the roots of the Devices view. */
@@ -148,6 +150,7 @@ interface DataOfRole {
   device: Schemas['DeviceData'];
   folder: Schemas['NoData'];
   libraries: Schemas['LibraryManagerData'];
+  'page-setup': Schemas['PageSetupData'];
   script: Schemas['ScriptData'];
 }
 

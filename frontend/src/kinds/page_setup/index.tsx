@@ -1,5 +1,6 @@
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
+import { onDemand } from '@/ui/onDemand';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -17,6 +18,8 @@ const descriptor: ObjectKindDescriptor = {
       <path d="M3.5 4.75h9M3.5 11.25h9" />
     </>,
   ),
+  editor: onDemand(() => import('./PageSetupEditor')),
+  role: 'page-setup',
   tree: { fixedName: 'Page Setup' },
 };
 

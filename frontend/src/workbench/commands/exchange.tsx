@@ -1,20 +1,30 @@
-import { FileDown, FileUp, Printer } from 'lucide-react';
-import { keys, queryClient } from '@/api/queries';
+import { FileCog, FileDown, FileUp, Printer } from 'lucide-react';
+import { shaped } from '@/api/objects';
+import { keys, objectQuery, queryClient } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { go } from '@/session/route';
 import { registerCommands, type Command } from '../commands';
 import { project } from '../conditions';
+import type { CommandContext } from '../context';
 import { openDialog } from '@/ui/dialogs';
 import { saveEditors } from '../docking/close';
 import { openObject } from '../docking/dock';
 import { ExportDialog } from '../exchange/ExportDialog';
+import { hasRole, kindWithRole, ofRole } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
 import { mayEdit } from '../rights';
+import { runCommand } from '../run';
+import { createObject } from '../tree/acts';
 import { leaveProject } from './file';
 import { showInTree } from './project';
 
 function objectsOf(projectId: string): readonly ObjectSummary[] {
   return queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+}
+
+/** There is one at most. */
+function pageSetupOf({ projectId }: CommandContext): ObjectSummary | undefined {
+  return projectId ? objectsOf(projectId).find((object) => hasRole(object, 'page-setup')) : undefined;
 }
 
 const commands: Command[] = [
@@ -78,6 +88,9 @@ const commands: Command[] = [
       if (!(await saveEditors(context.dirtyPanels))) return;
       const { PrintDialog } = await import('../documentation/PrintDialog');
       const objects = objectsOf(context.projectId!);
+      const setup = pageSetupOf(context);
+      const detail =
+        setup && shaped(await queryClient.fetchQuery(objectQuery(context.projectId!, setup.id)), ofRole('page-setup'));
       await openDialog((close) => (
         <PrintDialog
           projectId={context.projectId!}
@@ -85,9 +98,28 @@ const commands: Command[] = [
           objects={objects}
           selection={context.selection}
           current={objects.find(({ id }) => id === context.activeEditor?.objectId) ?? null}
+          setup={detail?.data}
+          openSetup={() => void runCommand('file.pageSetup')}
           close={() => close()}
         />
       ));
+    },
+  },
+  {
+    id: 'file.pageSetup',
+    title: 'command.pageSetup',
+    icon: FileCog,
+    menu: { menu: 'file', group: '2_exchange', order: 4 },
+    enabled: (context) => {
+      if (!context.projectId) return 'reason.noProject';
+      return pageSetupOf(context) || mayEdit(context) === true ? true : 'reason.noPageSetup';
+    },
+    run: async (context) => {
+      const kind = kindWithRole('page-setup')!.kind;
+      const setup =
+        pageSetupOf(context) ?? (await createObject(context.projectId!, { kind, parent_id: null, name: null }));
+      showInTree(context.projectId!, setup.id);
+      openObject(setup.id, setup.name);
     },
   },
 ];

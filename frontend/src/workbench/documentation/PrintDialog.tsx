@@ -1,7 +1,9 @@
+import { FileCog } from 'lucide-react';
 import { useState } from 'react';
 import { api } from '@/api/client';
-import type { ObjectSummary } from '@/api/types';
+import type { ObjectSummary, Schemas } from '@/api/types';
 import { language, useText } from '@/i18n';
+import { Button } from '@/ui/Button';
 import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
 import { FormDialog } from '@/ui/FormDialog';
 import { guard } from '@/ui/notices';
@@ -9,7 +11,15 @@ import { saveBlob } from '../downloadFile';
 import { usePart } from '../exchange/usePart';
 
 const FORMATS = ['pdf', 'html'] as const;
-const PAPERS = ['a4', 'us-letter'] as const;
+const PAPERS = ['a3', 'a4', 'a5', 'us-letter', 'us-legal', 'us-tabloid'] as const;
+type Printed = Pick<Schemas['PageSetupData'], 'paper' | 'contents' | 'variables' | 'cross_references'>;
+/** What holds in a project without a page setup. */
+const USUAL: Printed = { paper: 'a4', contents: true, variables: true, cross_references: false };
+const SWITCHES = [
+  { name: 'contents', text: 'print.contents' },
+  { name: 'variables', text: 'print.variables' },
+  { name: 'cross_references', text: 'print.cross' },
+] as const;
 const LANGUAGES = [
   { value: 'en', text: 'English' },
   { value: 'zh', text: '中文' },
@@ -22,20 +32,22 @@ interface PrintDialogProps {
   selection: readonly ObjectSummary[];
   /** The object of the editor in front. */
   current: ObjectSummary | null;
+  /** Of the project; undefined: there is none. */
+  setup: Schemas['PageSetupData'] | undefined;
+  openSetup: () => void;
   close: () => void;
 }
 
-/** The project, or objects of it, as PDF or HTML to be printed. */
-export function PrintDialog({ projectId, projectName, objects, selection, current, close }: PrintDialogProps) {
+/** The project, or objects of it, as PDF or HTML to be printed; what is not changed here is as the page setup has it. */
+export function PrintDialog(props: PrintDialogProps) {
+  const { projectId, projectName, objects, selection, current, setup, openSetup, close } = props;
   const t = useText();
   const part = usePart({ projectName, objects, selection, current });
   const [format, setFormat] = useState<(typeof FORMATS)[number]>('pdf');
-  const [paper, setPaper] = useState<(typeof PAPERS)[number]>('a4');
+  const [instead, setInstead] = useState<Partial<Printed>>({});
+  const printed: Printed = { ...(setup ?? USUAL), ...instead };
   const [words, setWords] = useState<'en' | 'zh'>(language());
-  const [footer, setFooter] = useState('');
-  const [contents, setContents] = useState(true);
-  const [variables, setVariables] = useState(true);
-  const [cross, setCross] = useState(false);
+  const [footer, setFooter] = useState(setup?.footer.left ?? '');
   const [busy, setBusy] = useState(false);
 
   const print = async () => {
@@ -46,12 +58,9 @@ export function PrintDialog({ projectId, projectName, objects, selection, curren
           path: { project_id: projectId },
           query: {
             format,
-            paper,
             language: words,
             ...part.request,
-            contents,
-            variables,
-            cross_references: cross,
+            ...instead,
             footer,
           },
         },
@@ -84,33 +93,40 @@ export function PrintDialog({ projectId, projectName, objects, selection, curren
           />
         )}
       </Field>
-      {format === 'pdf' && (
-        <Field label={t('print.paper')}>
-          {(attributes) => (
-            <Select
-              {...attributes}
-              value={paper}
-              choices={PAPERS.map((value) => ({ value, text: t(`print.paper.${value}`) }))}
-              onValue={setPaper}
-            />
-          )}
-        </Field>
-      )}
+      <Field label={t('print.paper')}>
+        {(attributes) => (
+          <Select
+            {...attributes}
+            value={printed.paper}
+            choices={PAPERS.map((value) => ({ value, text: t(`print.paper.${value}`) }))}
+            onValue={(paper) => setInstead({ ...instead, paper })}
+          />
+        )}
+      </Field>
       <Field label={t('print.language')}>
         {(attributes) => <Select {...attributes} value={words} choices={LANGUAGES} onValue={setWords} />}
       </Field>
       <Field label={t('print.footer')}>
         {(attributes) => <TextInput {...attributes} maxLength={200} value={footer} onValue={setFooter} />}
       </Field>
-      <Checkbox checked={contents} onChecked={setContents}>
-        {t('print.contents')}
-      </Checkbox>
-      <Checkbox checked={variables} onChecked={setVariables}>
-        {t('print.variables')}
-      </Checkbox>
-      <Checkbox checked={cross} onChecked={setCross}>
-        {t('print.cross')}
-      </Checkbox>
+      {SWITCHES.map(({ name, text }) => (
+        <Checkbox
+          key={name}
+          checked={printed[name]}
+          onChecked={(checked) => setInstead({ ...instead, [name]: checked })}
+        >
+          {t(text)}
+        </Checkbox>
+      ))}
+      <Button
+        icon={FileCog}
+        onClick={() => {
+          close();
+          openSetup();
+        }}
+      >
+        {t('command.pageSetup')}
+      </Button>
     </FormDialog>
   );
 }
