@@ -72,7 +72,7 @@ class _Example:
         for item in self.objects(rule["kind"]):
             if subkind in (None, item["subkind"]) and language in (None, self.language(item)):
                 return item
-        if rule["naming"] == "fixed":
+        if rule["naming"] == "fixed" and language is not None:
             return self._converted(rule, language)
         order = {"kind": rule["kind"], "subkind": subkind, "language": language, "name": None}
         made = self.fetch("POST", self.path, data=order | {"parent_id": self._place(rule)})
