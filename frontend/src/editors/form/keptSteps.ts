@@ -18,6 +18,8 @@ interface Kept {
 const NO_STEPS = { past: [], future: [] };
 /** The last steps that are kept; those of a visit are more. */
 const MOST_KEPT = 30;
+/** Data with a picture are large, and the browser has some five million characters for all that is kept there. */
+const MOST_CHARACTERS = 400_000;
 
 function isKept(value: unknown): value is Kept {
   const kept = value as Partial<Kept> | null;
@@ -35,6 +37,18 @@ function words(data: unknown): string {
       ? Object.fromEntries(Object.entries(value).sort(([a], [b]) => (a < b ? -1 : 1)))
       : value,
   );
+}
+
+/** The last steps that there is room for. */
+export function lastSteps<Data>(past: readonly Data[]): Data[] {
+  const kept: Data[] = [];
+  let characters = 0;
+  for (const data of past.slice(-MOST_KEPT).reverse()) {
+    characters += JSON.stringify(data).length;
+    if (characters > MOST_CHARACTERS) break;
+    kept.unshift(data);
+  }
+  return kept;
 }
 
 /**
@@ -65,7 +79,7 @@ export function useKeptSteps<Data>(
       store().write(user, projectId, objectId, null, Date.now());
       return;
     }
-    const past = steps.past.slice(-MOST_KEPT);
+    const past = lastSteps(steps.past);
     store().write(user, projectId, objectId, past.length ? { of: words(data), past } : null, Date.now());
   }, [user, projectId, objectId, data, steps, set]);
 }
