@@ -335,6 +335,7 @@ ALARM: FilePayload = {
     "login.title",
     "login.buildErrors",
     "runtime.choose",
+    "command.pageSetup",
 )
 def online(ui: Ui, server: Server) -> Iterator[str]:
     """What is asked before something happens to a machine."""
@@ -354,6 +355,7 @@ def online(ui: Ui, server: Server) -> Iterator[str]:
         ("command.reset.origin", "reset.origin.title"),
         ("command.download", "download.title"),
         ("command.sourceDownload", "source.downloadTitle"),
+        ("command.pageSetup", "command.pageSetup"),  # which nobody can make while logged in
     ):
         ui.command(command)
         yield title

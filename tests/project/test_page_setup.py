@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import base64
 import io
+import re
 import zlib
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -21,8 +23,11 @@ from tappet.project.model import Project
 from tappet.project.new_project import new_project
 from tappet.project.objects import describe
 from tappet.project.page_setup import PageSetupData
+from tappet.project.papers import PAPERS
 from tappet.project.picture import read_picture
 from tappet.project.running_text import PLACEHOLDERS, Piece, pieces_of
+
+ROOT = Path(__file__).parents[2]
 
 
 def picture(form: str = "PNG", size: tuple[int, int] = (40, 20)) -> bytes:
@@ -210,3 +215,11 @@ def test_a_comparison_names_what_differs() -> None:
     new = edit.change_data(old, item.id, {"paper": "a4", "orientation": "landscape"})
     found = Comparison(old, new).differences
     assert [(one.state, one.fields) for one in found.values()] == [("changed", ("paper", "orientation"))]
+
+
+def test_the_front_end_knows_the_same_papers_and_placeholders() -> None:
+    source = (ROOT / "frontend/src/kinds/page_setup/model.ts").read_text(encoding="utf-8")
+    sheets = re.findall(r"^  '?([a-z0-9-]+)'?: \[([\d.]+), ([\d.]+)\],$", source, re.MULTILINE)
+    assert {name: (float(width), float(height)) for name, width, height in sheets} == PAPERS
+    names = source.partition("PLACEHOLDERS = [")[2].partition("]")[0]
+    assert tuple(re.findall(r"'(\w+)'", names)) == PLACEHOLDERS

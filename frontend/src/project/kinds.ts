@@ -88,6 +88,8 @@ export interface ObjectKindDescriptor {
   subkinds?: Readonly<Record<string, Subkind>>;
   /** Opens in a tab; without one a double click opens or closes the row in the tree. */
   editor?: ComponentType<EditorProps>;
+  /** Shows what holds in a project without an object of the kind; `readOnly` says why none can be made. */
+  usual?: ComponentType<{ readOnly: string }>;
   /** Shown in the properties of an object, below what all objects have. */
   properties?: ComponentType<{ projectId: string; objectId: string }>;
   /** Pages of the project settings, for each object of the kind. */

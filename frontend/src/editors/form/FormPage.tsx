@@ -5,16 +5,18 @@ import styles from './Form.module.css';
 
 interface FormPageProps<Data> {
   draft: Draft<Data>;
+  /** For what stands in two columns. */
+  wide?: boolean;
   children: (data: Data) => ReactNode;
 }
 
 /** The scrolling page of a form editor, with what stands in the way of changing it on top. */
-export function FormPage<Data>({ draft, children }: FormPageProps<Data>) {
+export function FormPage<Data>({ draft, wide, children }: FormPageProps<Data>) {
   if (draft.error && !draft.object) return <Failed error={draft.error} />;
   if (!draft.object || draft.data === undefined) return <Loading />;
   return (
     <div className={styles.page}>
-      <div className={styles.inner}>
+      <div className={styles.inner} data-wide={wide}>
         {draft.readOnly && <div className={styles.banner}>{draft.readOnly}</div>}
         {draft.refused && (
           <div className={styles.banner} data-tone="error" role="alert">

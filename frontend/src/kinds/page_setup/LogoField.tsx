@@ -4,12 +4,26 @@ import { useText } from '@/i18n';
 import { Button } from '@/ui/Button';
 import { Field } from '@/ui/Field';
 import styles from './PageSetup.module.css';
-import { logoAddress, logoFrom, type Fault } from './model';
+import { logoSize } from './logoSize';
+import { logoAddress, logoFrom, MOST_LOGO_PIXELS, type Fault } from './model';
 
 interface LogoFieldProps {
   logo: string | null;
   disabled: boolean;
   onLogo: (logo: string | null) => void;
+}
+
+/** The picture of a file, or what is wrong with it. */
+async function readLogo(file: File): Promise<{ logo: string } | { fault: Fault }> {
+  const read = logoFrom(new Uint8Array(await file.arrayBuffer()));
+  if ('fault' in read) return read;
+  try {
+    const { width, height } = await logoSize(read.logo);
+    const fits = Math.max(width, height) <= MOST_LOGO_PIXELS;
+    return fits ? read : { fault: { text: 'pageSetup.logoPixels', values: { width, height, most: MOST_LOGO_PIXELS } } };
+  } catch {
+    return { fault: { text: 'pageSetup.logoDamaged' } };
+  }
 }
 
 /** The picture of the company: chosen, dropped, shown and taken out. */
@@ -19,7 +33,7 @@ export function LogoField({ logo, disabled, onLogo }: LogoFieldProps) {
   const [fault, setFault] = useState<Fault | null>(null);
   const take = async (file: File | undefined) => {
     if (!file || disabled) return;
-    const read = logoFrom(new Uint8Array(await file.arrayBuffer()));
+    const read = await readLogo(file);
     setFault('fault' in read ? read.fault : null);
     if ('logo' in read) onLogo(read.logo);
   };
@@ -30,7 +44,7 @@ export function LogoField({ logo, disabled, onLogo }: LogoFieldProps) {
   return (
     <Field row label={t('pageSetup.logo')} hint={t('pageSetup.logoHint')} error={fault && t(fault.text, fault.values)}>
       {(attributes) => (
-        <div className={styles.logo} onDragOver={(event) => event.preventDefault()} onDrop={drop}>
+        <div className={styles.logo} onDragOver={(event) => event.preventDefault()} onDrop={drop} data-drop="logo">
           {logo !== null && <img src={logoAddress(logo)} alt={t('pageSetup.logo')} />}
           <Button
             {...attributes}
@@ -41,7 +55,14 @@ export function LogoField({ logo, disabled, onLogo }: LogoFieldProps) {
             {t('pageSetup.chooseLogo')}
           </Button>
           {logo !== null && !disabled && (
-            <Button icon={Trash2} variant="quiet" onClick={() => onLogo(null)}>
+            <Button
+              icon={Trash2}
+              variant="quiet"
+              onClick={() => {
+                setFault(null);
+                onLogo(null);
+              }}
+            >
               {t('pageSetup.removeLogo')}
             </Button>
           )}

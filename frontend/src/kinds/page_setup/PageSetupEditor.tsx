@@ -1,184 +1,29 @@
 import { ofKind } from '@/api/objects';
-import { useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
 import { displayName } from '@/project/objectName';
-import { useProject } from '@/project/openProject';
-import { useSession } from '@/session/session';
-import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
-import { FormPage, Section } from '@/editors/form/FormPage';
+import { FormPage } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { useDraft } from '@/editors/form/useDraft';
-import { LogoField } from './LogoField';
-import { PagePreview } from './PagePreview';
-import own from './PageSetup.module.css';
-import {
-  canStore,
-  EDGES,
-  marginFault,
-  PAPERS,
-  PARTS,
-  PLACEHOLDERS,
-  runningFault,
-  SIDES,
-  type Fault,
-  type PageSetup,
-} from './model';
+import { canStore } from './model';
+import { PageSetupForm } from './PageSetupForm';
 
 const Icon = objectIcon('page_setup');
-const SWITCHES = ['title_page', 'contents', 'variables', 'cross_references'] as const;
-const ORIENTATIONS = ['portrait', 'landscape'] as const;
-const LOGO_PLACES = ['none', 'left', 'right'] as const;
 
-/** Paper, margins, parts, logo, head and foot of the printed documentation, with a picture of its pages. */
+/** The page setup that the project holds. */
 export default function PageSetupEditor({ panelId, projectId, objectId }: EditorProps) {
-  const t = useText();
   const draft = useDraft(panelId, projectId, objectId, ofKind('page_setup'), canStore);
-  const project = useProject((state) => state.projectName);
-  const user = useSession((state) => state.user?.username ?? '');
-  const disabled = draft.readOnly !== null;
-  const said = (fault: Fault | null) => fault && t(fault.text, fault.values);
   return (
-    <FormPage draft={draft}>
-      {(setup) => {
-        const change = (changes: Partial<PageSetup>) => draft.change({ ...setup, ...changes });
-        return (
-          <>
-            <h1 className={styles.title}>
-              <Icon size={20} />
-              {draft.object && displayName(draft.object)}
-            </h1>
-            <Section title={t('pageSetup.preview')}>
-              <PagePreview setup={setup} project={project} user={user} />
-            </Section>
-            <Section title={t('pageSetup.sheet')}>
-              <div className={styles.fields}>
-                <Field row label={t('print.paper')}>
-                  {(attributes) => (
-                    <Select
-                      {...attributes}
-                      disabled={disabled}
-                      value={setup.paper}
-                      choices={PAPERS.map((value) => ({ value, text: t(`print.paper.${value}`) }))}
-                      onValue={(paper) => change({ paper })}
-                    />
-                  )}
-                </Field>
-                <Field row label={t('pageSetup.orientation')}>
-                  {(attributes) => (
-                    <Select
-                      {...attributes}
-                      disabled={disabled}
-                      value={setup.orientation}
-                      choices={ORIENTATIONS.map((value) => ({ value, text: t(`pageSetup.${value}`) }))}
-                      onValue={(orientation) => change({ orientation })}
-                    />
-                  )}
-                </Field>
-              </div>
-              <div className={own.margins}>
-                {SIDES.map((side) => (
-                  <Field key={side} label={t(`pageSetup.margin.${side}`)} error={said(marginFault(setup, side))}>
-                    {(attributes) => (
-                      <TextInput
-                        {...attributes}
-                        type="number"
-                        min={5}
-                        max={100}
-                        step="any"
-                        disabled={disabled}
-                        value={Number.isNaN(setup.margins[side]) ? '' : setup.margins[side]}
-                        onValue={(value) =>
-                          change({
-                            margins: { ...setup.margins, [side]: value === '' ? Number.NaN : Number(value) },
-                          })
-                        }
-                      />
-                    )}
-                  </Field>
-                ))}
-              </div>
-            </Section>
-            <Section title={t('pageSetup.parts')}>
-              <div className={styles.fields}>
-                {SWITCHES.map((part) => (
-                  <Checkbox
-                    key={part}
-                    checked={setup[part]}
-                    disabled={disabled}
-                    onChecked={(checked) => change({ [part]: checked })}
-                  >
-                    {t(`pageSetup.${part}`)}
-                  </Checkbox>
-                ))}
-                {(['author', 'company'] as const).map((name) => (
-                  <Field
-                    key={name}
-                    row
-                    label={t(`pageSetup.${name}`)}
-                    hint={name === 'author' ? t('pageSetup.authorHint') : undefined}
-                  >
-                    {(attributes) => (
-                      <TextInput
-                        {...attributes}
-                        maxLength={200}
-                        disabled={disabled}
-                        value={setup[name]}
-                        onValue={(value) => change({ [name]: value })}
-                      />
-                    )}
-                  </Field>
-                ))}
-              </div>
-            </Section>
-            <Section title={t('pageSetup.logo')}>
-              <div className={styles.fields}>
-                <LogoField logo={setup.logo} disabled={disabled} onLogo={(logo) => change({ logo })} />
-                <Checkbox
-                  checked={setup.logo_on_title_page}
-                  disabled={disabled}
-                  onChecked={(checked) => change({ logo_on_title_page: checked })}
-                >
-                  {t('pageSetup.logoOnTitlePage')}
-                </Checkbox>
-                <Field row label={t('pageSetup.logoInHeader')}>
-                  {(attributes) => (
-                    <Select
-                      {...attributes}
-                      disabled={disabled}
-                      value={setup.logo_in_header}
-                      choices={LOGO_PLACES.map((value) => ({ value, text: t(`pageSetup.logoAt.${value}`) }))}
-                      onValue={(place) => change({ logo_in_header: place })}
-                    />
-                  )}
-                </Field>
-              </div>
-            </Section>
-            {EDGES.map((edge) => (
-              <Section key={edge} title={t(`pageSetup.${edge}`)}>
-                <div className={own.parts}>
-                  {PARTS.map((part) => (
-                    <Field key={part} label={t(`pageSetup.part.${part}`)} error={said(runningFault(setup[edge][part]))}>
-                      {(attributes) => (
-                        <TextInput
-                          {...attributes}
-                          maxLength={200}
-                          disabled={disabled}
-                          value={setup[edge][part]}
-                          onValue={(value) => change({ [edge]: { ...setup[edge], [part]: value } })}
-                        />
-                      )}
-                    </Field>
-                  ))}
-                </div>
-              </Section>
-            ))}
-            <p className={styles.note}>
-              {t('pageSetup.placeholders', { names: PLACEHOLDERS.map((name) => `{${name}}`).join(' ') })}
-            </p>
-          </>
-        );
-      }}
+    <FormPage draft={draft} wide>
+      {(setup) => (
+        <>
+          <h1 className={styles.title}>
+            <Icon size={20} />
+            {draft.object && displayName(draft.object)}
+          </h1>
+          <PageSetupForm setup={setup} disabled={draft.readOnly !== null} onChange={draft.change} />
+        </>
+      )}
     </FormPage>
   );
 }

@@ -19,6 +19,7 @@ const descriptor: ObjectKindDescriptor = {
     </>,
   ),
   editor: onDemand(() => import('./PageSetupEditor')),
+  usual: onDemand(() => import('./UsualPageSetup')),
   role: 'page-setup',
   tree: { fixedName: 'Page Setup' },
 };

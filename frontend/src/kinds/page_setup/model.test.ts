@@ -1,15 +1,23 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { expect, test } from 'vitest';
 import {
   canStore,
+  cellsOf,
   filled,
+  fitted,
+  headerLogoBox,
   logoAddress,
   logoFrom,
   marginFault,
+  PAPERS,
   PLACEHOLDERS,
   runningFault,
   sheetOf,
+  TITLE_LOGO_BOX,
   USUAL,
 } from './model';
+import { SRC } from '../../../tests/sources';
 
 const values = Object.fromEntries(PLACEHOLDERS.map((name) => [name, `<${name}>`])) as Parameters<typeof filled>[1];
 
@@ -47,4 +55,31 @@ test('a logo is PNG or JPEG of a limited size', () => {
   expect(logoFrom(new TextEncoder().encode('<svg/>'))).toEqual({ fault: { text: 'pageSetup.logoFormat' } });
   const large = new Uint8Array(256 * 1024 + 1);
   expect(logoFrom(large)).toEqual({ fault: { text: 'pageSetup.logoTooLarge' } });
+});
+
+test('the defaults are those of the server', () => {
+  const { components } = JSON.parse(readFileSync(join(SRC, 'api/openapi.json'), 'utf8')) as {
+    components: { schemas: Record<string, { properties: Record<string, { default: unknown; enum?: string[] }> }> };
+  };
+  const { properties } = components.schemas.PageSetupData!;
+  expect(Object.fromEntries(Object.entries(properties).map(([name, field]) => [name, field.default ?? null]))).toEqual(
+    USUAL,
+  );
+  expect([...PAPERS].sort()).toEqual([...properties.paper!.enum!].sort());
+});
+
+test('heads and feet stand in columns', () => {
+  const texts = { left: 'a', centre: '', right: 'b' };
+  const parts = (...order: Parameters<typeof cellsOf>) =>
+    cellsOf(...order).map(({ part, logo }) => `${part}${logo ? '*' : ''}`);
+  expect(parts(texts, 'none')).toEqual(['left', 'right']);
+  expect(parts({ ...texts, left: '' }, 'left')).toEqual(['left*', 'right']);
+  expect(parts({ left: '', centre: 'c', right: '' }, 'none')).toEqual(['left', 'centre', 'right']);
+  expect(parts({ left: '', centre: '', right: '' }, 'none')).toEqual([]);
+});
+
+test('a logo fits its places', () => {
+  expect(fitted({ width: 300, height: 100 }, TITLE_LOGO_BOX)).toEqual([80, 80 / 3]);
+  expect(fitted({ width: 10, height: 4000 }, headerLogoBox(5))[1]).toBe(3);
+  expect(headerLogoBox(100)).toEqual([40, 10]);
 });

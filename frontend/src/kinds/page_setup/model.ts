@@ -41,6 +41,7 @@ const LEAST_MARGIN_MM = 5;
 const MOST_MARGIN_MM = 100;
 const LEAST_TEXT_MM = 60;
 const MOST_LOGO_BYTES = 256 * 1024;
+export const MOST_LOGO_PIXELS = 4000;
 
 /** What holds in a project without a page setup: the defaults of the server. */
 export const USUAL: PageSetup = {
@@ -118,6 +119,37 @@ export function canStore(setup: PageSetup): boolean {
     SIDES.every((side) => marginFault(setup, side) === null) &&
     EDGES.every((edge) => PARTS.every((part) => runningFault(setup[edge][part]) === null))
   );
+}
+
+export interface Cell {
+  part: Part;
+  text: string;
+  /** The logo stands beside the text. */
+  logo: boolean;
+}
+
+/** What stands beside each other at the head or foot; sides have all the room where there is no centre. */
+export function cellsOf(texts: PageSetup['header'], logoAt: PageSetup['logo_in_header']): Cell[] {
+  const cells = PARTS.map((part) => ({ part, text: texts[part], logo: part === logoAt }));
+  const shown = cells.filter(({ text, logo }) => text !== '' || logo);
+  return texts.centre === '' ? shown : cells;
+}
+
+/** The most room for the logo on the title page, in mm; as `tappet.documentation.document` has it. */
+export const TITLE_LOGO_BOX = [80, 40] as const;
+
+/** The same for the head of the pages. */
+export function headerLogoBox(topMargin: number): readonly [number, number] {
+  return [40, Math.min(10, topMargin * 0.6)];
+}
+
+/** Width and height of a picture that fills a box as far as its shape allows. */
+export function fitted(
+  { width, height }: { width: number; height: number },
+  [most, high]: readonly [number, number],
+): [number, number] {
+  const scale = Math.min(most / width, high / height);
+  return [width * scale, height * scale];
 }
 
 const SIGNATURES = [

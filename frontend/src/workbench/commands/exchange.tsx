@@ -6,14 +6,16 @@ import { go } from '@/session/route';
 import { registerCommands, type Command } from '../commands';
 import { project } from '../conditions';
 import type { CommandContext } from '../context';
+import { Dialog } from '@/ui/Dialog';
 import { openDialog } from '@/ui/dialogs';
+import { t } from '@/i18n';
 import { saveEditors } from '../docking/close';
 import { openObject } from '../docking/dock';
 import { ExportDialog } from '../exchange/ExportDialog';
 import { hasRole, kindWithRole, ofRole } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
 import { mayEdit } from '../rights';
-import { runCommand } from '../run';
+import { reasonText, runCommand } from '../run';
 import { createObject } from '../tree/acts';
 import { leaveProject } from './file';
 import { showInTree } from './project';
@@ -110,14 +112,20 @@ const commands: Command[] = [
     title: 'command.pageSetup',
     icon: FileCog,
     menu: { menu: 'file', group: '2_exchange', order: 4 },
-    enabled: (context) => {
-      if (!context.projectId) return 'reason.noProject';
-      return pageSetupOf(context) || mayEdit(context) === true ? true : 'reason.noPageSetup';
-    },
+    enabled: project,
     run: async (context) => {
-      const kind = kindWithRole('page-setup')!.kind;
-      const setup =
-        pageSetupOf(context) ?? (await createObject(context.projectId!, { kind, parent_id: null, name: null }));
+      const { kind, usual: Usual } = kindWithRole('page-setup')!;
+      const known = pageSetupOf(context);
+      const allowed = mayEdit(context);
+      if (known === undefined && allowed !== true && Usual !== undefined) {
+        await openDialog((close) => (
+          <Dialog title={t('command.pageSetup')} width={960} onClose={() => close()}>
+            <Usual readOnly={reasonText(allowed)} />
+          </Dialog>
+        ));
+        return;
+      }
+      const setup = known ?? (await createObject(context.projectId!, { kind, parent_id: null, name: null }));
       showInTree(context.projectId!, setup.id);
       openObject(setup.id, setup.name);
     },
