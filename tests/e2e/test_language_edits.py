@@ -13,6 +13,7 @@ from .workbench import (
     add_line,
     choose_menu,
     implementation,
+    objects_stored,
     open_object,
     open_panel,
     open_project,
@@ -127,7 +128,7 @@ def test_a_warning_is_not_reported_any_more(page: Page) -> None:
     row = panel.get_by_role("row").filter(has_text="W1208")
     expect(row).to_be_visible()
     row.click(button="right")
-    with page.expect_response(lambda answer: answer.request.method == "PUT") as saved:
+    with objects_stored(page) as saved:
         page.get_by_role("menuitem", name="Do not report W1208 in this application").click()
     assert saved.value.json()["data"]["disabled_warnings"] == ["W1208"]
     expect(row).to_have_count(0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from .workbench import choose_menu, open_project
+from .workbench import choose_menu, objects_stored, open_project
 
 pytestmark = pytest.mark.e2e
 
@@ -32,7 +32,7 @@ def test_settings_of_several_pages_are_saved_together(page: Page) -> None:
     page.get_by_role("option", name="Error", exact=True).click()
     dialog.get_by_role("tab", name="Library parameters").click()
     expect(dialog.get_by_text("No library parameters")).to_be_visible()
-    with page.expect_response(lambda answer: answer.request.method == "PUT") as saved:
+    with objects_stored(page) as saved:
         save.click()
     expect(dialog).to_have_count(0)
     (application,) = saved.value.json()
@@ -54,7 +54,7 @@ def test_single_compiler_warnings_are_switched_off(page: Page) -> None:
     expect(dialog.get_by_role("checkbox")).to_have_count(1)
     expect(box).to_be_checked()
     box.click()
-    with page.expect_response(lambda answer: answer.request.method == "PUT") as saved:
+    with objects_stored(page) as saved:
         dialog.get_by_role("button", name="Save").click()
     expect(dialog).to_have_count(0)
     (application,) = saved.value.json()

@@ -25,6 +25,15 @@ def open_object(page: Page, name: str) -> None:
     expect(page.locator(".dv-tab").filter(has_text=name).first).to_be_visible()
 
 
+def objects_stored(page: Page) -> AbstractContextManager[Any]:
+    """Until objects of the project are stored, with the answer; settings of the user are put as well."""
+    return page.expect_response(
+        lambda answer: (
+            answer.request.method == "PUT" and "/projects/" in answer.url and "/objects" in answer.url
+        )
+    )
+
+
 def implementation(page: Page) -> Locator:
     """The lower pane of the text editor in front."""
     return page.locator(".monaco-editor:visible").last
