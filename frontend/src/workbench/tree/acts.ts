@@ -8,6 +8,19 @@ import { applyChange, moved, renamed, without } from '@/project/changes';
 
 type Objects = ObjectSummary[];
 
+/** The change of each project that was asked for last. */
+const newest = new Map<string, Promise<unknown>>();
+
+/** Asks behind the changes before: the server has them in the order of the user, and undo means the one made last. */
+function inTurn<Answer>(projectId: string, ask: () => Promise<Answer>): Promise<Answer> {
+  const answer = (newest.get(projectId) ?? Promise.resolve()).then(ask);
+  newest.set(
+    projectId,
+    answer.catch(() => undefined),
+  );
+  return answer;
+}
+
 /** Changes the tree on screen, then asks the server; when it refuses, the former tree is back and the error goes on. */
 async function optimistic<Answer>(
   projectId: string,
@@ -15,10 +28,11 @@ async function optimistic<Answer>(
   ask: () => Promise<Answer>,
 ): Promise<Answer> {
   const key = keys.objects(projectId);
-  await queryClient.cancelQueries({ queryKey: key });
-  queryClient.setQueryData<Objects>(key, (objects) => objects && change(objects));
+  const shown = queryClient.cancelQueries({ queryKey: key }).then(() => {
+    queryClient.setQueryData<Objects>(key, (objects) => objects && change(objects));
+  });
   try {
-    return await ask();
+    return await inTurn(projectId, () => shown.then(ask));
   } catch (error) {
     // Others may have changed something in between: ask for the truth instead of putting the old list back.
     await queryClient.invalidateQueries({ queryKey: key });
@@ -35,10 +49,12 @@ function put(projectId: string, change: 'created' | 'moved', object: ObjectSumma
 
 /** Creates an object; what the server creates below it is read as well. */
 export async function createObject(projectId: string, order: Schemas['NewObject']): Promise<ProjectObject> {
-  const created = await api.post('/api/v1/projects/{project_id}/objects', {
-    params: { path: { project_id: projectId } },
-    body: order,
-  });
+  const created = await inTurn(projectId, () =>
+    api.post('/api/v1/projects/{project_id}/objects', {
+      params: { path: { project_id: projectId } },
+      body: order,
+    }),
+  );
   put(projectId, 'created', created);
   if (kindOf(order.kind)?.add?.bringsChildren ?? true) {
     await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
@@ -80,10 +96,12 @@ export async function moveObject(
 }
 
 export async function copyObject(projectId: string, objectId: string, parentId: string | null): Promise<ProjectObject> {
-  const copy = await api.post('/api/v1/projects/{project_id}/objects/{object_id}/copy', {
-    params: { path: { project_id: projectId, object_id: objectId } },
-    body: { parent_id: parentId },
-  });
+  const copy = await inTurn(projectId, () =>
+    api.post('/api/v1/projects/{project_id}/objects/{object_id}/copy', {
+      params: { path: { project_id: projectId, object_id: objectId } },
+      body: { parent_id: parentId },
+    }),
+  );
   put(projectId, 'created', copy);
   await queryClient.invalidateQueries({ queryKey: keys.objects(projectId) });
   return copy;
@@ -92,10 +110,11 @@ export async function copyObject(projectId: string, objectId: string, parentId: 
 /** Undoes the last change of the tree by this user, or does again what was undone last. */
 export async function undoChange(projectId: string, way: 'undo' | 'redo') {
   const params = { path: { project_id: projectId } };
-  const outcome =
+  const outcome = await inTurn(projectId, () =>
     way === 'undo'
-      ? await api.post('/api/v1/projects/{project_id}/undo', { params })
-      : await api.post('/api/v1/projects/{project_id}/redo', { params });
+      ? api.post('/api/v1/projects/{project_id}/undo', { params })
+      : api.post('/api/v1/projects/{project_id}/redo', { params }),
+  );
   await queryClient.invalidateQueries({ queryKey: keys.project(projectId) });
   const left = new Set((queryClient.getQueryData<Objects>(keys.objects(projectId)) ?? []).map(({ id }) => id));
   closePanelsOf(outcome.touched.filter((id) => !left.has(id)));
