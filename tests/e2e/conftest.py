@@ -14,6 +14,7 @@ from collections.abc import Generator, Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 from playwright.sync_api import (
@@ -205,6 +206,12 @@ def new_profile(browser: Browser, language: str = "en", theme: str = "light") ->
     profile.close()
 
 
+def _refuse_socket_route(*_: object) -> NoReturn:
+    pytest.fail(
+        "the route of a WebSocket stays as long as its page: take `page.context.new_page()`"
+    )
+
+
 @contextmanager
 def start_page(profile: BrowserContext, server: Server) -> Iterator[Page]:
     """The start page as a new user sees it, everything as delivered, logged in by a one-time link.
@@ -216,6 +223,7 @@ def start_page(profile: BrowserContext, server: Server) -> Iterator[Page]:
     as_delivered(profile.request, server.address)
     server.forget_settings()
     opened = profile.pages[0] if profile.pages else profile.new_page()
+    opened.__dict__["route_web_socket"] = _refuse_socket_route
     opened.set_viewport_size(VIEWPORT)
     opened.mouse.move(0, 0)
     opened.goto(server.address)

@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from .conftest import Server
 from .workbench import choose_menu, log_in, message_rows, open_object, open_project, tree_item
 
 pytestmark = pytest.mark.e2e
@@ -361,8 +362,10 @@ def test_the_same_body_as_text(page: Page, table: Locator) -> None:
     expect(table).to_be_visible()
 
 
-def test_operators_are_coloured_without_the_language_server(page: Page) -> None:
+def test_operators_are_coloured_without_the_language_server(page: Page, server: Server) -> None:
     """The text form has its colours at once, however long the language server takes."""
+    page = page.context.new_page()  # which the route ends with
+    page.goto(server.address)
     page.route_web_socket(re.compile("/api/v1/lsp"), lambda socket: None)
     open_project(page)
     assert page.evaluate(MAKE, [DECLARATION, BODY]) == 201
