@@ -140,9 +140,10 @@ export class LanguageClient {
       this.diagnostics(p.uri, p.diagnostics),
     );
     rpc.on<ShownMessage>('window/showMessage', (message) => this.said(message));
+    const { settle } = this; // of this connection: it may fail when the next one has begun
     this.initialise(rpc).then(
-      () => this.settle(rpc),
-      () => this.settle(null),
+      () => settle(rpc),
+      () => settle(null),
     );
   }
 
