@@ -75,7 +75,7 @@ export const monarchLanguage: languages.IMonarchLanguage = {
       [/"/, 'string', '@wideString'],
       [/REF=|[SR]=(?!=)|:=|=>|<=|>=|<>|\*\*|[-+*/=<>&]/, 'operator'],
       [
-        /[A-Z_\u0080-\uffff][\w\u0080-\uffff]*(?=\s*\()/,
+        /[A-Z_\u0080-\uffff][\w\u0080-\uffff]*(?=\s*\((?!\*))/,
         {
           cases: {
             '@declarations': 'keyword',
