@@ -207,9 +207,7 @@ def new_profile(browser: Browser, language: str = "en", theme: str = "light") ->
 
 
 def _refuse_socket_route(*_: object) -> NoReturn:
-    pytest.fail(
-        "the route of a WebSocket stays as long as its page: take `page.context.new_page()`"
-    )
+    pytest.fail("the route of a WebSocket stays as long as its page: take `page.context.new_page()`")
 
 
 @contextmanager
