@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import ruckig
 from tests.libraries.st_program import run
-from tests.libraries.trajectories import PLANNED, Numbers, Plans, planner
+from tests.libraries.trajectories import PLANNED, POSITION, VELOCITY, Numbers, Plans, planner
 
 Plan = Callable[[Numbers], Plans]
 RUCKIGS_INPUTS = (
@@ -20,7 +20,13 @@ RUCKIGS_INPUTS = (
 
 @pytest.fixture(scope="module")
 def plan() -> Iterator[Plan]:
-    with planner() as function:
+    with planner(POSITION) as function:
+        yield function
+
+
+@pytest.fixture(scope="module")
+def plan_velocity() -> Iterator[Plan]:
+    with planner(VELOCITY) as function:
         yield function
 
 
@@ -57,11 +63,15 @@ def _cases(seed: int, count: int, start: str) -> Numbers:
     ).astype(np.float64)
 
 
-def _shortest(case: Numbers) -> float:
+def _shortest(case: Numbers, to_velocity: bool) -> float:
     """Duration as Ruckig finds it, NaN where it finds none."""
     problem = ruckig.InputParameter(1)
     for at, name in enumerate(RUCKIGS_INPUTS):
         setattr(problem, name, [float(case[at])])
+    if case[-1] == 0:
+        problem.max_jerk = [float("inf")]
+    if to_velocity:
+        problem.control_interface = ruckig.ControlInterface.Velocity
     trajectory = ruckig.Trajectory(1)
     try:
         result = ruckig.Ruckig(1).calculate(problem, trajectory)
@@ -70,9 +80,9 @@ def _shortest(case: Numbers) -> float:
     return float(trajectory.duration) if result == ruckig.Result.Working else float("nan")
 
 
-def _check_against_ruckig(plan: Plan, cases: Numbers) -> Plans:
+def _check_against_ruckig(plan: Plan, cases: Numbers, to_velocity: bool = False) -> Plans:
     plans = plan(cases)
-    expected = np.array([_shortest(case) for case in cases])
+    expected = np.array([_shortest(case, to_velocity) for case in cases])
     known = ~np.isnan(expected)
     assert np.count_nonzero(known) > 0.99 * len(cases)
     assert np.all(plans.result[known] == PLANNED), cases[known][plans.result[known] != PLANNED][:3]
@@ -92,14 +102,18 @@ def _check_segments(plans: Plans, within: bool) -> None:
         s["acceleration"] + t * s["jerk"],
     )
     names = ("position", "velocity", "acceleration")
-    targets = (c["p1"] - c["p0"], c["v1"], c["a1"])
+    targets = (plans.target - c["p0"], c["v1"], c["a1"])
     last = np.arange(s["start"].shape[1]) == (plans.count - 1)[:, None]
     a_unit = np.maximum(c["a_max"], -c["a_min"])
     v_unit = np.maximum(np.maximum(c["v_max"], -c["v_min"]), np.abs(c["v0"]))
-    p_unit = np.maximum(np.abs(c["p1"] - c["p0"]), v_unit * np.maximum(plans.duration, a_unit / c["jerk"]))
+    ramp = np.divide(a_unit, c["jerk"], out=np.zeros_like(a_unit), where=c["jerk"] > 0)
+    p_unit = np.maximum(np.abs(plans.target - c["p0"]), v_unit * np.maximum(plans.duration, ramp))
+    p_unit = np.where(p_unit > 0, p_unit, 1.0)
     for name, end, target, unit in zip(names, ends, targets, (p_unit, v_unit, a_unit), strict=True):
         following = np.where(last, target[:, None], np.roll(s[name], -1, axis=1))
         gap = np.where(plans.used, np.abs(end - following), 0.0).max(axis=1) / unit
+        if name == "acceleration":  # it jumps where jerk is not limited
+            gap[c["jerk"] == 0] = 0.0
         assert gap[good].max() < 1e-9, (name, gap[good].max())
     if within:
         peaks = np.where(
@@ -113,6 +127,8 @@ def _check_segments(plans: Plans, within: bool) -> None:
         assert np.all((values <= c["a_max"][:, None] + 1e-9 * a_unit[:, None])[good])
         assert np.all((values >= c["a_min"][:, None] - 1e-9 * a_unit[:, None])[good])
     assert np.all(np.abs(s["jerk"]) <= c["jerk"][:, None])
+    within_a = (s["acceleration"] <= c["a_max"][:, None]) & (s["acceleration"] >= c["a_min"][:, None])
+    assert np.all(within_a[(c["jerk"] == 0) & good])
 
 
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
@@ -125,6 +141,43 @@ def test_as_short_as_ruckigs(plan: Plan, start: str) -> None:
 @pytest.mark.parametrize("seed", range(2, 8))
 def test_as_short_as_ruckigs_a_hundred_thousand_times(plan: Plan, start: str, seed: int) -> None:
     _check_segments(_check_against_ruckig(plan, _cases(seed, 7000, start)), within=False)
+
+
+def _without_jerk(cases: Numbers) -> Numbers:
+    """The same, with accelerations that may jump."""
+    cases = cases.copy()
+    cases[:, [2, 5, 10]] = 0.0
+    return cases
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+def test_as_short_as_ruckigs_without_jerk(plan: Plan, start: str) -> None:
+    _check_segments(_check_against_ruckig(plan, _without_jerk(_cases(21, 5000, start))), within=False)
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+@pytest.mark.parametrize("limited", [True, False])
+def test_velocities_as_soon_as_ruckigs(plan_velocity: Plan, start: str, limited: bool) -> None:
+    cases = _cases(22, 3000, start)
+    plans = _check_against_ruckig(plan_velocity, cases if limited else _without_jerk(cases), to_velocity=True)
+    _check_segments(plans, within=False)
+
+
+def test_limits_are_kept_without_jerk(plan: Plan) -> None:
+    _check_segments(plan(_without_jerk(_cases(23, 20000, "within"))), within=True)
+
+
+def test_positioning_with_trapezoids_and_triangles(plan: Plan) -> None:
+    """EX-01 and EX-02: closed forms of the specification."""
+    cases = np.zeros((2, len(RUCKIGS_INPUTS)))
+    cases[:, 3] = 100.0, 1.0
+    cases[:, 6:10] = 10.0, -10.0, 20.0, -20.0
+    plans = plan(cases)
+    np.testing.assert_allclose(plans.duration, [10.5, 2 * np.sqrt(20.0) / 20.0], rtol=1e-14)
+    np.testing.assert_allclose(
+        plans.segments["velocity"][:, plans.count - 1].diagonal(), [10.0, np.sqrt(20.0)]
+    )
+    assert plans.count.tolist() == [3, 2]
 
 
 def test_limits_are_kept_from_starts_that_keep_them(plan: Plan) -> None:
@@ -167,7 +220,7 @@ def test_nothing_to_do_takes_no_time(plan: Plan) -> None:
         (7, 1.0, 2),
         (8, -1.0, 2),
         (9, np.nan, 2),
-        (10, 0.0, 2),
+        (10, -1.0, 2),
         (10, np.inf, 2),
         (4, 1e6, 3),
         (5, 1e6, 4),

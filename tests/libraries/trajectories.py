@@ -15,8 +15,11 @@ PER_CYCLE = 1000
 INPUTS = ("p0", "v0", "a0", "p1", "v1", "a1", "v_max", "v_min", "a_max", "a_min", "jerk")
 SEGMENTS = 10
 SEGMENT = ("start", "duration", "position", "velocity", "acceleration", "jerk")
-OUTPUTS = 3 + SEGMENTS * len(SEGMENT)
+OUTPUTS = 4 + SEGMENTS * len(SEGMENT)
 PLANNED = 0
+
+POSITION = "PlanPosition(st0, st1, stLimits, stTrajectory)"
+VELOCITY = "PlanVelocity(st0, st1.fVelocity, st1.fAcceleration, stLimits, stTrajectory)"
 
 PROGRAM = f"""
 PROGRAM Main
@@ -48,13 +51,14 @@ FOR i := 0 TO {PER_CYCLE - 1} DO
     stLimits.fAccelerationMin := afIn[n + 9];
     stLimits.fJerk := afIn[n + 10];
     stTrajectory := stEmpty;
-    eResult := SM3_Trajectory.PlanPosition(st0, st1, stLimits, stTrajectory);
+    eResult := SM3_Trajectory.{{call}};
     m := i * {OUTPUTS};
     afOut[m] := DINT_TO_LREAL(eResult);
     afOut[m + 1] := stTrajectory.fDuration;
     afOut[m + 2] := INT_TO_LREAL(stTrajectory.iSegments);
+    afOut[m + 3] := stTrajectory.stTarget.fPosition;
     FOR k := 0 TO {SEGMENTS - 1} DO
-        n := m + 3 + k * {len(SEGMENT)};
+        n := m + 4 + k * {len(SEGMENT)};
         afOut[n] := stTrajectory.aSegments[k].fStart;
         afOut[n + 1] := stTrajectory.aSegments[k].fDuration;
         afOut[n + 2] := stTrajectory.aSegments[k].fPosition;
@@ -75,15 +79,16 @@ class Plans:
         self.result = rows[:, 0].astype(int)
         self.duration = rows[:, 1]
         self.count = rows[:, 2].astype(int)
-        segments = rows[:, 3:].reshape(len(rows), SEGMENTS, len(SEGMENT))
+        self.target = rows[:, 3]
+        segments = rows[:, 4:].reshape(len(rows), SEGMENTS, len(SEGMENT))
         self.segments = {name: segments[:, :, i] for i, name in enumerate(SEGMENT)}
         self.used = np.arange(SEGMENTS) < self.count[:, None]
 
 
 @contextmanager
-def planner() -> Iterator[Callable[[Numbers], Plans]]:
-    """A function that plans cases: rows of INPUTS."""
-    with run(PROGRAM, 1) as program:
+def planner(call: str) -> Iterator[Callable[[Numbers], Plans]]:
+    """A function that plans cases, rows of INPUTS, by a call of SM3_Trajectory."""
+    with run(PROGRAM.replace("{call}", call), 1) as program:
         inside = _array(int(program.literal("Main.uIn")), PER_CYCLE * len(INPUTS))
         outside = _array(int(program.literal("Main.uOut")), PER_CYCLE * OUTPUTS)
 
