@@ -97,8 +97,8 @@ def _check_segments(plans: Plans, within: bool) -> None:
     s, c = plans.segments, plans.cases
     t = s["duration"]
     ends = (
-        s["position"] + t * (s["velocity"] + t * (s["acceleration"] / 2 + t * s["jerk"] / 6)),
-        s["velocity"] + t * (s["acceleration"] + t * s["jerk"] / 2),
+        s["position"] + t * (s["velocity"] + s["rise"] / 2 + t * (s["acceleration"] / 2 + t * s["jerk"] / 6)),
+        s["velocity"] + s["rise"] + t * (s["acceleration"] + t * s["jerk"] / 2),
         s["acceleration"] + t * s["jerk"],
     )
     names = ("position", "velocity", "acceleration")
@@ -161,6 +161,63 @@ def test_velocities_as_soon_as_ruckigs(plan_velocity: Plan, start: str, limited:
     cases = _cases(22, 3000, start)
     plans = _check_against_ruckig(plan_velocity, cases if limited else _without_jerk(cases), to_velocity=True)
     _check_segments(plans, within=False)
+
+
+@pytest.fixture(scope="module")
+def plan_sin2() -> Iterator[Plan]:
+    with planner(POSITION, "Sin2") as function:
+        yield function
+
+
+@pytest.fixture(scope="module")
+def plan_velocity_sin2() -> Iterator[Plan]:
+    with planner(VELOCITY, "Sin2") as function:
+        yield function
+
+
+def _check_sin2(plans: Plans) -> None:
+    """Accelerations meet, and each is largest in the middle of a ramp, at the limit of its direction."""
+    _check_segments(plans, within=False)
+    s, c = plans.segments, plans.cases
+    rises = (s["rise"] != 0) & plans.used
+    assert np.all(np.where(rises, s["acceleration"] == 0, True))
+    peak = np.divide(np.pi * s["rise"], 2 * s["duration"], out=np.zeros_like(s["rise"]), where=rises)
+    limit = np.where(s["rise"] > 0, c["a_max"][:, None], c["a_min"][:, None])
+    np.testing.assert_allclose(peak[rises], limit[rises], rtol=1e-6)
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+def test_sin2_is_as_short_as_straight_ramps_of_its_mean_acceleration(
+    plan_sin2: Plan, plan_velocity_sin2: Plan, start: str
+) -> None:
+    cases = _without_jerk(_cases(24, 3000, start))
+    straight = cases.copy()
+    straight[:, 8:10] *= 2 / np.pi
+    for planned, to_velocity in ((plan_sin2(cases), False), (plan_velocity_sin2(cases), True)):
+        expected = np.array([_shortest(case, to_velocity) for case in straight])
+        known = ~np.isnan(expected)
+        assert np.count_nonzero(known) > 0.99 * len(cases)
+        np.testing.assert_allclose(planned.duration[known], expected[known], rtol=1e-6, atol=1e-9)
+        _check_sin2(planned)
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+def test_sin2_begins_with_the_acceleration_of_the_start(
+    plan_sin2: Plan, plan_velocity_sin2: Plan, start: str
+) -> None:
+    cases = _cases(25, 3000, start)
+    cases[:, 5] = 0.0
+    for planned in (plan_sin2(cases), plan_velocity_sin2(cases)):
+        assert np.all(planned.result == PLANNED)
+        _check_sin2(planned)
+        bends = planned.segments["jerk"] != 0
+        assert np.array_equal(np.count_nonzero(bends, axis=1), (cases[:, 2] != 0).astype(int))
+
+
+def test_sin2_takes_no_acceleration_of_the_target(plan_sin2: Plan, plan_velocity_sin2: Plan) -> None:
+    cases = _cases(26, 1, "within")
+    cases[0, 5] = 0.5 * cases[0, 8]
+    assert plan_sin2(cases).result.tolist() == plan_velocity_sin2(cases).result.tolist() == [4]
 
 
 def test_limits_are_kept_without_jerk(plan: Plan) -> None:
@@ -272,3 +329,48 @@ def test_states_are_ruckigs(order: str) -> None:
         states = np.array(program.numbers("Main.afStates")).reshape(60, 3)
     expected = [[column[0] for column in trajectory.at_time(float(time))[:3]] for time in times]
     np.testing.assert_allclose(states, expected, rtol=1e-9, atol=1e-9)
+
+
+SIN2_STATES = """
+PROGRAM Main
+VAR
+    st0 : SM3_Trajectory.MotionState;
+    st1 : SM3_Trajectory.MotionState := (fPosition := 100.0);
+    stLimits : SM3_Trajectory.Limits := (fVelocityMax := 10.0, fVelocityMin := -10.0,
+        fAccelerationMax := 20.0, fAccelerationMin := -40.0, eShape := SM3_Trajectory.RampShape.Sin2);
+    stTrajectory : SM3_Trajectory.Trajectory;
+    stState : SM3_Trajectory.MotionState;
+    afStates : ARRAY [0..599] OF LREAL;
+    i : INT;
+END_VAR
+SM3_Trajectory.PlanPosition(st0, st1, stLimits, stTrajectory);
+FOR i := 0 TO 199 DO
+    stState := SM3_Trajectory.StateAt(stTrajectory, INT_TO_LREAL(i) * 0.06);
+    afStates[3 * i] := stState.fPosition;
+    afStates[3 * i + 1] := stState.fVelocity;
+    afStates[3 * i + 2] := stState.fAcceleration;
+END_FOR
+END_PROGRAM
+"""
+
+
+def test_sin2_moves_as_the_specification_says() -> None:
+    """v(t) = v1 sin2(pi t / 2T) with T = pi/2 v1/a, integrated and differentiated by numpy."""
+    with run(SIN2_STATES, 1) as program:
+        states = np.array(program.numbers("Main.afStates")).reshape(200, 3)
+    up, down = np.pi / 2 * 10.0 / 20.0, np.pi / 2 * 10.0 / 40.0
+    cruise = (100.0 - 5.0 * (up + down)) / 10.0
+
+    def velocity(time: np.ndarray) -> Numbers:
+        rising = 10.0 * np.sin(np.pi * np.clip(time, 0, up) / (2 * up)) ** 2
+        falling = 10.0 * np.cos(np.pi * np.clip(time - up - cruise, 0, down) / (2 * down)) ** 2
+        return np.asarray(np.where(time < up + cruise, rising, falling))
+
+    times = np.arange(200) * 0.06
+    fine = np.linspace(0.0, times[-1], 199 * 200 + 1)
+    means = (velocity(fine)[1:] + velocity(fine)[:-1]) / 2
+    positions = np.concatenate(([0.0], np.cumsum(means * np.diff(fine))))[::200]
+    accelerations = np.gradient(velocity(fine), fine)[::200]
+    np.testing.assert_allclose(states[:, 1], velocity(times), atol=1e-9)
+    np.testing.assert_allclose(states[:, 0], positions, atol=1e-6)
+    np.testing.assert_allclose(states[:, 2], accelerations, atol=0.05)

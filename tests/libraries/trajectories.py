@@ -14,7 +14,7 @@ Numbers = npt.NDArray[np.float64]
 PER_CYCLE = 1000
 INPUTS = ("p0", "v0", "a0", "p1", "v1", "a1", "v_max", "v_min", "a_max", "a_min", "jerk")
 SEGMENTS = 10
-SEGMENT = ("start", "duration", "position", "velocity", "acceleration", "jerk")
+SEGMENT = ("start", "duration", "position", "velocity", "acceleration", "jerk", "rise")
 OUTPUTS = 4 + SEGMENTS * len(SEGMENT)
 PLANNED = 0
 
@@ -50,6 +50,7 @@ FOR i := 0 TO {PER_CYCLE - 1} DO
     stLimits.fAccelerationMax := afIn[n + 8];
     stLimits.fAccelerationMin := afIn[n + 9];
     stLimits.fJerk := afIn[n + 10];
+    stLimits.eShape := SM3_Trajectory.RampShape.{{shape}};
     stTrajectory := stEmpty;
     eResult := SM3_Trajectory.{{call}};
     m := i * {OUTPUTS};
@@ -65,6 +66,7 @@ FOR i := 0 TO {PER_CYCLE - 1} DO
         afOut[n + 3] := stTrajectory.aSegments[k].fVelocity;
         afOut[n + 4] := stTrajectory.aSegments[k].fAcceleration;
         afOut[n + 5] := stTrajectory.aSegments[k].fJerk;
+        afOut[n + 6] := stTrajectory.aSegments[k].fRise;
     END_FOR
 END_FOR
 END_PROGRAM
@@ -86,9 +88,9 @@ class Plans:
 
 
 @contextmanager
-def planner(call: str) -> Iterator[Callable[[Numbers], Plans]]:
+def planner(call: str, shape: str = "Polynomial") -> Iterator[Callable[[Numbers], Plans]]:
     """A function that plans cases, rows of INPUTS, by a call of SM3_Trajectory."""
-    with run(PROGRAM.replace("{call}", call), 1) as program:
+    with run(PROGRAM.replace("{call}", call).replace("{shape}", shape), 1) as program:
         inside = _array(int(program.literal("Main.uIn")), PER_CYCLE * len(INPUTS))
         outside = _array(int(program.literal("Main.uOut")), PER_CYCLE * OUTPUTS)
 
