@@ -96,10 +96,12 @@ def _check_segments(plans: Plans, within: bool) -> None:
     good = plans.result == PLANNED
     s, c = plans.segments, plans.cases
     t = s["duration"]
+    bent = s["bend"] * (1 / 4 - 1 / np.pi**2)
     ends = (
-        s["position"] + t * (s["velocity"] + s["rise"] / 2 + t * (s["acceleration"] / 2 + t * s["jerk"] / 6)),
-        s["velocity"] + s["rise"] + t * (s["acceleration"] + t * s["jerk"] / 2),
-        s["acceleration"] + t * s["jerk"],
+        s["position"]
+        + t * (s["velocity"] + s["rise"] / 2 + t * (s["acceleration"] / 2 + bent + t * s["jerk"] / 6)),
+        s["velocity"] + s["rise"] + t * (s["acceleration"] + s["bend"] / 2 + t * s["jerk"] / 2),
+        s["acceleration"] + s["bend"] + t * s["jerk"],
     )
     names = ("position", "velocity", "acceleration")
     targets = (plans.target - c["p0"], c["v1"], c["a1"])
@@ -218,6 +220,72 @@ def test_sin2_takes_no_acceleration_of_the_target(plan_sin2: Plan, plan_velocity
     cases = _cases(26, 1, "within")
     cases[0, 5] = 0.5 * cases[0, 8]
     assert plan_sin2(cases).result.tolist() == plan_velocity_sin2(cases).result.tolist() == [4]
+
+
+@pytest.fixture(scope="module")
+def plan_smooth() -> Iterator[Plan]:
+    with planner(POSITION, "Smooth") as function:
+        yield function
+
+
+@pytest.fixture(scope="module")
+def plan_velocity_smooth() -> Iterator[Plan]:
+    with planner(VELOCITY, "Smooth") as function:
+        yield function
+
+
+def _smooth_time(change: Numbers, a_max: Numbers, a_min: Numbers) -> Numbers:
+    """Of a change of velocity with jerk 1: acceleration up, kept and down, up and down by (1 - cos)/2."""
+    limit = np.where(change > 0, a_max, -a_min)
+    peak = np.minimum(limit, np.sqrt(2 * np.abs(change) / np.pi))
+    held = np.abs(change) - peak * (np.pi / 2 * peak)  # each bend of duration pi/2 * peak gives half of that
+    return np.divide(held, peak, out=np.zeros_like(peak), where=peak > 0) + np.pi * peak
+
+
+def _check_smooth(plans: Plans) -> None:
+    _check_segments(plans, within=False)
+    s, c = plans.segments, plans.cases
+    bends = (s["bend"] != 0) & plans.used
+    jerk = np.divide(np.pi * np.abs(s["bend"]), 2 * s["duration"], out=np.zeros_like(s["bend"]), where=bends)
+    np.testing.assert_allclose(jerk[bends], np.broadcast_to(c["jerk"][:, None], jerk.shape)[bends], rtol=1e-9)
+    a_unit = np.maximum(c["a_max"], -c["a_min"])[:, None]
+    settled = s["jerk"] == 0
+    held = np.where(plans.used & settled, s["acceleration"], 0.0)
+    assert np.all(held <= c["a_max"][:, None] + 1e-9 * a_unit)
+    assert np.all(held >= c["a_min"][:, None] - 1e-9 * a_unit)
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+def test_smooth_ramps(plan_smooth: Plan, plan_velocity_smooth: Plan, start: str) -> None:
+    cases = _cases(27, 3000, start)
+    cases[:, 5] = 0.0
+    for planned in (plan_smooth(cases), plan_velocity_smooth(cases)):
+        assert np.all(planned.result == PLANNED)
+        _check_smooth(planned)
+
+
+def test_smooth_velocities_take_the_time_of_their_closed_form(plan_velocity_smooth: Plan) -> None:
+    cases = _cases(28, 3000, "within")
+    cases[:, [2, 5]] = 0.0
+    expected = _smooth_time(cases[:, 4] - cases[:, 1], cases[:, 8], cases[:, 9])
+    np.testing.assert_allclose(plan_velocity_smooth(cases).duration, expected, rtol=1e-9, atol=1e-12)
+
+
+def test_smooth_positions_have_the_best_velocity_between(plan_smooth: Plan) -> None:
+    """Against all velocities of a fine grid: none makes the way in less time."""
+    cases = _cases(29, 300, "within")
+    cases[:, [2, 5]] = 0.0
+    _, v0, _, distance, v1, _, v_max, v_min, a_max, a_min, _ = cases.T[:, :, None]
+    grid = np.linspace(0.0, 1.0, 20001)[None, :]
+    velocities = v_min + grid * (v_max - v_min)
+    first = _smooth_time(velocities - v0, a_max + 0 * velocities, a_min + 0 * velocities)
+    second = _smooth_time(v1 - velocities, a_max + 0 * velocities, a_min + 0 * velocities)
+    way = 0.5 * (v0 + velocities) * first + 0.5 * (velocities + v1) * second
+    cruise = np.divide(distance - way, velocities, out=np.full_like(way, np.inf), where=velocities != 0)
+    possible = np.where(cruise >= 0, first + second + cruise, np.inf).min(axis=1)
+    planned = plan_smooth(cases)
+    assert np.all(planned.duration <= possible * (1 + 1e-9))
+    assert np.count_nonzero(np.isfinite(possible)) > 290
 
 
 def test_limits_are_kept_without_jerk(plan: Plan) -> None:

@@ -13,8 +13,8 @@ from tests.libraries.st_program import run
 Numbers = npt.NDArray[np.float64]
 PER_CYCLE = 1000
 INPUTS = ("p0", "v0", "a0", "p1", "v1", "a1", "v_max", "v_min", "a_max", "a_min", "jerk")
-SEGMENTS = 10
-SEGMENT = ("start", "duration", "position", "velocity", "acceleration", "jerk", "rise")
+SEGMENTS = 12
+SEGMENT = ("start", "duration", "position", "velocity", "acceleration", "jerk", "rise", "bend")
 OUTPUTS = 4 + SEGMENTS * len(SEGMENT)
 PLANNED = 0
 
@@ -67,6 +67,7 @@ FOR i := 0 TO {PER_CYCLE - 1} DO
         afOut[n + 4] := stTrajectory.aSegments[k].fAcceleration;
         afOut[n + 5] := stTrajectory.aSegments[k].fJerk;
         afOut[n + 6] := stTrajectory.aSegments[k].fRise;
+        afOut[n + 7] := stTrajectory.aSegments[k].fBend;
     END_FOR
 END_FOR
 END_PROGRAM
