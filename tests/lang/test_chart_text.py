@@ -25,6 +25,12 @@ def messages(body: str, variables: str = "") -> list[tuple[str, str]]:
     return [(d.code, d.message) for d in found if d.code not in ("W1103", "W1206")]
 
 
+def test_a_chart_that_ends_anywhere_is_read() -> None:
+    text = "PROGRAM P\n" + GOOD.replace("TRANSITION FROM S", "TRANSITION first (PRIORITY := 1) FROM S")
+    for end in range(len(text)):
+        parse(Source("P", text[:end]))
+
+
 def test_good_chart_has_no_message() -> None:
     assert messages(GOOD) == []
 

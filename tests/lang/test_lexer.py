@@ -144,6 +144,13 @@ def test_what_is_no_token_is_reported_once(text: str, expected: list[str]) -> No
     assert codes(lex(text, "x").diagnostics) == expected
 
 
+@pytest.mark.parametrize("text", ["'", "'abc", "'abc$'", "'abc$", '"abc'])
+def test_a_string_without_end_goes_to_the_end_of_its_line(text: str) -> None:
+    lexed = lex(f"{text}\nx", "x")
+    assert lexed.texts[:2] == [text, "x"]
+    assert [d.span for d in lexed.diagnostics] == [Span(0, 0, 0, len(text))]
+
+
 def test_an_attribute_may_go_over_several_lines_as_twincat_tools_write_it() -> None:
     text = "{attribute 'note' := '\n  a: {b}\n  c: d\n'}\nx : INT; {attribute 'y' :=\n 'z'\n}\ny"
     lexed = lex(text, "x")

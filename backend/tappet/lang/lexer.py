@@ -269,7 +269,7 @@ def _special(
             breaks = len(_LINE_END.findall(whole))
             return end, line + breaks, start + last_break + 1
         out.diagnostics.append(report("E0004", uri, span, quote=piece[0]))
-        _append(out, STRING, piece.rstrip("$") + piece[0], line, column)
+        _append(out, STRING, piece, line, column)
         out.damaged.add(index + 1)
     elif kind is WORD:
         wrong = next(char for char in piece if not char.isascii())

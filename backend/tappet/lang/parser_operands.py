@@ -161,6 +161,9 @@ class OperandParser(ArgumentParser):
         span = make_span((line, column, line, column + len(text)))
         if self.kinds[i] is INT and len(text) < 19:
             return ast.Literal(span=span, text=text, kind="int", value=int(text))
+        unclosed = self.kinds[i] is STRING and self._unclosed(span)
+        if unclosed:
+            text = text.rstrip("$") + text[0]
         decoded = literals.decode(text)
         if decoded.kind == "enum":
             prefix, _, name = text.partition("#")
@@ -170,7 +173,7 @@ class OperandParser(ArgumentParser):
                 span=span, base=base, name=name, name_span=Span(line, at + 1, line, column + len(text))
             )
         problem = decoded.problem
-        if problem and not (self.kinds[i] is STRING and self._unclosed(span)):
+        if problem and not unclosed:
             self.diagnostics.append(report(problem, self.source.uri, span, **decoded.fields))
         return ast.Literal(
             span=span, text=text, kind=decoded.kind, prefix=decoded.prefix, value=decoded.value

@@ -81,7 +81,9 @@ def begins_step(parser: StatementParser) -> bool:
     kinds = parser.kinds
     if parser.word() not in ("STEP", "INITIAL_STEP"):
         return False
-    return kinds[i + 2] == ":" and (kinds[i + 1] is ID or kinds[i + 1][0].isalpha())
+    return (
+        kinds[i + 1] is not END and kinds[i + 2] == ":" and (kinds[i + 1] is ID or kinds[i + 1][0].isalpha())
+    )
 
 
 def begins_transition(parser: StatementParser) -> bool:
@@ -93,6 +95,8 @@ def begins_transition(parser: StatementParser) -> bool:
     if kinds[i] == "(":
         while kinds[i] != ")" and kinds[i] not in BODY_END and kinds[i] != ";":
             i += 1
+        if kinds[i] != ")":
+            return False
         i += 1
     return kinds[i] is ID and parser.texts[i].upper() == "FROM"
 
