@@ -91,13 +91,15 @@ def words(text: str) -> list[str]:
 
 
 def mutated(r: Random, seeds: list[bytes]) -> bytes:
-    """A seed with some of its words changed, or put together with a part of another one."""
+    """A seed with some of its words changed, put together with a part of another one, or cut off."""
     own = words(r.choice(seeds).decode("utf-8", "replace"))
     for _ in range(r.choice((1, 1, 2, 3, 8))):
-        at, kind = r.randrange(len(own) + 1), r.randrange(7)
+        at, kind = r.randrange(len(own) + 1), r.randrange(8)
         end = min(len(own), at + r.choice((1, 1, 2, 5, 20)))
         if kind == 0:
             del own[at:end]
+        elif kind == 7:
+            del own[at:]
         elif kind == 1:
             own[at:at] = own[at:end] * r.choice((1, 2, 30))
         elif kind == 2:
