@@ -293,7 +293,7 @@ def test_limits_are_kept_without_jerk(plan: Plan) -> None:
 
 
 def test_positioning_with_trapezoids_and_triangles(plan: Plan) -> None:
-    """EX-01 and EX-02: closed forms of the specification."""
+    """motion_semantics EX-01, motion_semantics EX-02: closed forms of the specification."""
     cases = np.zeros((2, len(RUCKIGS_INPUTS)))
     cases[:, 3] = 100.0, 1.0
     cases[:, 6:10] = 10.0, -10.0, 20.0, -20.0
