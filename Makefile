@@ -21,9 +21,8 @@ BESIDE := $(MAKE) --no-print-directory -j 2 $(if $(filter output-sync,$(.FEATURE
 CHECKS := check-frontend check-backend check-types
 
 # Browsers want the machine for themselves: their tests come last, two at a time. There are few and they are long:
-# who has nothing left to do takes over some of the other's. The others wait now and then for a clock or a process: three at a
-# time keep two cores busy.
-PARALLEL := -n 3 --dist loadfile
+# who has nothing left to do takes over some of the other's.
+PARALLEL := -n 2 --dist loadfile
 BROWSERS := -n 2 --dist worksteal
 
 ## test: all fast tests, those in a real browser included
