@@ -95,3 +95,11 @@ def test_a_name_of_the_program_stays_as_it_is() -> None:
     """A variable may be called like a kind."""
     (found,) = [d for d in diagnose("VAR member, n : INT; END_VAR\nn := 1;") if d.code == "W1103"]
     assert "member" in said(found.code, Texts(found.message, found.advice), found.facts, "zh").message
+
+
+def test_a_union_without_members_is_called_one() -> None:
+    (found,) = [d for d in diagnose("TYPE U : UNION END_UNION END_TYPE") if d.code == "W1219"]
+    assert found.message == "The union 'U' has no members"
+    assert (
+        said(found.code, Texts(found.message, found.advice), found.facts, "zh").message == "联合体“U”没有成员"
+    )
