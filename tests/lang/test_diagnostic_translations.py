@@ -97,6 +97,17 @@ def test_a_name_of_the_program_stays_as_it_is() -> None:
     assert "member" in said(found.code, Texts(found.message, found.advice), found.facts, "zh").message
 
 
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("n := ;", "“;”之前应为表达式"), ("n := (1;", "“;”之前应为“)”"), ("IF n = 1 THEN", "END_IF")],
+)
+def test_tokens_are_quoted_as_chinese_quotes(text: str, message: str) -> None:
+    found = [d for d in diagnose(f"VAR n : INT; END_VAR\n{text}") if d.severity == "error"]
+    shown = [said(d.code, Texts(d.message, d.advice), d.facts, "zh").message for d in found]
+    assert message in shown[0]
+    assert not any("'" in one for one in shown)
+
+
 def test_a_union_without_members_is_called_one() -> None:
     (found,) = [d for d in diagnose("TYPE U : UNION END_UNION END_TYPE") if d.code == "W1219"]
     assert found.message == "The union 'U' has no members"

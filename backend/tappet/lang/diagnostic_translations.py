@@ -4,6 +4,7 @@ what their places add, such as advice and names of kinds, `phrases_<language>.cs
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Mapping
 from functools import cache, lru_cache, partial
 from importlib.resources import files
@@ -16,6 +17,11 @@ from tappet.translation.templates import FIELD, Templates
 
 _KINDS = frozenset({"what", "verb", "needed", "given", "count", "expected", "where", "size", "place"})
 """Facts that say what something is; all others may be names."""
+_TOKENS = frozenset({"found", "expected", "begin", "end"})
+"""Facts that quote a token of the program in English quotation marks, `';'`."""
+_QUOTED = re.compile(r"'(.+)'", re.DOTALL)
+_GAP = re.compile(r"(?<=”) (?=[\u3400-\u9fff])|(?<=[\u3400-\u9fff]) (?=“)")
+"""A space between Chinese and its quotation marks: templates have it for tokens that are not quoted."""
 
 
 class Texts(NamedTuple):
@@ -57,7 +63,7 @@ def said(code: str, english: Texts, facts: Mapping[str, str], language: Language
     try:
         usual = TABLE[code].advice.format_map(facts) == english.advice
         advice = own.advice.format_map(words) if usual else phrase(english.advice, language)
-        return Texts(own.message.format_map(words), advice)
+        return Texts(_GAP.sub("", own.message.format_map(words)), advice)
     except KeyError:  # a fact that only the advice of its place has
         return english
 
@@ -67,6 +73,8 @@ def _fact(name: str, value: str, language: Language) -> str:
     found = phrase(value, language) if name in _KINDS or " " in value else value
     if found == value and name == "reason":
         found = _messages(language).find(value, partial(_said_in, language)) or value
+    if name in _TOKENS and (token := _QUOTED.fullmatch(found)) is not None:
+        return f"“{token[1]}”"
     return found
 
 
