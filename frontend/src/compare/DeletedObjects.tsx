@@ -5,7 +5,7 @@ import { keys, queryClient } from '@/api/queries';
 import type { Schemas } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
-import { displayPlace } from '@/project/objectName';
+import { displayName, displayPath, displayPlace } from '@/project/objectName';
 import { Button } from '@/ui/Button';
 import { Empty, Failed, Loading } from '@/ui/Empty';
 import { guard, notify } from '@/ui/notices';
@@ -41,11 +41,11 @@ export function DeletedObjects({ projectId, foot }: { projectId: string; foot: H
         id: 'name',
         title: t('deleted.name'),
         width: 220,
-        sort: (one) => one.name,
+        sort: displayName,
         cell: (one) => (
           <>
             <ObjectIcon kind={one.kind} subkind={one.subkind} name={one.name} />
-            <span>{one.name}</span>
+            <span>{displayName(one)}</span>
           </>
         ),
       },
@@ -55,7 +55,7 @@ export function DeletedObjects({ projectId, foot }: { projectId: string; foot: H
         width: 200,
         grow: true,
         sort: (one) => one.path,
-        hint: (one) => one.path,
+        hint: (one) => displayPath(one.path),
         cell: (one) => <span>{displayPlace(one.path)}</span>,
       },
       {
@@ -92,7 +92,7 @@ export function DeletedObjects({ projectId, foot }: { projectId: string; foot: H
       await queryClient.invalidateQueries({ queryKey: keys.project(projectId) });
       await refetch();
       revealInTree(one.id);
-      notify({ tone: 'ok', title: t('deleted.restored', { name: one.name }) });
+      notify({ tone: 'ok', title: t('deleted.restored', { name: displayName(one) }) });
     });
   return (
     <div className={styles.deleted}>

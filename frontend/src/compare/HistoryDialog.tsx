@@ -4,6 +4,7 @@ import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { ObjectSummary, Revision } from '@/api/types';
 import { useText } from '@/i18n';
+import { displayName } from '@/project/objectName';
 import { Button } from '@/ui/Button';
 import { Dialog } from '@/ui/Dialog';
 import { confirm } from '@/ui/dialogs';
@@ -40,7 +41,7 @@ export function HistoryDialog({ projectId, object, deleted = false, close }: His
   const [foot, setFoot] = useState<HTMLDivElement | null>(null);
   return (
     <Dialog
-      title={object ? t('history.titleObject', { name: object.name }) : t('history.title')}
+      title={object ? t('history.titleObject', { name: displayName(object) }) : t('history.title')}
       width={1500}
       onClose={close}
       footer={
@@ -127,7 +128,7 @@ function Revisions({ projectId, object, foot }: Omit<HistoryDialogProps, 'close'
     if (!selected) return;
     const sure = await confirm({
       title: t('history.revertTitle', { revision: selected.revision }),
-      text: t(object ? 'history.revertObject' : 'history.revertProject', { name: object?.name ?? '' }),
+      text: t(object ? 'history.revertObject' : 'history.revertProject', { name: object ? displayName(object) : '' }),
       action: t('history.revert'),
     });
     if (!sure) return;

@@ -3,6 +3,7 @@ import { saveObject, StaleObject, useObject } from '@/api/queries';
 import type { Check } from '@/api/objects';
 import type { ObjectSummary, ProjectObject } from '@/api/types';
 import { t } from '@/i18n';
+import { displayName } from '@/project/objectName';
 import type { Handlers } from '@/workbench/commands';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { confirm } from '@/ui/dialogs';
@@ -85,7 +86,7 @@ export function useDraft<Data extends ProjectObject['data']>(
     } catch (failure) {
       if (failure instanceof StaleObject) {
         const mine = await confirm({
-          title: t('conflict.title', { name: failure.current.name }),
+          title: t('conflict.title', { name: displayName(failure.current) }),
           text: t('conflict.text'),
           action: t('conflict.overwrite'),
         });

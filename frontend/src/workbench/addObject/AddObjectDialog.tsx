@@ -16,6 +16,7 @@ import {
 } from '@/project/kinds';
 import { explain } from '@/ui/notices';
 import { createObject } from '../tree/acts';
+import { displayName } from '@/project/objectName';
 import { firstChoice, ownerOf, fixedNames, nameFault, placeableKinds, proposedName } from '@/project/placement';
 import type { Forest, TreeView } from '@/project/tree';
 import { FormDialog } from '@/ui/FormDialog';
@@ -111,7 +112,7 @@ export function AddObjectDialog({ projectId, forest, rules, view, parentId, kind
 
   return (
     <FormDialog
-      title={owner ? t('addObject.titleAt', { name: owner.name }) : t('addObject.title')}
+      title={owner ? t('addObject.titleAt', { name: displayName(owner) }) : t('addObject.title')}
       width={620}
       onClose={() => close()}
       onSubmit={() => void create()}

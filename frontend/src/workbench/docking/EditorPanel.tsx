@@ -4,6 +4,7 @@ import { Suspense, useEffect, useRef, useState } from 'react';
 import { useObjects } from '@/api/queries';
 import { useText } from '@/i18n';
 import { kindOf } from '@/project/kinds';
+import { displayName } from '@/project/objectName';
 import { useProject } from '@/project/openProject';
 import { Button } from '@/ui/Button';
 import { Empty, Loading } from '@/ui/Empty';
@@ -20,7 +21,7 @@ export function EditorPanel({ api, params }: IDockviewPanelProps<EditorParams>) 
   const projectId = useProject((state) => state.projectId);
   const { data: objects } = useObjects(projectId);
   const object = objects?.find((candidate) => candidate.id === params.objectId);
-  const name = object?.name;
+  const name = object && displayName(object);
   useEffect(() => {
     if (name !== undefined && api.title !== name) api.setTitle(name);
   }, [api, name]);

@@ -2,6 +2,7 @@ import { useMemo, useState, type ReactNode } from 'react';
 
 import type { ObjectSummary } from '@/api/types';
 import { listed, useText } from '@/i18n';
+import { displayName } from '@/project/objectName';
 import { Field, Select } from '@/ui/Field';
 import styles from './Exchange.module.css';
 import { ObjectChoice } from './ObjectChoice';
@@ -40,7 +41,7 @@ export function usePart({ projectName, objects, selection, current }: PartSource
   const only = request.object.length === 1 ? objects.find(({ id }) => id === request.object[0]) : undefined;
   const editor = {
     value: 'editor',
-    text: current ? t('print.editor', { name: current.name }) : t('print.noEditor'),
+    text: current ? t('print.editor', { name: displayName(current) }) : t('print.noEditor'),
     disabled: !current,
   } as const;
   const field = (
@@ -55,7 +56,7 @@ export function usePart({ projectName, objects, selection, current }: PartSource
               {
                 value: 'selection',
                 text: selection.length
-                  ? t('exchange.selection', { names: listed(selection.map(({ name }) => name)) })
+                  ? t('exchange.selection', { names: listed(selection.map(displayName)) })
                   : t('exchange.noSelection'),
                 disabled: selection.length === 0,
               },

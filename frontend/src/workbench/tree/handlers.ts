@@ -9,6 +9,7 @@ import { notify } from '@/ui/notices';
 import { selectObjects, useSelection } from '../selection';
 import { copyObject, deleteObjects, moveObject, undoChange } from './acts';
 import { childrenOf, forestOf, subtree, topMost, type Forest, type TreeView } from '@/project/tree';
+import { displayName } from '@/project/objectName';
 import { mayDrop } from '@/project/placement';
 import { actionText } from './actionText';
 import { revealInTree, useTree } from './state';
@@ -96,7 +97,7 @@ async function deleteChosen(projectId: string): Promise<void> {
   const ids = chosen(forest);
   if (ids.length === 0 || commandContext().online) return;
   const below = ids.reduce((count, id) => count + subtree(forest, id).length - 1, 0);
-  const name = forest.byId.get(ids[0]!)!.name;
+  const name = displayName(forest.byId.get(ids[0]!)!);
   const sure = await confirm({
     title: ids.length === 1 ? t('delete.title', { name }) : t('delete.titleMany', { count: ids.length }),
     text: below > 0 ? t('delete.textBelow', { count: below }) : t('delete.text'),
