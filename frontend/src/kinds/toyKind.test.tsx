@@ -80,7 +80,7 @@ describe('a kind whose folder is found by its place', () => {
 
   it('shows its own properties below those of all objects', async () => {
     const page = show(<PropertiesDialog projectId="p" object={belt} close={() => undefined} />);
-    await reads(page, 'conveyor, belt');
+    await reads(page, 'conveyor · belt');
     await reads(page, 'Belt of Belt');
   });
 });

@@ -4,7 +4,7 @@ import { api } from '@/api/client';
 import { dataText } from '@/api/objects';
 import { objectQuery, useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
-import { listed, useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
 import { kindOf, kindTitle, subkindTitle } from '@/project/kinds';
 import { displayName, displayPath } from '@/project/objectName';
 import { treePath } from '@/project/tree';
@@ -14,6 +14,7 @@ import { Facts } from '@/ui/Facts';
 import { Checkbox, Field, TextInput } from '@/ui/Field';
 import { Dialog } from '@/ui/Dialog';
 import { useRefusal } from '@/ui/useRefusal';
+import { secondText } from '../clock';
 import { reasonText } from '../run';
 import { mayEdit } from '../rights';
 import { renameObject } from '../tree/acts';
@@ -30,7 +31,6 @@ interface PropertiesDialogProps {
 /** What an object is and where, who made it, what its text says; name and build can be changed. */
 export function PropertiesDialog({ projectId, object: given, close }: PropertiesDialogProps) {
   const t = useText();
-  const language = useLanguage();
   const { data: objects } = useObjects(projectId);
   // What has become of it since the dialog was opened.
   const object = objects?.find((one) => one.id === given.id) ?? given;
@@ -46,14 +46,13 @@ export function PropertiesDialog({ projectId, object: given, close }: Properties
   const [refused, ask] = useRefusal();
   const Own = kindOf(object.kind)?.properties;
   const compiled = kindOf(object.kind)?.compiled ?? false;
-  const kind = listed([kindTitle(object.kind), object.subkind ? subkindTitle(object.subkind) : ''].filter(Boolean));
+  const kind = [kindTitle(object.kind), object.subkind ? subkindTitle(object.subkind) : ''].filter(Boolean).join(' · ');
   const facts = detail && factsOf(dataText(detail, 'declaration'), dataText(detail, 'implementation'));
   const bodyLanguage = detail ? dataText(detail, 'language') : '';
   const created = revisions?.at(-1);
   const changed = revisions?.[0];
-  const moment = new Intl.DateTimeFormat(language, { dateStyle: 'medium', timeStyle: 'short' });
   const by = (one: { author: string; at: string }) =>
-    t('properties.by', { author: one.author, at: moment.format(new Date(one.at)) });
+    t('properties.by', { author: one.author, at: secondText(one.at) });
   const editable = mayEdit(context);
   const same = name.trim() === object.name && excluded === object.excluded;
   const nothing = same ? t('properties.nothingChanged') : null;

@@ -12,9 +12,10 @@ import { useMemo, useState, type KeyboardEvent } from 'react';
 import { useQuery } from '@tanstack/react-query';
 import { keys, queryClient, testRunQuery } from '@/api/queries';
 import type { ObjectSummary, TestFailure, TestRun } from '@/api/types';
-import { useLanguage, useText } from '@/i18n';
+import { useText } from '@/i18n';
 import { openObject } from '../docking/dock';
 import { useProject } from '@/project/openProject';
+import { secondText } from '../clock';
 import { runCommand } from '../run';
 import { FilterInput } from '@/ui/Filter';
 import { useToggleSet } from '@/ui/toggleSet';
@@ -141,14 +142,14 @@ export default function TestsPanel() {
 /** Of when and of what the results are. */
 function LastRun({ run }: { run: TestRun }) {
   const t = useText();
-  const language = useLanguage();
-  const at = useMemo(
-    () => new Intl.DateTimeFormat(language, { dateStyle: 'medium', timeStyle: 'medium' }).format(new Date(run.at)),
-    [language, run.at],
-  );
   return (
     <div className={styles.run} role="status">
-      {t('tests.ranAt', { at, revision: run.revision, name: run.username, seconds: run.seconds.toFixed(1) })}
+      {t('tests.ranAt', {
+        at: secondText(run.at),
+        revision: run.revision,
+        name: run.username,
+        seconds: run.seconds.toFixed(1),
+      })}
       {run.outdated && <strong>{t('tests.outdated')}</strong>}
     </div>
   );
