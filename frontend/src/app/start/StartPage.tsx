@@ -198,7 +198,7 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
         {project.description && <span className={styles.description}>{project.description}</span>}
       </button>
       <time className={styles.date} dateTime={project.modified} title={secondText(project.modified)}>
-        {ago(project.modified, now, language)}
+        {ago(project.modified, now, language) ?? t('start.now')}
       </time>
       <span onClick={(event) => event.stopPropagation()}>
         <DropdownMenu

@@ -33,12 +33,12 @@ const UNITS: readonly [Intl.RelativeTimeFormatUnit, number][] = [
   ['minute', 60],
 ];
 
-/** `3 hours ago`, `yesterday`, in the user's language. */
-export function ago(time: string, now: number, language: string): string {
+/** `3 hours ago`, `yesterday`, in the user's language; null within a minute: browsers have no natural Chinese word for it. */
+export function ago(time: string, now: number, language: string): string | null {
   const seconds = (Date.parse(time) - now) / 1000;
   const format = new Intl.RelativeTimeFormat(language, { numeric: 'auto' });
   for (const [unit, length] of UNITS) {
     if (Math.abs(seconds) >= length) return format.format(Math.trunc(seconds / length), unit);
   }
-  return format.format(0, 'second');
+  return null;
 }
