@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from functools import cache
 
 import numpy as np
 import pytest
@@ -19,15 +21,40 @@ RUCKIGS_INPUTS = (
 
 
 @pytest.fixture(scope="module")
-def plan() -> Iterator[Plan]:
-    with planner(POSITION) as function:
-        yield function
+def planners() -> Iterator[Callable[[str, str], Plan]]:
+    """Planners by their call and the shape of ramps, each compiled once."""
+    with ExitStack() as opened:
+        yield cache(lambda call, shape: opened.enter_context(planner(call, shape)))
 
 
 @pytest.fixture(scope="module")
-def plan_velocity() -> Iterator[Plan]:
-    with planner(VELOCITY) as function:
-        yield function
+def plan(planners: Callable[[str, str], Plan]) -> Plan:
+    return planners(POSITION, "Polynomial")
+
+
+@pytest.fixture(scope="module")
+def plan_velocity(planners: Callable[[str, str], Plan]) -> Plan:
+    return planners(VELOCITY, "Polynomial")
+
+
+@pytest.fixture(scope="module")
+def plan_sin2(planners: Callable[[str, str], Plan]) -> Plan:
+    return planners(POSITION, "Sin2")
+
+
+@pytest.fixture(scope="module")
+def plan_velocity_sin2(planners: Callable[[str, str], Plan]) -> Plan:
+    return planners(VELOCITY, "Sin2")
+
+
+@pytest.fixture(scope="module")
+def plan_smooth(planners: Callable[[str, str], Plan]) -> Plan:
+    return planners(POSITION, "Smooth")
+
+
+@pytest.fixture(scope="module")
+def plan_velocity_smooth(planners: Callable[[str, str], Plan]) -> Plan:
+    return planners(VELOCITY, "Smooth")
 
 
 def _one_of(random: np.random.Generator, *columns: Numbers | float) -> Numbers:
@@ -165,18 +192,6 @@ def test_velocities_as_soon_as_ruckigs(plan_velocity: Plan, start: str, limited:
     _check_segments(plans, within=False)
 
 
-@pytest.fixture(scope="module")
-def plan_sin2() -> Iterator[Plan]:
-    with planner(POSITION, "Sin2") as function:
-        yield function
-
-
-@pytest.fixture(scope="module")
-def plan_velocity_sin2() -> Iterator[Plan]:
-    with planner(VELOCITY, "Sin2") as function:
-        yield function
-
-
 def _check_sin2(plans: Plans) -> None:
     """Accelerations meet, and each is largest in the middle of a ramp, at the limit of its direction."""
     _check_segments(plans, within=False)
@@ -220,18 +235,6 @@ def test_sin2_takes_no_acceleration_of_the_target(plan_sin2: Plan, plan_velocity
     cases = _cases(26, 1, "within")
     cases[0, 5] = 0.5 * cases[0, 8]
     assert plan_sin2(cases).result.tolist() == plan_velocity_sin2(cases).result.tolist() == [4]
-
-
-@pytest.fixture(scope="module")
-def plan_smooth() -> Iterator[Plan]:
-    with planner(POSITION, "Smooth") as function:
-        yield function
-
-
-@pytest.fixture(scope="module")
-def plan_velocity_smooth() -> Iterator[Plan]:
-    with planner(VELOCITY, "Smooth") as function:
-        yield function
 
 
 def _smooth_time(change: Numbers, a_max: Numbers, a_min: Numbers) -> Numbers:

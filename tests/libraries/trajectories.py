@@ -89,7 +89,7 @@ class Plans:
 
 
 @contextmanager
-def planner(call: str, shape: str = "Polynomial") -> Iterator[Callable[[Numbers], Plans]]:
+def planner(call: str, shape: str) -> Iterator[Callable[[Numbers], Plans]]:
     """A function that plans cases, rows of INPUTS, by a call of SM3_Trajectory."""
     with run(PROGRAM.replace("{call}", call).replace("{shape}", shape), 1) as program:
         inside = _array(int(program.literal("Main.uIn")), PER_CYCLE * len(INPUTS))
