@@ -73,7 +73,7 @@ export interface Choice<Value extends string> {
   disabled?: boolean;
 }
 
-interface SelectProps<Value extends string> {
+export interface SelectProps<Value extends string> {
   id?: string;
   value: Value | null;
   choices: readonly Choice<Value>[];

@@ -1,7 +1,7 @@
 import { useText } from '@/i18n';
 import { useProject } from '@/project/openProject';
 import { useSession } from '@/session/session';
-import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
+import { Checkbox, Field, Select, type SelectProps, TextInput } from '@/ui/Field';
 import { Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { LogoField } from './LogoField';
@@ -43,28 +43,20 @@ export function PageSetupForm({ setup, disabled, onChange }: PageSetupFormProps)
         <div className={own.fields}>
           <Section title={t('pageSetup.sheet')}>
             <div className={styles.fields}>
-              <Field row label={t('print.paper')}>
-                {(attributes) => (
-                  <Select
-                    {...attributes}
-                    disabled={disabled}
-                    value={setup.paper}
-                    choices={PAPERS.map((value) => ({ value, text: t(`print.paper.${value}`) }))}
-                    onValue={(paper) => change({ paper })}
-                  />
-                )}
-              </Field>
-              <Field row label={t('pageSetup.orientation')}>
-                {(attributes) => (
-                  <Select
-                    {...attributes}
-                    disabled={disabled}
-                    value={setup.orientation}
-                    choices={ORIENTATIONS.map((value) => ({ value, text: t(`pageSetup.${value}`) }))}
-                    onValue={(orientation) => change({ orientation })}
-                  />
-                )}
-              </Field>
+              <ChoiceField
+                label={t('print.paper')}
+                disabled={disabled}
+                value={setup.paper}
+                choices={PAPERS.map((value) => ({ value, text: t(`print.paper.${value}`) }))}
+                onValue={(paper) => change({ paper })}
+              />
+              <ChoiceField
+                label={t('pageSetup.orientation')}
+                disabled={disabled}
+                value={setup.orientation}
+                choices={ORIENTATIONS.map((value) => ({ value, text: t(`pageSetup.${value}`) }))}
+                onValue={(orientation) => change({ orientation })}
+              />
             </div>
             <div className={own.margins}>
               {SIDES.map((side) => (
@@ -131,17 +123,13 @@ export function PageSetupForm({ setup, disabled, onChange }: PageSetupFormProps)
               >
                 {t('pageSetup.logoOnTitlePage')}
               </Checkbox>
-              <Field row label={t('pageSetup.logoInHeader')}>
-                {(attributes) => (
-                  <Select
-                    {...attributes}
-                    disabled={disabled}
-                    value={setup.logo_in_header}
-                    choices={LOGO_PLACES.map((value) => ({ value, text: t(`pageSetup.logoAt.${value}`) }))}
-                    onValue={(place) => change({ logo_in_header: place })}
-                  />
-                )}
-              </Field>
+              <ChoiceField
+                label={t('pageSetup.logoInHeader')}
+                disabled={disabled}
+                value={setup.logo_in_header}
+                choices={LOGO_PLACES.map((value) => ({ value, text: t(`pageSetup.logoAt.${value}`) }))}
+                onValue={(place) => change({ logo_in_header: place })}
+              />
             </div>
           </Section>
           {EDGES.map((edge) => (
@@ -169,5 +157,14 @@ export function PageSetupForm({ setup, disabled, onChange }: PageSetupFormProps)
         </div>
       </div>
     </div>
+  );
+}
+
+/** A field beside its label that takes one of a few values. */
+function ChoiceField<Value extends string>({ label, ...select }: { label: string } & SelectProps<Value>) {
+  return (
+    <Field row label={label}>
+      {(attributes) => <Select {...attributes} {...select} />}
+    </Field>
   );
 }
