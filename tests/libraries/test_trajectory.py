@@ -10,13 +10,18 @@ import numpy as np
 import pytest
 import ruckig
 from tests.libraries.st_program import run
-from tests.libraries.trajectories import PLANNED, POSITION, VELOCITY, Numbers, Plans, planner
-
-Plan = Callable[[Numbers], Plans]
-RUCKIGS_INPUTS = (
-    *("current_position", "current_velocity", "current_acceleration"),
-    *("target_position", "target_velocity", "target_acceleration"),
-    *("max_velocity", "min_velocity", "max_acceleration", "min_acceleration", "max_jerk"),
+from tests.libraries.trajectories import (
+    PLANNED,
+    POSITION,
+    RUCKIGS_INPUTS,
+    VELOCITY,
+    Numbers,
+    Plan,
+    Plans,
+    check_segments,
+    planner,
+    random_cases,
+    ruckigs_duration,
 )
 
 
@@ -57,59 +62,9 @@ def plan_velocity_smooth(planners: Callable[[str, str], Plan]) -> Plan:
     return planners(VELOCITY, "Smooth")
 
 
-def _one_of(random: np.random.Generator, *columns: Numbers | float) -> Numbers:
-    """Each row takes one of the columns."""
-    table = np.stack(np.broadcast_arrays(*columns))
-    return table[random.integers(len(columns), size=table.shape[1]), np.arange(table.shape[1])]
-
-
-def _cases(seed: int, count: int, start: str) -> Numbers:
-    """Random plans with jerk 1, starts within the limits, at them, or up to three times beyond them."""
-    random = np.random.default_rng(seed)
-
-    def size(low: float, high: float) -> Numbers:
-        return 10 ** random.uniform(low, high, count)
-
-    a_max, v_max = size(-1, 1), size(-1.5, 1.5)
-    a_min, v_min = -a_max * size(-0.5, 0.5), -v_max * size(-0.5, 0.5)
-    equal = random.random(count) < 0.2
-    a_min, v_min = np.where(equal, -a_max, a_min), np.where(equal, -v_max, v_min)
-    beyond = 3.0 if start == "beyond" else 1.0
-    zeros = np.zeros(count)
-    v0 = _one_of(random, zeros, beyond * random.uniform(v_min, v_max))
-    a0 = _one_of(random, zeros, beyond * random.uniform(a_min, a_max))
-    if start == "at":
-        v0, a0 = _one_of(random, v0, v_max, v_min), _one_of(random, a0, a_max, a_min)
-    v1 = _one_of(random, zeros, v_max, v_min, random.uniform(v_min, v_max))
-    a1 = _one_of(random, zeros, zeros, 0.7 * random.uniform(a_min, a_max))
-    lead = 0.5 * a1 * a1
-    a1 = np.where((v1 + lead <= v_max) & (v1 - lead >= v_min), a1, 0.0)
-    distance = random.normal(size=count) * size(-2, 2)
-    return np.stack(
-        (zeros, v0, a0, distance, v1, a1, v_max, v_min, a_max, a_min, np.ones(count)), axis=1
-    ).astype(np.float64)
-
-
-def _shortest(case: Numbers, to_velocity: bool) -> float:
-    """Duration as Ruckig finds it, NaN where it finds none."""
-    problem = ruckig.InputParameter(1)
-    for at, name in enumerate(RUCKIGS_INPUTS):
-        setattr(problem, name, [float(case[at])])
-    if case[-1] == 0:
-        problem.max_jerk = [float("inf")]
-    if to_velocity:
-        problem.control_interface = ruckig.ControlInterface.Velocity
-    trajectory = ruckig.Trajectory(1)
-    try:
-        result = ruckig.Ruckig(1).calculate(problem, trajectory)
-    except ruckig.RuckigError:
-        return float("nan")
-    return float(trajectory.duration) if result == ruckig.Result.Working else float("nan")
-
-
 def _check_against_ruckig(plan: Plan, cases: Numbers, to_velocity: bool = False) -> Plans:
     plans = plan(cases)
-    expected = np.array([_shortest(case, to_velocity) for case in cases])
+    expected = np.array([ruckigs_duration(case, to_velocity) for case in cases])
     known = ~np.isnan(expected)
     assert np.count_nonzero(known) > 0.99 * len(cases)
     assert np.all(plans.result[known] == PLANNED), cases[known][plans.result[known] != PLANNED][:3]
@@ -118,58 +73,16 @@ def _check_against_ruckig(plan: Plan, cases: Numbers, to_velocity: bool = False)
     return plans
 
 
-def _check_segments(plans: Plans, within: bool) -> None:
-    """One segment leads to the next, the last one to the target, and no limit is passed."""
-    good = plans.result == PLANNED
-    s, c = plans.segments, plans.cases
-    t = s["duration"]
-    bent = s["bend"] * (1 / 4 - 1 / np.pi**2)
-    ends = (
-        s["position"]
-        + t * (s["velocity"] + s["rise"] / 2 + t * (s["acceleration"] / 2 + bent + t * s["jerk"] / 6)),
-        s["velocity"] + s["rise"] + t * (s["acceleration"] + s["bend"] / 2 + t * s["jerk"] / 2),
-        s["acceleration"] + s["bend"] + t * s["jerk"],
-    )
-    names = ("position", "velocity", "acceleration")
-    targets = (plans.target - c["p0"], c["v1"], c["a1"])
-    last = np.arange(s["start"].shape[1]) == (plans.count - 1)[:, None]
-    a_unit = np.maximum(c["a_max"], -c["a_min"])
-    v_unit = np.maximum(np.maximum(c["v_max"], -c["v_min"]), np.abs(c["v0"]))
-    ramp = np.divide(a_unit, c["jerk"], out=np.zeros_like(a_unit), where=c["jerk"] > 0)
-    p_unit = np.maximum(np.abs(plans.target - c["p0"]), v_unit * np.maximum(plans.duration, ramp))
-    p_unit = np.where(p_unit > 0, p_unit, 1.0)
-    for name, end, target, unit in zip(names, ends, targets, (p_unit, v_unit, a_unit), strict=True):
-        following = np.where(last, target[:, None], np.roll(s[name], -1, axis=1))
-        gap = np.where(plans.used, np.abs(end - following), 0.0).max(axis=1) / unit
-        if name == "acceleration":  # it jumps where jerk is not limited
-            gap[c["jerk"] == 0] = 0.0
-        assert gap[good].max() < 1e-9, (name, gap[good].max())
-    if within:
-        peaks = np.where(
-            s["jerk"] != 0, s["velocity"] - s["acceleration"] ** 2 / (2 * s["jerk"] + (s["jerk"] == 0)), 0
-        )
-        inside = (s["acceleration"] * ends[2] < 0) & plans.used
-        for values in (np.where(plans.used, ends[1], 0), np.where(inside, peaks, 0)):
-            assert np.all((values <= c["v_max"][:, None] + 1e-9 * v_unit[:, None])[good])
-            assert np.all((values >= c["v_min"][:, None] - 1e-9 * v_unit[:, None])[good])
-        values = np.where(plans.used, ends[2], 0)
-        assert np.all((values <= c["a_max"][:, None] + 1e-9 * a_unit[:, None])[good])
-        assert np.all((values >= c["a_min"][:, None] - 1e-9 * a_unit[:, None])[good])
-    assert np.all(np.abs(s["jerk"]) <= c["jerk"][:, None])
-    within_a = (s["acceleration"] <= c["a_max"][:, None]) & (s["acceleration"] >= c["a_min"][:, None])
-    assert np.all(within_a[(c["jerk"] == 0) & good])
-
-
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
 def test_as_short_as_ruckigs(plan: Plan, start: str) -> None:
-    _check_segments(_check_against_ruckig(plan, _cases(1, 5000, start)), within=False)
+    check_segments(_check_against_ruckig(plan, random_cases(1, 5000, start)), within=False)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
 @pytest.mark.parametrize("seed", range(2, 8))
 def test_as_short_as_ruckigs_a_hundred_thousand_times(plan: Plan, start: str, seed: int) -> None:
-    _check_segments(_check_against_ruckig(plan, _cases(seed, 7000, start)), within=False)
+    check_segments(_check_against_ruckig(plan, random_cases(seed, 7000, start)), within=False)
 
 
 def _without_jerk(cases: Numbers) -> Numbers:
@@ -181,20 +94,20 @@ def _without_jerk(cases: Numbers) -> Numbers:
 
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
 def test_as_short_as_ruckigs_without_jerk(plan: Plan, start: str) -> None:
-    _check_segments(_check_against_ruckig(plan, _without_jerk(_cases(21, 5000, start))), within=False)
+    check_segments(_check_against_ruckig(plan, _without_jerk(random_cases(21, 5000, start))), within=False)
 
 
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
 @pytest.mark.parametrize("limited", [True, False])
 def test_velocities_as_soon_as_ruckigs(plan_velocity: Plan, start: str, limited: bool) -> None:
-    cases = _cases(22, 3000, start)
+    cases = random_cases(22, 3000, start)
     plans = _check_against_ruckig(plan_velocity, cases if limited else _without_jerk(cases), to_velocity=True)
-    _check_segments(plans, within=False)
+    check_segments(plans, within=False)
 
 
 def _check_sin2(plans: Plans) -> None:
     """Accelerations meet, and each is largest in the middle of a ramp, at the limit of its direction."""
-    _check_segments(plans, within=False)
+    check_segments(plans, within=False)
     s, c = plans.segments, plans.cases
     rises = (s["rise"] != 0) & plans.used
     assert np.all(np.where(rises, s["acceleration"] == 0, True))
@@ -207,11 +120,11 @@ def _check_sin2(plans: Plans) -> None:
 def test_sin2_is_as_short_as_straight_ramps_of_its_mean_acceleration(
     plan_sin2: Plan, plan_velocity_sin2: Plan, start: str
 ) -> None:
-    cases = _without_jerk(_cases(24, 3000, start))
+    cases = _without_jerk(random_cases(24, 3000, start))
     straight = cases.copy()
     straight[:, 8:10] *= 2 / np.pi
     for planned, to_velocity in ((plan_sin2(cases), False), (plan_velocity_sin2(cases), True)):
-        expected = np.array([_shortest(case, to_velocity) for case in straight])
+        expected = np.array([ruckigs_duration(case, to_velocity) for case in straight])
         known = ~np.isnan(expected)
         assert np.count_nonzero(known) > 0.99 * len(cases)
         np.testing.assert_allclose(planned.duration[known], expected[known], rtol=1e-6, atol=1e-9)
@@ -222,7 +135,7 @@ def test_sin2_is_as_short_as_straight_ramps_of_its_mean_acceleration(
 def test_sin2_begins_with_the_acceleration_of_the_start(
     plan_sin2: Plan, plan_velocity_sin2: Plan, start: str
 ) -> None:
-    cases = _cases(25, 3000, start)
+    cases = random_cases(25, 3000, start)
     cases[:, 5] = 0.0
     for planned in (plan_sin2(cases), plan_velocity_sin2(cases)):
         assert np.all(planned.result == PLANNED)
@@ -232,7 +145,7 @@ def test_sin2_begins_with_the_acceleration_of_the_start(
 
 
 def test_sin2_takes_no_acceleration_of_the_target(plan_sin2: Plan, plan_velocity_sin2: Plan) -> None:
-    cases = _cases(26, 1, "within")
+    cases = random_cases(26, 1, "within")
     cases[0, 5] = 0.5 * cases[0, 8]
     assert plan_sin2(cases).result.tolist() == plan_velocity_sin2(cases).result.tolist() == [4]
 
@@ -246,7 +159,7 @@ def _smooth_time(change: Numbers, a_max: Numbers, a_min: Numbers) -> Numbers:
 
 
 def _check_smooth(plans: Plans) -> None:
-    _check_segments(plans, within=False)
+    check_segments(plans, within=False)
     s, c = plans.segments, plans.cases
     bends = (s["bend"] != 0) & plans.used
     jerk = np.divide(np.pi * np.abs(s["bend"]), 2 * s["duration"], out=np.zeros_like(s["bend"]), where=bends)
@@ -260,7 +173,7 @@ def _check_smooth(plans: Plans) -> None:
 
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
 def test_smooth_ramps(plan_smooth: Plan, plan_velocity_smooth: Plan, start: str) -> None:
-    cases = _cases(27, 3000, start)
+    cases = random_cases(27, 3000, start)
     cases[:, 5] = 0.0
     for planned in (plan_smooth(cases), plan_velocity_smooth(cases)):
         assert np.all(planned.result == PLANNED)
@@ -268,7 +181,7 @@ def test_smooth_ramps(plan_smooth: Plan, plan_velocity_smooth: Plan, start: str)
 
 
 def test_smooth_velocities_take_the_time_of_their_closed_form(plan_velocity_smooth: Plan) -> None:
-    cases = _cases(28, 3000, "within")
+    cases = random_cases(28, 3000, "within")
     cases[:, [2, 5]] = 0.0
     expected = _smooth_time(cases[:, 4] - cases[:, 1], cases[:, 8], cases[:, 9])
     np.testing.assert_allclose(plan_velocity_smooth(cases).duration, expected, rtol=1e-9, atol=1e-12)
@@ -276,7 +189,7 @@ def test_smooth_velocities_take_the_time_of_their_closed_form(plan_velocity_smoo
 
 def test_smooth_positions_have_the_best_velocity_between(plan_smooth: Plan) -> None:
     """Against all velocities of a fine grid: none makes the way in less time."""
-    cases = _cases(29, 300, "within")
+    cases = random_cases(29, 300, "within")
     cases[:, [2, 5]] = 0.0
     _, v0, _, distance, v1, _, v_max, v_min, a_max, a_min, _ = cases.T[:, :, None]
     grid = np.linspace(0.0, 1.0, 20001)[None, :]
@@ -292,7 +205,7 @@ def test_smooth_positions_have_the_best_velocity_between(plan_smooth: Plan) -> N
 
 
 def test_limits_are_kept_without_jerk(plan: Plan) -> None:
-    _check_segments(plan(_without_jerk(_cases(23, 20000, "within"))), within=True)
+    check_segments(plan(_without_jerk(random_cases(23, 20000, "within"))), within=True)
 
 
 def test_positioning_with_trapezoids_and_triangles(plan: Plan) -> None:
@@ -309,15 +222,15 @@ def test_positioning_with_trapezoids_and_triangles(plan: Plan) -> None:
 
 
 def test_limits_are_kept_from_starts_that_keep_them(plan: Plan) -> None:
-    cases = _cases(9, 20000, "within")
+    cases = random_cases(9, 20000, "within")
     v0, a0, v_max, v_min = cases[:, 1], cases[:, 2], cases[:, 6], cases[:, 7]
     kept = (v0 + a0 * a0 / 2 <= v_max) & (v0 - a0 * a0 / 2 >= v_min)
-    _check_segments(plan(cases[kept]), within=True)
+    check_segments(plan(cases[kept]), within=True)
 
 
 def test_units_do_not_matter(plan: Plan) -> None:
     """Lengths from 1e-9 to 1e9, times from 1e-4 to 1e4: durations scale with the time."""
-    cases = _cases(10, 5000, "at")
+    cases = random_cases(10, 5000, "at")
     random = np.random.default_rng(11)
     length, time = 10 ** random.uniform(-9, 9, len(cases)), 10 ** random.uniform(-4, 4, len(cases))
     powers = np.array([0, 1, 2, 0, 1, 2, 1, 1, 2, 2, 3])
@@ -326,11 +239,11 @@ def test_units_do_not_matter(plan: Plan) -> None:
     both = (scaled.result == PLANNED) & (plain.result == PLANNED)
     assert np.count_nonzero(both) > 0.95 * len(cases)  # targets at a limit may round to beyond it
     np.testing.assert_allclose(scaled.duration[both] / time[both], plain.duration[both], rtol=1e-6, atol=1e-6)
-    _check_segments(scaled, within=False)
+    check_segments(scaled, within=False)
 
 
 def test_nothing_to_do_takes_no_time(plan: Plan) -> None:
-    cases = _cases(12, 2000, "within")
+    cases = random_cases(12, 2000, "within")
     cases[:, 3] = 0.0
     cases[:, 4] = cases[:, 1]
     cases[:, 2] = cases[:, 5] = 0.0
@@ -355,7 +268,7 @@ def test_nothing_to_do_takes_no_time(plan: Plan) -> None:
     ],
 )
 def test_what_cannot_be_planned_is_said(plan: Plan, column: int, value: float, result: int) -> None:
-    cases = _cases(13, 1, "within")
+    cases = random_cases(13, 1, "within")
     cases[0, column] = value
     assert plan(cases).result.tolist() == [result]
 
