@@ -1,0 +1,97 @@
+"""What SM3_Basic offers against both catalogs of the specification: the pins of both are pins of a block."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tappet.libraries import load
+from tappet.libraries.catalog import Item, Pin, items
+
+DATA = Path(__file__).parents[1] / "spec" / "data"
+CATALOGS = [
+    {item["name"].upper(): item for item in json.loads((DATA / f"{name}.json").read_text())["items"]}
+    for name in ("errors_AX3000", "AX3000", "SM3_Basic")
+]
+"""Of entries that differ the last one counts."""
+OURS = {item.name: item for item in items(load("SM3_Basic"))}
+LATER = {"aCaptDesc", "fAimPosition", "fSetJerk", "nControllerMode", "out", "in"}
+"""Members of AXIS_REF_SM3 that drives and coordinated motion will bring."""
+ZERO = {"BOOL": "FALSE", "TIME": "T#0S", "SMC_ERROR": "SMC_NO_ERROR", "LREAL": "0.0"}
+"""What a type begins with, as we write it."""
+STARTS_WITHOUT_POWER = {"nAxisState": "POWER_OFF"}
+"""The catalogs contradict each other; motion_semantics 21 decides."""
+
+
+def _expected(name: str, section: str) -> dict[str, dict[str, Any]]:
+    pins: dict[str, dict[str, Any]] = {}
+    for catalog in CATALOGS:
+        for pin in catalog.get(name.upper(), {}).get(section) or []:
+            pins[pin["name"]] = pin
+    return pins
+
+
+def _default(text: str | None, type_name: str) -> str:
+    text = (text or ZERO.get(type_name, "0")).upper().rpartition(".")[2] if not _is_number(text) else text
+    return str(float(text)) if _is_number(text) else str(text)
+
+
+def _is_number(text: str | None) -> bool:
+    try:
+        float(text or "")
+    except ValueError:
+        return False
+    return True
+
+
+def _check(name: str, ours: tuple[Pin, ...], expected: dict[str, dict[str, Any]], defaults: bool) -> None:
+    assert [pin.name for pin in ours if pin.name not in expected] == []
+    assert {*expected} - {pin.name for pin in ours} - LATER == set()
+    for pin in ours:
+        said = expected[pin.name]
+        assert pin.type.upper().replace(" ", "") == said["type"].upper().replace(" ", ""), pin.name
+        if defaults and said.get("default") is not None:
+            wanted = STARTS_WITHOUT_POWER.get(pin.name) or _default(said["default"], pin.type)
+            assert _default(pin.default, pin.type) == wanted, pin.name
+
+
+def _enumerated(item: Item) -> dict[str, int]:
+    return {value.name: int(value.value) for value in item.values}
+
+
+@pytest.mark.parametrize("name", sorted(OURS))
+def test_items_have_the_pins_of_both_catalogs(name: str) -> None:
+    ours = OURS[name]
+    assert any(name.upper() in catalog for catalog in CATALOGS)
+    values = _expected(name, "values")
+    if ours.values:
+        numbered = {text: int(value["value"]) for text, value in values.items() if value["value"] is not None}
+        found = _enumerated(ours)
+        assert {text: found[text] for text in numbered} == numbered
+        assert all(number >= 10_000 for text, number in found.items() if text not in numbered)
+        return
+    if ours.kind == "struct":
+        _check(name, ours.members, _expected(name, "members"), defaults=True)
+        return
+    inputs = _expected(name, "inputs") | _expected(name, "members")
+    _check(name, ours.inputs, inputs, defaults=True)
+    _check(name, ours.outputs, _expected(name, "outputs"), defaults=False)
+    _check(name, ours.in_out, _expected(name, "in_out"), defaults=False)
+
+
+def test_every_error_number_of_the_specification_has_its_name() -> None:
+    expected = {value["name"]: value["value"] for value in CATALOGS[-1]["SMC_ERROR"]["values"]}
+    found = _enumerated(OURS["SMC_ERROR"])
+    assert {name: found[name] for name in expected} == expected
+    assert len(set(found.values())) == len(found)
+
+
+@pytest.mark.parametrize("item", OURS.values(), ids=lambda item: item.name)
+def test_every_item_and_pin_says_what_it_is(item: Item) -> None:
+    assert item.summary
+    assert all(
+        part.comment for part in (*item.inputs, *item.outputs, *item.in_out, *item.members, *item.values)
+    )
