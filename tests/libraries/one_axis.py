@@ -53,17 +53,18 @@ VAR
     sSkipped : STRING; (* The block that is not called *)
     xReads   : BOOL := TRUE;
     xClears  : BOOL;
+    xStopsBus : BOOL; (* The axis gets no bus cycles *)
 {_INSTANCES}
 {_READERS}
 END_VAR
-Axis.BeginCycle();
+IF NOT xStopsBus THEN Axis.BeginCycle(); END_IF
 Power(Axis := Axis);
 {_CALLS}
 IF xClears THEN
     xClears := SM3_Basic.SMC_ClearFBError(ADR(Axis));
 END_IF
 {_READS}
-Axis.EndCycle();
+IF NOT xStopsBus THEN Axis.EndCycle(); END_IF
 END_PROGRAM
 """
 

@@ -172,7 +172,7 @@ def test_results_last_one_cycle_without_execute(axis: OneAxis, block: str) -> No
 
 
 def test_timing_of_stop(axis: OneAxis) -> None:
-    """Timing table of MC_Stop, EX-10: the state stays until Execute is FALSE."""
+    """Timing table of MC_Stop, motion_semantics EX-10: the state stays until Execute is FALSE."""
     axis.start("Velocity1", **RAMP)
     axis.until(lambda: "InVelocity" in axis.outputs("Velocity1"))
     axis.start("Stop1", Deceleration=100.0)
@@ -204,7 +204,7 @@ def test_stop_that_is_let_go_before_standstill(axis: OneAxis) -> None:
 
 
 def test_positioning_takes_the_time_of_the_formulas(axis: OneAxis) -> None:
-    """EX-01, EX-02: 10.5 s for 100 u, 0.447 s for 1 u more; the target is not overrun."""
+    """motion_semantics EX-01, EX-02: 10.5 s for 100 u, 0.447 s for 1 u more; the target is not overrun."""
     ramp = {"Velocity": 10.0, "Acceleration": 20.0, "Deceleration": 20.0}
     axis.start("Absolute1", Position=100.0, **ramp)
     highest = 0.0
@@ -243,7 +243,7 @@ def test_positioning_takes_the_time_of_the_formulas(axis: OneAxis) -> None:
 def test_directions_of_a_rotary_axis(
     axis: OneAxis, start_at: float, position: float, direction: str, travel: float
 ) -> None:
-    """EX-03 and ax3000 EX-AX-01."""
+    """motion_semantics EX-03 and ax3000 EX-AX-01."""
     axis.set("Axis", iMovementType=0)
     axis.start("SetPosition1", Position=start_at)
     axis.set(
@@ -272,7 +272,7 @@ def test_a_linear_axis_has_one_way(axis: OneAxis, direction: int) -> None:
 
 
 def test_absolute_twice(axis: OneAxis) -> None:
-    """EX-04."""
+    """motion_semantics EX-04."""
     ramp = {"Velocity": 3000.0, "Acceleration": 10_000.0, "Deceleration": 10_000.0}
     axis.start("Absolute1", Position=6000.0, **ramp)
     axis.until_done("Absolute1")
@@ -298,7 +298,7 @@ def test_absolute_twice(axis: OneAxis) -> None:
 
 
 def test_relative_and_additive_during_a_motion(axis: OneAxis) -> None:
-    """EX-05, EX-06: from where it is, and from the target of the motion before."""
+    """motion_semantics EX-05, EX-06: from where it is, and from the target of the motion before."""
     ramp = {"Velocity": 1000.0, "Acceleration": 10_000.0, "Deceleration": 10_000.0}
     for block, end in (("Relative2", 7250.0), ("Additive2", 10_000.0)):
         axis.start("SetPosition1", Position=0.0)
@@ -316,7 +316,7 @@ def test_relative_and_additive_during_a_motion(axis: OneAxis) -> None:
 
 
 def test_velocities_one_after_the_other(axis: OneAxis) -> None:
-    """EX-08."""
+    """motion_semantics EX-08."""
     fast = {"Velocity": 3000.0, "Acceleration": 1000.0, "Deceleration": 1000.0}
     axis.start("Velocity1", **fast)
     assert axis.until(lambda: "InVelocity" in axis.outputs("Velocity1")) == pytest.approx(3.0, abs=TWO_CYCLES)
@@ -339,7 +339,7 @@ def test_velocities_one_after_the_other(axis: OneAxis) -> None:
 
 
 def test_halt_is_interrupted(axis: OneAxis) -> None:
-    """EX-09."""
+    """motion_semantics EX-09."""
     axis.start("Velocity1", **RAMP)
     axis.after(1.5)
     axis.start("Halt1", Deceleration=100.0)
@@ -481,7 +481,7 @@ def test_no_blending_behind_a_motion_without_a_target(axis: OneAxis, before: str
 
 
 def test_position_is_set_during_a_motion(axis: OneAxis) -> None:
-    """EX-14, HOM-10: 600 u are still to go."""
+    """motion_semantics EX-14, HOM-10: 600 u are still to go."""
     axis.start("Absolute1", Position=1000.0, **RAMP)
     axis.until(lambda: axis.position >= 400.0 - 1e-6)
     axis.cycle()
@@ -498,7 +498,7 @@ def test_position_is_set_during_a_motion(axis: OneAxis) -> None:
 
 
 def test_errors_of_blocks_are_kept(axis: OneAxis) -> None:
-    """EX-12, ERR-03 to ERR-05: oldest first, until they are taken away."""
+    """motion_semantics EX-12, ERR-03 to ERR-05: oldest first, until they are taken away."""
     axis.start("Absolute1", Position=10.0, Velocity=1.0, Acceleration=0.0, Deceleration=1.0)
     assert (axis.outputs("Absolute1"), axis.text("Absolute1.ErrorID")) == (
         {"Error"},
@@ -681,6 +681,19 @@ def test_reversal_on_halt(axis: OneAxis, avoid: bool, lowest: float, seconds: fl
 
     assert axis.until(gone) == pytest.approx(seconds, abs=0.01)
     assert min(seen) == pytest.approx(lowest, abs=0.02)
+
+
+def test_readers_of_an_axis_without_a_bus(axis: OneAxis) -> None:
+    """ENA-03: the error stays as long as its cause."""
+    axis.write("xStopsBus", True)
+    axis.set("Axis", wCommunicationState=0)
+    axis.cycle()
+    for reader in ("Actual", "SetValue", "Status", "AxisError"):
+        assert axis.says(reader, "Valid", "Busy", "Error") == {"Busy", "Error"}
+        assert axis.text(f"{reader}.ErrorID") == "SMC_AXIS_IS_NOT_OPERATIONAL"
+    axis.write("xStopsBus", False)
+    axis.cycle()
+    assert axis.says("Status", "Valid", "Error", "StandStill") == {"Valid", "StandStill"}
 
 
 def test_readers_keep_or_drop_their_values(axis: OneAxis) -> None:
