@@ -1,8 +1,10 @@
-"""Libraries that a test installs go into a folder of its own."""
+"""Libraries that a test installs go into a folder of its own; an axis that can move."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests.libraries.one_axis import OneAxis, one_axis
 
 from tappet.libraries import repository
 
@@ -12,3 +14,9 @@ def library_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "libraries"
     monkeypatch.setenv(repository.LOCATION_VARIABLE, str(folder))
     return folder
+
+
+@pytest.fixture
+def axis() -> Iterator[OneAxis]:
+    with one_axis() as one:
+        yield one

@@ -30,6 +30,7 @@ READERS = {
     "Actual": ("MC_ReadActualPosition", "Enable"),
     "SetValue": ("SMC_ReadSetPosition", "Enable"),
 }
+TWO_CYCLES = 2 * CYCLE + 1e-9
 RAMP = {"Velocity": 100.0, "Acceleration": 100.0, "Deceleration": 100.0}
 STATES = (
     *("power_off", "errorstop", "stopping", "standstill"),
@@ -167,3 +168,40 @@ def one_axis(power: bool = True) -> Iterator[OneAxis]:
             axis.power()
             assert axis.state == "standstill"
         yield axis
+
+
+def start(axis: OneAxis, block: str) -> None:
+    """With inputs that suit every axis."""
+    inputs: dict[str, float] = dict(RAMP)
+    if block.startswith(("Halt", "Stop")):
+        inputs = {"Deceleration": 100.0}
+    if block.startswith("Absolute"):
+        inputs["Position"] = axis.position + 1000.0
+    if block.startswith(("Relative", "Additive")):
+        inputs["Distance"] = 1000.0
+    axis.start(block, **inputs)
+
+
+def bring(axis: OneAxis, state: str) -> None:
+    """The axis into a state."""
+    if state == "power_off":
+        axis.power(on=False)
+    elif state == "errorstop":
+        start(axis, "Velocity2")
+        axis.write("sSkipped", "Velocity2")
+        axis.cycle(2)
+        axis.write("sSkipped", "")
+        axis.set("Velocity2", Execute=False)
+        axis.cycle(2)
+    elif state == "stopping":
+        start(axis, "Velocity2")
+        axis.set("Velocity2", Execute=False)
+        axis.after(0.5)
+        start(axis, "Stop2")
+    elif state == "discrete_motion":
+        start(axis, "Absolute2")
+        axis.after(0.1)
+    elif state == "continuous_motion":
+        start(axis, "Velocity2")
+        axis.after(0.1)
+    assert axis.state == state
