@@ -16,7 +16,7 @@ DATA = Path(__file__).parents[1] / "spec" / "data"
 OPAQUE = {"SMC_CAMElement", "SMC_TAPPETDATA"}
 """Types whose members the catalogs leave open."""
 OURS = {item.name: item for item in items(load("SM3_Basic"))}
-LATER = {"aCaptDesc", "fAimPosition", "fSetJerk", "nControllerMode", "out", "in"}
+LATER = {"aCaptDesc", "out", "in"}
 """Members of AXIS_REF_SM3 that drives and coordinated motion will bring."""
 ZERO = {"BOOL": "FALSE", "TIME": "T#0S", "SMC_ERROR": "SMC_NO_ERROR", "LREAL": "0.0"}
 """What a type begins with, as we write it."""

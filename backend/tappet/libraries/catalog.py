@@ -5,7 +5,7 @@ An item has pins, types, defaults and comments, in the shape of the specificatio
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from tappet.lang import ast
@@ -58,13 +58,20 @@ class Item:
 def items(library: Library) -> list[Item]:
     """Everything the library offers, by name; what is INTERNAL in it is no business of others."""
     found: list[Item] = []
-    for source in library.sources:
+    units = [(source, parse(source).unit) for source in library.sources]
+    bases = {
+        pou.name.upper(): (source, pou)
+        for source, unit in units
+        for pou in unit.declarations
+        if isinstance(pou, ast.Pou) and pou.access == "INTERNAL"
+    }
+    for source, unit in units:
         found += parameter_lists(source)
-        for declaration in parse(source).unit.declarations:
+        for declaration in unit.declarations:
             if declaration.access == "INTERNAL":
                 continue
             if isinstance(declaration, ast.Pou):
-                found.append(_pou(source, declaration))
+                found.append(_with_hidden_bases(_pou(source, declaration), declaration, bases))
             elif isinstance(declaration, ast.TypeDecl):
                 found.append(_type(source, declaration))
             elif isinstance(declaration, ast.Interface):
@@ -87,6 +94,21 @@ def parameter_lists(source: Source) -> list[Item]:
         for declaration in parse(source).unit.declarations
         if isinstance(declaration, ast.GlobalList) and is_parameter_list(declaration)
     ]
+
+
+def _with_hidden_bases(item: Item, pou: ast.Pou, bases: dict[str, tuple[Source, ast.Pou]]) -> Item:
+    """The item with the pins that it has from INTERNAL base blocks, which are listed nowhere else."""
+    left = dict(bases)
+    while pou.extends and pou.extends.upper() in left:
+        source, pou = left.pop(pou.extends.upper())
+        base = _pou(source, pou)
+        item = replace(
+            item,
+            inputs=base.inputs + item.inputs,
+            outputs=base.outputs + item.outputs,
+            in_out=base.in_out + item.in_out,
+        )
+    return item
 
 
 def _pou(source: Source, pou: ast.Pou) -> Item:
