@@ -26,6 +26,11 @@ class Program:
         """One cycle more."""
         self._application.cycle()
 
+    def set(self, variable: str, **members: float | bool | str) -> None:
+        """Writes members of a variable."""
+        for name, value in members.items():
+            self._application.write(f"{variable}.{name}", value)
+
     def numbers(self, expression: str) -> list[float]:
         return [float(number) for number in self.literal(expression).strip("[]").split(",")]
 
