@@ -60,6 +60,8 @@ def every_kind() -> Project:
         project = edit.delete_object(project, second.id)
     add(application.id, "persistent", "Kept")
     add(application.id, "scene", "Scene")
+    pool = add(application.id, "axis_pool", "SoftMotion General Axis Pool")
+    add(pool, "axis", "Axis")
     add(None, "script", "Script")
     add(None, "page_setup", "Page Setup")
     inner = add(application.id, "application", "Second")

@@ -50,9 +50,13 @@ def test_adding_fills_in_the_template() -> None:
 @pytest.mark.parametrize("kind", kinds().values(), ids=kinds().keys())
 def test_every_template_says_what_it_is(kind: ObjectKind[Any]) -> None:
     project = new_project("x")
+    app = at(project, APP)
+    parent = app.id
+    if kind.placement.parents[0] == "axis_pool":
+        project, pool = edit.add_object(project, app.id, "axis_pool")
+        parent = pool.id
     for subkind in kind.templates:
-        app = at(project, APP)
-        project, item = edit.add_object(project, app.id, kind.name, subkind=subkind)
+        project, item = edit.add_object(project, parent, kind.name, subkind=subkind)
         plain = subkind == "variable_list"  # its kind alone determines a list without parameters
         assert item.subkind == (None if plain else subkind)
     with pytest.raises(InvalidDataError):

@@ -86,6 +86,11 @@ FOR_OTHERS = {
     # a pragma whose message is in phrases_zh.csv
     f"{{error 'The body of {PLACE} is in {PLACE}, which cannot be compiled yet; it was imported and is kept "
     "unchanged; write it in ST to run it'}",
+    f"The application has no cyclic task that could move the axis {PLACE}; add a cyclic task",
+    f"The bus task {PLACE} of the axis {PLACE} does not exist; choose another bus task",
+    f"The bus task {PLACE} of the axis {PLACE} is not cyclic; set values are computed for a fixed time, "
+    "so choose a cyclic task",
+    f"{{error '{PLACE}'}}",
     # halves of sentences that are in the table as wholes
     "placeholders are ",
     "; look-around and back references cannot be searched for", "invalid perl operator",

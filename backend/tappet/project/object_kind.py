@@ -12,7 +12,7 @@ kind imports nothing that takes long; a function that needs such a thing imports
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Generic, Literal, TypeVar, cast
@@ -122,6 +122,9 @@ class Compiled(Generic[D]):
     """A library made of the project holds the object, and an export as ST texts."""
     task: Callable[[ProjectObject], Task] | None = None
     """The task that an object is; only for objects below an application."""
+    around_tasks: Callable[[Project, ProjectObject, Sequence[Task], SourceWriter], list[Task]] | None = None
+    """The tasks of the application with what an object has them call around their programs; writes the text
+    of the programs that are called. Only for objects directly below an application."""
     libraries: Callable[[D, str], Iterable[LibraryReference]] | None = None
     """The libraries that an object needs or lists, from its data and its path in the tree."""
 

@@ -41,10 +41,18 @@ class WrittenSources:
     def __init__(self) -> None:
         self._last: dict[_Place, _Written] = {}
         self._now: dict[_Place, _Written] = {}
+        self._calls: dict[str, Source] = {}
 
     def begin(self) -> None:
         """Forget what was not asked for since the last time."""
         self._last, self._now = self._now, {}
+
+    def unchanged(self, source: Source) -> Source:
+        """The source that was written last where it is equal."""
+        known = self._calls.get(source.uri)
+        if known != source:
+            known = self._calls[source.uri] = source
+        return known
 
     def source(self, project: Project, item: ProjectObject, scope: Scope, owner: str | None) -> Source | None:
         """The text of an object; None for one without."""
@@ -84,15 +92,37 @@ def application_sources(
         hidden.update(name_key(item.name) for item in own if item.kind != FOLDER)
     shared = (item for item in in_scope_of(project, None) if not item.excluded)
     texts += _texts(project, shared, Scope.POUS, written)
-    return texts
+    calls, _ = _around_tasks(project, _application(project, application_id))
+    return texts + [written.unchanged(source) for source in calls]
 
 
 def tasks(project: Project, application_id: str) -> list[Task]:
-    """The tasks of an application in tree order.
+    """The tasks of an application in tree order, with the programs that objects have them call around
+    those of the user.
 
     An application without any task calls PLC_PRG every 20 ms if there is one (POU-07); else it has no task.
     """
-    application = _application(project, application_id)
+    return _around_tasks(project, _application(project, application_id))[1]
+
+
+def _around_tasks(project: Project, application: ProjectObject) -> tuple[list[Source], list[Task]]:
+    """The texts of the programs that objects have tasks call, and the tasks with these calls."""
+    tasks = _configured_tasks(project, application)
+    texts = []
+    for item in project.children(application.id):
+        around = None if item.excluded else compiled(item).around_tasks
+        if around is not None:
+            writer = SourceWriter()
+            tasks = around(project, item, tasks, writer)
+            text = writer.text()
+            if text:
+                uri = f"{item.name}.{application.name}"
+                texts.append(Source(uri=uri, text=text, bodies=writer.bodies(), map=writer.map()))
+    return texts, tasks
+
+
+def _configured_tasks(project: Project, application: ProjectObject) -> list[Task]:
+    """The tasks of an application as they are configured."""
     found = []
     for item in _own(project, application):
         task = compiled(item).task

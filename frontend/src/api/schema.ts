@@ -2359,6 +2359,184 @@ export interface components {
             user: components["schemas"]["Me"] | null;
         };
         /**
+         * AxisObject
+         * @description An axis; it is a global variable of its name.
+         */
+        AxisObject: {
+            data: components["schemas"]["AxisSettings"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "axis";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * AxisPoolData
+         * @description What axes of the pool have in common.
+         */
+        AxisPoolData: {
+            /**
+             * Bus Task
+             * @description Task that moves the axes; empty: the fastest cyclic one (PLC-05).
+             * @default
+             */
+            bus_task: string;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+        };
+        /**
+         * AxisPoolObject
+         * @description Holds the axes of an application that hang on no fieldbus.
+         */
+        AxisPoolObject: {
+            data: components["schemas"]["AxisPoolData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "axis_pool";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * AxisSettings
+         * @description An axis of the application (devices.md, 14.2 and 14.3).
+         */
+        AxisSettings: {
+            /**
+             * Axis Type
+             * @description Rotary with a period, or linear with ends (AXIS-11).
+             * @default modulo
+             * @enum {string}
+             */
+            axis_type: "modulo" | "finite";
+            /**
+             * Bus Task
+             * @description Task that moves the axis; empty: that of the pool, else the fastest cyclic one.
+             * @default
+             */
+            bus_task: string;
+            /**
+             * Drive
+             * @description The device that the axis moves.
+             * @default SM_Drive_Virtual
+             * @constant
+             */
+            drive: "SM_Drive_Virtual";
+            /**
+             * @default {
+             *       "acceleration": 1000000,
+             *       "deceleration": 1000000,
+             *       "jerk": 100000000,
+             *       "velocity": 10000
+             *     }
+             */
+            drive_limits: components["schemas"]["DriveLimits"];
+            /**
+             * @default {
+             *       "acceleration": 100,
+             *       "deceleration": 100,
+             *       "jerk": 100000,
+             *       "velocity": 100
+             *     }
+             */
+            dynamic_limits: components["schemas"]["DynamicLimits"];
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * Modulo
+             * @description Units of one period of a modulo axis (AXIS-13).
+             * @default 360
+             */
+            modulo: number;
+            /**
+             * Ramp Type
+             * @description Shape of velocity ramps (AXIS-15).
+             * @default trapez
+             * @enum {string}
+             */
+            ramp_type: "trapez" | "sin2" | "quadratic" | "quadratic_smooth";
+            /**
+             * @default {
+             *       "gear_motor_turns": 1,
+             *       "gear_output_turns": 1,
+             *       "increments": 65536,
+             *       "invert": false,
+             *       "motor_turns": 1,
+             *       "output_turns": 1,
+             *       "units": 360
+             *     }
+             */
+            scaling: components["schemas"]["Scaling"];
+            /**
+             * @default {
+             *       "deceleration": 0,
+             *       "enabled": false,
+             *       "negative": 0,
+             *       "positive": 1000
+             *     }
+             */
+            software_limits: components["schemas"]["SoftwareLimits"];
+            /**
+             * Stopping Distance
+             * @description Units within which the axis comes to standstill after an error, 0: by its deceleration.
+             * @default 0
+             */
+            stopping_distance: number;
+        };
+        /**
          * BodyLanguage
          * @description A language that bodies can be in.
          */
@@ -2999,6 +3177,36 @@ export interface components {
             state: string;
         };
         /**
+         * DriveLimits
+         * @description What the drive can do at most; set values beyond are errors of the axis (PRO-03, ERR-10).
+         */
+        DriveLimits: {
+            /**
+             * Acceleration
+             * @description fMaxAcceleration, in units/s².
+             * @default 1000000
+             */
+            acceleration: number;
+            /**
+             * Deceleration
+             * @description fMaxDeceleration, in units/s².
+             * @default 1000000
+             */
+            deceleration: number;
+            /**
+             * Jerk
+             * @description fMaxJerk, in units/s³.
+             * @default 100000000
+             */
+            jerk: number;
+            /**
+             * Velocity
+             * @description fMaxVelocity, in units/s.
+             * @default 10000
+             */
+            velocity: number;
+        };
+        /**
          * DutData
          * @description TYPE ... END_TYPE.
          */
@@ -3049,6 +3257,37 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * DynamicLimits
+         * @description How fast the axis moves by itself, and what SMC_CheckLimits and SMC_ControlAxisBy* take as too fast
+         *     (AXIS-14, AXIS-17).
+         */
+        DynamicLimits: {
+            /**
+             * Acceleration
+             * @description fSWMaxAcceleration, in units/s².
+             * @default 100
+             */
+            acceleration: number;
+            /**
+             * Deceleration
+             * @description fSWMaxDeceleration, in units/s².
+             * @default 100
+             */
+            deceleration: number;
+            /**
+             * Jerk
+             * @description fSWMaxJerk, in units/s³.
+             * @default 100000
+             */
+            jerk: number;
+            /**
+             * Velocity
+             * @description fSWMaxVelocity, in units/s.
+             * @default 100
+             */
+            velocity: number;
         };
         /**
          * Element
@@ -4339,7 +4578,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -5314,6 +5553,54 @@ export interface components {
             url: string;
         };
         /**
+         * Scaling
+         * @description The three lines from increments of the encoder to units of the application (AXIS-20).
+         */
+        Scaling: {
+            /**
+             * Gear Motor Turns
+             * @description Turns of the motor ...
+             * @default 1
+             */
+            gear_motor_turns: number;
+            /**
+             * Gear Output Turns
+             * @description ... for so many turns of the gear's output.
+             * @default 1
+             */
+            gear_output_turns: number;
+            /**
+             * Increments
+             * @description Increments ...
+             * @default 65536
+             */
+            increments: number;
+            /**
+             * Invert
+             * @description The motor turns the other way round.
+             * @default false
+             */
+            invert: boolean;
+            /**
+             * Motor Turns
+             * @description ... of so many turns of the motor.
+             * @default 1
+             */
+            motor_turns: number;
+            /**
+             * Output Turns
+             * @description Turns of the gear's output ...
+             * @default 1
+             */
+            output_turns: number;
+            /**
+             * Units
+             * @description ... for so many units of the application.
+             * @default 360
+             */
+            units: number;
+        };
+        /**
          * Scene
          * @description Elements in the order they are drawn.
          */
@@ -5659,6 +5946,35 @@ export interface components {
          * @enum {string}
          */
         Severity: "error" | "warning" | "info";
+        /**
+         * SoftwareLimits
+         * @description The travel range of a finite axis (AXIS-12).
+         */
+        SoftwareLimits: {
+            /**
+             * Deceleration
+             * @description With which the axis brakes at a limit, in units/s²; not less than the dynamic limit.
+             * @default 0
+             */
+            deceleration: number;
+            /**
+             * Enabled
+             * @default false
+             */
+            enabled: boolean;
+            /**
+             * Negative
+             * @description Lowest position, in units.
+             * @default 0
+             */
+            negative: number;
+            /**
+             * Positive
+             * @description Highest position, in units.
+             * @default 1000
+             */
+            positive: number;
+        };
         /**
          * SourceInfo
          * @description The archive in a controller.

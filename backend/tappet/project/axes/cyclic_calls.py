@@ -1,0 +1,103 @@
+"""The calls that axes need around the programs of their bus task, which nobody has to write.
+
+For each task that moves axes there are two programs, one before all others of the task and one behind them:
+the first takes over what the drives say, the second moves the axes on by a cycle, both in the order of the
+tree. Where no task can move an axis, an error at the axis says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from tappet.iec.task import Task
+from tappet.project.axes.settings import AxisSettings
+from tappet.project.axes.variables import real
+from tappet.project.model import Project, ProjectObject
+from tappet.project.naming import name_key
+from tappet.project.source_text import SourceWriter
+
+SOURCE_NAME = "IoConfig_Axes"
+"""Of the text with the programs."""
+_NS_PER_S = 1_000_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class _Moved:
+    """An axis and the task that moves it, or why there is none."""
+
+    axis: ProjectObject
+    task: Task | None
+    fault: str = ""
+
+
+def around_tasks(
+    project: Project, pool: ProjectObject, tasks: Sequence[Task], writer: SourceWriter
+) -> list[Task]:
+    """The tasks with the calls of the axes of a pool in them; writes the programs that are called."""
+    moved = [
+        _moved(item, pool, tasks)
+        for item in project.children(pool.id)
+        if isinstance(item.data, AxisSettings) and not item.excluded
+    ]
+    _faults(writer, [one for one in moved if one.task is None])
+    return [_with_calls(task, [one.axis for one in moved if one.task is task], writer) for task in tasks]
+
+
+def _moved(axis: ProjectObject, pool: ProjectObject, tasks: Sequence[Task]) -> _Moved:
+    """An axis with its task: its own choice, else that of the pool, else the fastest cyclic one."""
+    chosen = axis.data_as(AxisSettings).bus_task or _bus_task_of(pool)
+    if not chosen:
+        cyclic = [task for task in tasks if task.kind == "cyclic"]
+        if cyclic:
+            return _Moved(axis, min(cyclic, key=lambda task: (task.interval_ns, task.priority)))
+        return _Moved(
+            axis,
+            None,
+            f"The application has no cyclic task that could move the axis {axis.name}; add a cyclic task",
+        )
+    task = next((task for task in tasks if name_key(task.name) == name_key(chosen)), None)
+    if task is None:
+        return _Moved(
+            axis,
+            None,
+            f"The bus task {chosen} of the axis {axis.name} does not exist; choose another bus task",
+        )
+    if task.kind != "cyclic":
+        return _Moved(
+            axis,
+            None,
+            f"The bus task {task.name} of the axis {axis.name} is not cyclic; set values are computed for a "
+            "fixed time, so choose a cyclic task",
+        )
+    return _Moved(axis, task)
+
+
+def _bus_task_of(pool: ProjectObject) -> str:
+    return str(getattr(pool.data, "bus_task", ""))
+
+
+def _faults(writer: SourceWriter, moved: Sequence[_Moved]) -> None:
+    """Says at each of these axes why no task moves it."""
+    if moved:
+        writer.keyword("{attribute 'hide'}\nFUNCTION SM3_NoBusTask : BOOL")
+        for one in moved:
+            writer.part(one.axis.id, "declaration", f"{{error '{one.fault}'}}")
+        writer.keyword("END_FUNCTION")
+
+
+def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter) -> Task:
+    if not axes:
+        return task
+    cycle = real(task.interval_ns / _NS_PER_S)
+    before, behind = f"SM3_Begin_{task.name}", f"SM3_End_{task.name}"
+    _program(writer, before, axes, f"{{name}}.fTaskCycle := {cycle};\n{{name}}.BeginCycle();")
+    _program(writer, behind, axes, "{name}.EndCycle();")
+    return replace(task, programs=(before, *task.programs, behind))
+
+
+def _program(writer: SourceWriter, name: str, axes: Sequence[ProjectObject], call: str) -> None:
+    writer.keyword(f"{{attribute 'hide'}}\nPROGRAM {name}")
+    for axis in axes:
+        writer.part(axis.id, "declaration", call.format(name=axis.name))
+    writer.keyword("END_PROGRAM")

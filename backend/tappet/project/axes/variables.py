@@ -1,0 +1,66 @@
+"""The global variables that axes are: an instance of the type of their drive with the values of the editor
+(AXIS-04, AXIS-17)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from tappet.project.axes.settings import AxisSettings
+
+LIBRARY = "SM3_Basic"
+"""The library of all axes (AXIS-03, CAL-08)."""
+
+_TYPES = {"SM_Drive_Virtual": "AXIS_REF_VIRTUAL_SM3"}
+
+
+def declaration(name: str, settings: AxisSettings) -> str:
+    """One variable, ready for VAR_GLOBAL."""
+    values = ",\n".join(f"        {member} := {value}" for member, value in initial_values(settings).items())
+    return f"    {name} : {LIBRARY}.{_TYPES[settings.drive]} := (\n{values});"
+
+
+def initial_values(settings: AxisSettings) -> dict[str, str]:
+    """The members that the editor decides, as IEC literals."""
+    limits, dynamic, drive = settings.software_limits, settings.dynamic_limits, settings.drive_limits
+    ratio = settings.scaling.ratio
+    finite = settings.axis_type == "finite"
+    return {
+        "bVirtual": _flag(settings.drive == "SM_Drive_Virtual"),
+        "iMovementType": "1" if finite else "0",
+        "fPositionPeriod": real(settings.modulo),
+        "bSWLimitEnable": _flag(finite and limits.enabled),
+        "fSWLimitNegative": real(limits.negative),
+        "fSWLimitPositive": real(limits.positive),
+        "fSWLimitDeceleration": real(limits.deceleration),
+        "fSWMaxVelocity": real(dynamic.velocity),
+        "fSWMaxAcceleration": real(dynamic.acceleration),
+        "fSWMaxDeceleration": real(dynamic.deceleration),
+        "fSWMaxJerk": real(dynamic.jerk),
+        "fMaxVelocity": real(drive.velocity),
+        "fMaxAcceleration": real(drive.acceleration),
+        "fMaxDeceleration": real(drive.deceleration),
+        "fMaxJerk": real(drive.jerk),
+        "eRampType": f"{LIBRARY}.SMC_RAMPTYPE.{settings.ramp_type}",
+        "fSWErrorMaxDistance": real(settings.stopping_distance),
+        "iRatioTechUnitsNum": str(ratio.numerator),
+        "dwRatioTechUnitsDenom": str(ratio.denominator),
+        "fScalefactor": real(float(1 / _signed(settings))),
+    }
+
+
+def _signed(settings: AxisSettings) -> Fraction:
+    exact = settings.scaling.units_per_increment
+    return -exact if settings.scaling.invert else exact
+
+
+def _flag(value: bool) -> str:
+    return "TRUE" if value else "FALSE"
+
+
+def real(value: float) -> str:
+    """A number as LREAL literal."""
+    text = repr(float(value)).upper()
+    mantissa, exponent, power = text.partition("E")
+    if "." not in mantissa:
+        mantissa += ".0"
+    return mantissa + exponent + power

@@ -1,0 +1,28 @@
+"""An axis of the SoftMotion General Axis Pool (AXIS-01, AXIS-04)."""
+
+from __future__ import annotations
+
+from tappet.project.axes.settings import AxisSettings
+from tappet.project.naming import name_key
+from tappet.project.object_kind import Compiled, Naming, ObjectKind, Placement, Renaming
+
+
+def _bus_task_renamed(data: AxisSettings, renaming: Renaming) -> AxisSettings:
+    if renaming.kind != "task" or name_key(renaming.old) != name_key(data.bus_task):
+        return data
+    return data.model_copy(update={"bus_task": renaming.new})
+
+
+AXIS = ObjectKind(
+    name="axis",
+    words="axis",
+    description="An axis; it is a global variable of its name.",
+    data=AxisSettings,
+    placement=Placement(parents=("axis_pool",), in_folders=False),
+    naming=Naming(proposal="Axis"),
+    order=156,
+    templates={"SM_Drive_Virtual": lambda name: AxisSettings()},
+    compiled=Compiled(in_parent=True),
+    follow=_bus_task_renamed,
+    reported=True,
+)

@@ -1,0 +1,182 @@
+"""Axes in the tree and what the compiler gets of them (devices.md AXIS-01, AXIS-04, AXIS-13, AXIS-17,
+AXIS-20, AXIS-21; motion_semantics CAL-08)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from tests.project.axis_projects import moving, with_axes
+
+from tappet.cli.inputs import project_applications
+from tappet.codegen.build import BuildResult, build_application
+from tappet.project import edit
+from tappet.project.axes.settings import Scaling
+from tappet.project.axes.variables import real
+from tappet.project.errors import InvalidDataError, NotPlaceableError
+from tappet.project.model import Project, ProjectObject
+from tappet.project.sources import WrittenSources, application_sources, libraries, tasks
+
+
+def only(project: Project, kind: str) -> ProjectObject:
+    (found,) = project.find_kind(kind)
+    return found
+
+
+def application_id(project: Project) -> str:
+    return only(project, "application").id
+
+
+def build(project: Project) -> BuildResult:
+    (one,) = project_applications(project)
+    return build_application(one.sources, one.tasks, options=replace(one.options, level=1))
+
+
+def errors(project: Project) -> list[str]:
+    return [d.message for d in build(project).diagnostics if d.severity == "error"]
+
+
+def test_the_pool_stands_once_below_an_application_and_takes_axes() -> None:
+    project = with_axes("Drive")
+    pool = only(project, "axis_pool")
+    assert pool.name == "SoftMotion General Axis Pool"
+    with pytest.raises(NotPlaceableError, match="only one is possible"):
+        edit.add_object(project, application_id(project), "axis_pool")
+    with pytest.raises(NotPlaceableError, match=r"belongs below axis pool"):
+        edit.add_object(project, application_id(project), "axis", "Other")
+
+
+def test_an_axis_brings_its_library() -> None:
+    project = with_axes("Drive")
+    assert "SM3_Basic" in [reference.name for reference in libraries(project, application_id(project))]
+    assert errors(moving(project)) == []
+
+
+def test_the_bus_task_calls_axes_around_its_programs_in_tree_order() -> None:
+    project = with_axes("Drive", "Other")
+    (task,) = tasks(project, application_id(project))
+    assert task.programs == ("SM3_Begin_MainTask", "PLC_PRG", "SM3_End_MainTask")
+    text = application_sources(project, application_id(project))[-1].text
+    assert text.index("Drive.BeginCycle") < text.index("Other.BeginCycle") < text.index("Drive.EndCycle")
+    assert text.index("Drive.EndCycle") < text.index("Other.EndCycle")
+    assert "Drive.fTaskCycle := 0.02;" in text
+
+
+def test_an_axis_is_moved_by_the_fastest_cyclic_task_unless_told_otherwise() -> None:
+    project = moving(with_axes("Drive", "Other"))
+    configuration = only(project, "task_configuration")
+    fast = {"interval": "T#1ms", "pous": []}
+    project, _ = edit.add_object(project, configuration.id, "task", "Fast", data=fast)
+    main, other = tasks(project, application_id(project))
+    assert main.programs == ("PLC_PRG",)
+    assert other.programs == ("SM3_Begin_Fast", "SM3_End_Fast")
+    pool = only(project, "axis_pool")
+    project = edit.change_data(project, pool.id, {"bus_task": "maintask"})
+    assert tasks(project, application_id(project))[0].programs[0] == "SM3_Begin_MainTask"
+    axis = project.children(pool.id)[1]
+    project = edit.change_data(project, axis.id, {**axis.data.model_dump(), "bus_task": "Fast"})
+    assert [len(task.programs) for task in tasks(project, application_id(project))] == [3, 2]
+    assert errors(project) == []
+
+
+def test_a_chosen_bus_task_follows_its_name() -> None:
+    project = with_axes("Drive", bus_task="MainTask")
+    project = edit.rename_object(project, only(project, "task").id, "Motion")
+    assert only(project, "axis").data.model_dump()["bus_task"] == "Motion"
+
+
+@pytest.mark.parametrize(
+    ("task", "chosen", "message"),
+    [
+        ({"type": "freewheeling"}, "MainTask", "The bus task MainTask of the axis Drive is not cyclic"),
+        ({"type": "event", "event": "PLC_PRG.x"}, "", "The application has no cyclic task"),
+        ({}, "Nowhere", "The bus task Nowhere of the axis Drive does not exist"),
+    ],
+)
+def test_an_axis_without_a_cyclic_task_is_an_error_at_the_axis(
+    task: dict[str, Any], chosen: str, message: str
+) -> None:
+    project = with_axes("Drive", bus_task=chosen)
+    data = {**only(project, "task").data.model_dump(), **task}
+    project = edit.change_data(project, only(project, "task").id, data)
+    found = [d for d in build(project).diagnostics if d.severity == "error" and message in d.message]
+    assert len(found) == 1
+    source = next(s for s in application_sources(project, application_id(project)) if s.uri == found[0].uri)
+    assert source.segments[0].object_id == only(project, "axis").id
+
+
+def test_an_application_without_any_task_says_so() -> None:
+    project = with_axes("Drive")
+    project = edit.delete_object(project, only(project, "task").id)
+    project = edit.delete_object(project, only(project, "pou").id)
+    assert any("has no cyclic task" in message for message in errors(project))
+
+
+def test_what_is_excluded_is_not_moved() -> None:
+    project = with_axes("Drive", "Other")
+    axes = project.find_kind("axis")
+    project = edit.exclude_object(project, axes[0].id, True)
+    assert all("Drive" not in source.text for source in application_sources(project, application_id(project)))
+    project = edit.exclude_object(project, only(project, "axis_pool").id, True)
+    assert tasks(project, application_id(project))[0].programs == ("PLC_PRG",)
+
+
+def test_equal_texts_stay_the_same_object() -> None:
+    """An edit elsewhere does not have the analysis read them again."""
+    project = with_axes("Drive")
+    written = WrittenSources()
+    first = application_sources(project, application_id(project), written)
+    second = application_sources(moving(project), application_id(project), written)
+    assert [a is b for a, b in zip(first, second, strict=True)] == [False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "place"),
+    [
+        ("modulo", 0, "modulo"),
+        ("modulo", math.nan, "modulo"),
+        ("dynamic_limits", {"velocity": 0}, "velocity"),
+        ("drive_limits", {"jerk": -1}, "jerk"),
+        ("scaling", {"increments": 0}, "increments"),
+        ("scaling", {"units": 0}, "units"),
+        ("software_limits", {"enabled": True, "negative": 5, "positive": 5}, "negative software limit"),
+        ("drive", "SM_Drive_Elsewhere", "drive"),
+    ],
+)
+def test_impossible_settings_are_refused_by_name(field: str, value: Any, place: str) -> None:
+    with pytest.raises(InvalidDataError, match=place):
+        with_axes("Drive", **{field: value})
+
+
+def test_scaling_as_in_the_manual() -> None:
+    """devices EX-05: 3600 increments a turn in radians; 4096 increments a turn in degrees."""
+    radians = Scaling(increments=3600, units=2 * math.pi)
+    assert float(radians.units_per_increment) == pytest.approx(0.001745329, rel=1e-6)
+    assert float(radians.ratio) == pytest.approx(2 * math.pi / 3600, rel=1e-9)
+    degrees = Scaling(increments=4096, units=360)
+    assert 1024 * degrees.units_per_increment == 90
+    assert degrees.ratio == Fraction(360, 4096)
+    assert Scaling(increments=4096, units=360, invert=True).ratio == Fraction(-360, 4096)
+    geared = Scaling(increments=1000, gear_motor_turns=10, gear_output_turns=3, output_turns=2, units=5)
+    assert geared.units_per_increment == Fraction(3, 10) * Fraction(5, 2) / 1000
+
+
+@pytest.mark.parametrize("units", [1e-9, 1e-3, 1 / 3, math.e, 1e6, 1e12])
+@pytest.mark.parametrize("increments", [1, 65536, 2**31 - 1])
+def test_the_ratio_fits_into_its_members(units: float, increments: int) -> None:
+    scaling = Scaling(increments=increments, units=units)
+    ratio = scaling.ratio
+    assert 1 <= ratio.numerator <= 2**31 - 1
+    assert 1 <= ratio.denominator <= 2**32 - 1
+    if 1e-6 < float(scaling.units_per_increment) < 1e6:
+        assert float(ratio) == pytest.approx(float(scaling.units_per_increment), rel=1e-3)
+
+
+@pytest.mark.parametrize("value", [0.0, 1e-05, 1e300, 0.1, -2.5, 123456789.0, 1e16])
+def test_numbers_are_literals(value: float) -> None:
+    text = real(value)
+    assert "." in text.partition("E")[0]
+    assert float(text) == value
