@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.libraries.beyond_the_catalogs import BLOCKS, ENUMERATIONS, PINS_ADDED
 
 from tappet.libraries import load
 from tappet.libraries.catalog import Item, Pin, items
@@ -20,7 +21,7 @@ BEYOND = {
     *("SMC_CAMEvaluate", "SMC_CAMValues"),
 }
 """What the library has beyond the catalogs."""
-PINS_BEYOND: dict[str, set[str]] = {}
+PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
 """Pins that a block has beyond the catalogs."""
 OURS = {item.name: item for item in items(load("SM3_Basic"))}
 LATER = {"aCaptDesc", "out", "in"}
@@ -94,7 +95,7 @@ def _enumerated(item: Item) -> dict[str, int]:
     return {value.name: int(value.value) for value in item.values}
 
 
-@pytest.mark.parametrize("name", sorted(OURS))
+@pytest.mark.parametrize("name", sorted({*OURS} - {*BLOCKS} - {*ENUMERATIONS}))
 def test_items_have_the_pins_of_both_catalogs(name: str) -> None:
     ours = OURS[name]
     if name in BEYOND:
@@ -124,6 +125,25 @@ def test_items_have_the_pins_of_both_catalogs(name: str) -> None:
     _check(name, ours.inputs, inputs, defaults=True)
     _check(name, ours.outputs, _expected(name, "outputs"), defaults=False)
     _check(name, ours.in_out, _expected(name, "in_out"), defaults=False)
+
+
+@pytest.mark.parametrize("name", sorted(BLOCKS))
+def test_blocks_beyond_the_catalogs_have_the_pins_of_their_source(name: str) -> None:
+    ours, expected = OURS[name], BLOCKS[name]
+    assert {pin.name: pin.type for pin in ours.inputs} == expected["inputs"]
+    assert {pin.name: pin.type for pin in ours.outputs} == expected["outputs"]
+    assert {pin.name: pin.type for pin in ours.in_out} == expected["in_out"]
+
+
+@pytest.mark.parametrize("name", sorted(ENUMERATIONS))
+def test_enumerations_beyond_the_catalogs_have_the_numbers_of_their_source(name: str) -> None:
+    assert _enumerated(OURS[name]) == ENUMERATIONS[name]
+
+
+@pytest.mark.parametrize("name", sorted(PINS_ADDED))
+def test_pins_that_plcopen_adds_are_there(name: str) -> None:
+    ours = {pin.name: pin.type for pin in (*OURS[name].inputs, *OURS[name].outputs)}
+    assert {pin: ours.get(pin) for pin in PINS_ADDED[name]} == PINS_ADDED[name]
 
 
 def test_every_error_number_of_the_specification_has_its_name() -> None:
