@@ -57,9 +57,9 @@ PROFILES = {
     "Accelerations": ("MC_AccelerationProfile", "TimeAcceleration", "MC_TA_REF"),
 }
 BLOCKS = OF_MASTER | COUPLINGS | OF_SLAVE | RELEASES | {name: block for name, (block, *_) in PROFILES.items()}
-_OUTPUTS = {
-    item.name: [pin.name for pin in item.outputs if pin.type == "BOOL"] for item in items(load("SM3_Basic"))
-}
+_ITEMS = {item.name: item for item in items(load("SM3_Basic"))}
+_OUTPUTS = {name: [pin.name for pin in item.outputs if pin.type == "BOOL"] for name, item in _ITEMS.items()}
+_EXECUTES = {name: item.inputs[0].name for name, item in _ITEMS.items() if item.inputs}
 _AXIS = f"(fTaskCycle := {CYCLE}, fMaxVelocity := 1E5, fMaxAcceleration := 1E7, fMaxDeceleration := 1E7)"
 _INSTANCES = "\n".join(f"    {name} : SM3_Basic.{block};" for name, block in BLOCKS.items())
 _TABLES = "\n".join(f"    {name}Table : SM3_Basic.{table};" for name, (_, _, table) in PROFILES.items())
@@ -132,15 +132,7 @@ class CoupledAxes:
 
     def start(self, block: str, **inputs: float | bool | str) -> None:
         """Gives a block its inputs and a rising edge, and has one cycle."""
-        self.set(
-            block,
-            **inputs,
-            **{
-                "bExecute"
-                if BLOCKS[block].startswith("SMC_") and block[:4] not in ("Thro",)
-                else "Execute": True
-            },
-        )
+        self.set(block, **inputs, **{_EXECUTES[BLOCKS[block]]: True})
         self.cycle()
 
     def release(self, block: str) -> None:

@@ -300,3 +300,17 @@ def test_position_is_set_during_a_motion(axis: OneAxis) -> None:
     axis.start("SetPosition1", Position=10.0, Mode=True)
     axis.cycle()
     assert axis.position == pytest.approx(1010.0 - before[1], abs=1e-9)
+
+
+def test_a_move_by_nothing_needs_no_velocity(axis: OneAxis) -> None:
+    """ax3000 EX-AX-03."""
+    axis.start("Relative1", Distance=50.0, Velocity=0.0, Acceleration=1.0, Deceleration=1.0)
+    assert (axis.outputs("Relative1"), axis.text("Relative1.ErrorID")) == (
+        {"Error"},
+        "SMC_MR_INVALID_VELACC_VALUES",
+    )
+    axis.set("Relative1", Execute=False)
+    axis.cycle()
+    axis.start("Relative1", Distance=0.0)
+    assert axis.until_done("Relative1", 0.01) <= TWO_CYCLES
+    assert (axis.state, axis.position) == ("standstill", 0.0)
