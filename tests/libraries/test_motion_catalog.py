@@ -19,6 +19,7 @@ OPAQUE = {"SMC_CAMElement", "SMC_TAPPETDATA"}
 BEYOND = {
     *("SMC_CAM_TYPE", "SMC_CAM_SEGMENT_TYPE", "SMC_CAM_SEGMENT"),
     *("SMC_CAMEvaluate", "SMC_CAMValues"),
+    *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
 }
 """What the library has beyond the catalogs."""
 PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
