@@ -119,7 +119,10 @@ def test_what_is_excluded_is_not_moved() -> None:
     project = with_axes("Drive", "Other")
     axes = project.find_kind("axis")
     project = edit.exclude_object(project, axes[0].id, True)
-    assert all("Drive" not in source.text for source in application_sources(project, application_id(project)))
+    assert all(
+        "Drive.EndCycle" not in source.text
+        for source in application_sources(project, application_id(project))
+    )
     project = edit.exclude_object(project, only(project, "axis_pool").id, True)
     assert tasks(project, application_id(project))[0].programs == ("PLC_PRG",)
 

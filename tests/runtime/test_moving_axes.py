@@ -86,3 +86,46 @@ def test_after_a_download_axes_have_no_power() -> None:
         positions(runtime, 3)
         assert runtime.literal("Drive.nAxisState") == "power_off"
         assert runtime.literal("Drive.bRegulatorOn") == "FALSE"
+
+
+def test_the_runtime_stops_axes_by_their_ramp() -> None:
+    """INF-08: fSWMaxDeceleration is 20, so an axis at 10 needs 2.5."""
+    project = moving(with_axes("Drive", dynamic_limits={"deceleration": 20.0}))
+    with LocalRuntime(package(project)) as runtime:
+        runtime.run(cycles=100)
+        assert runtime.read("Drive.fSetVelocity") == 10.0
+        before = float(runtime.literal("Drive.fSetPosition"))
+        trace = runtime.trace(["Drive.fSetPosition"], task="MainTask")
+        runtime.stop()
+        places = [before] + [sample.values["Drive.fSetPosition"] for sample in trace.collect()]
+        assert runtime.state == "stop"
+        assert no_step(places)
+        assert places[-1] - before == pytest.approx(10.0 * 10.0 / (2 * 20.0), rel=0.1)
+        assert runtime.read("Drive.fSetVelocity") == 0.0
+        runtime.start()
+        again = positions(runtime, 250)  # the enable of the drive came back, which is the edge of the move
+        assert no_step([places[-1], *again])
+        assert again[-1] == pytest.approx(50.0)
+
+
+def test_an_axis_that_stands_does_not_delay_a_stop() -> None:
+    with LocalRuntime(package(moving(with_axes("Drive")))) as runtime:
+        runtime.run(cycles=400)
+        now = runtime.now_ns
+        runtime.stop()
+        assert runtime.now_ns - now < 6 * CYCLE * 1e9
+        assert runtime.plc.log.since()[-1].message == "Application stopped"
+
+
+def test_a_stop_does_not_wait_for_an_axis_that_is_not_moved() -> None:
+    """Its task has a longer interval than one waits."""
+    project = with_axes("Drive")
+    task = project.find_kind("task")[0]
+    project = edit.change_data(project, task.id, {**task.data.model_dump(), "interval": "T#1h"})
+    with LocalRuntime(package(project)) as runtime:
+        runtime.stop()
+        assert runtime.state == "stop"
+        assert [entry.message for entry in runtime.plc.log.since()][-2:] == [
+            "stopped although not all axes stand",
+            "Application stopped",
+        ]

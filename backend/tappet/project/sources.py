@@ -117,7 +117,7 @@ def _around_tasks(project: Project, application: ProjectObject) -> tuple[list[So
             text = writer.text()
             if text:
                 uri = f"{item.name}.{application.name}"
-                texts.append(Source(uri=uri, text=text, bodies=writer.bodies(), map=writer.map()))
+                texts.append(Source(uri=uri, text=text, name=writer.name, map=writer.map()))
     return texts, tasks
 
 

@@ -41,6 +41,7 @@ from tappet.runtime.reports import build_report
 from tappet.runtime.retain import Kept, load_retain, matching, persistent_of, remove_retain
 from tappet.runtime.retain_groups import check_room
 from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
+from tappet.runtime.standstill import stop_axes
 from tappet.runtime.state import ResetKind, RuntimeInfo, State
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.threads import NORMAL, Scheduling
@@ -202,16 +203,21 @@ class SoftPlc(ApplicationAccess):
             self.poll()
 
     def stop(self) -> None:
-        """Complete the running cycles, then call no program; values stay."""
+        """Complete the running cycles, then call no program; values stay. Axes come to standstill before."""
+        was_running = self.state == "run"
+        self._stop_axes()
         with self._lock:
             application = self._need()
-            was_running = application.tasks.state == RUNNING
             application.tasks.stop()
             self._save_retain()
             self._mark.settle()
             if was_running:
                 self.log.add("info", "application", f"{application.package.application} stopped")
                 self._notify("state")
+
+    def _stop_axes(self) -> None:
+        """The controlled stop of the axes; others are served meanwhile."""
+        stop_axes(lambda: self.application, self._lock, self.log)
 
     def reset(self, kind: str) -> None:
         """Back to initial values as the table of remanent variables says (PERS-02); the application is
@@ -222,6 +228,7 @@ class SoftPlc(ApplicationAccess):
         """
         if kind not in get_args(ResetKind):
             raise PlcError(f"unknown reset '{kind}'; known are warm, cold and origin")
+        self._stop_axes()
         with self._lock:
             application = self._need()
             if kind == "origin":
@@ -388,6 +395,7 @@ class SoftPlc(ApplicationAccess):
 
     def _unload(self, application: LoadedApplication, *, leave: bool) -> None:
         """End an application; with `leave` its FB_Exit methods are called."""
+        self._stop_axes()
         application.tasks.stop()
         application.log.collect(self.log)
         if leave and application.tasks.state != FAULTED:
@@ -487,6 +495,7 @@ class SoftPlc(ApplicationAccess):
 
     def close(self) -> None:
         """Stop the application, save its remanent values and release everything."""
+        self._stop_axes()
         with self._lock:
             application = self.application
             if application is None:

@@ -1593,6 +1593,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/axes/{axis}/panel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Steer Axis
+         * @description Take control of an axis (`force`: also while a command of the program moves it), or move it.
+         */
+        post: operations["steer_axis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/axes/{axis}/panel/alive": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Keep Axis
+         * @description Say that one is there, at least once a second as long as one wants control.
+         */
+        post: operations["keep_axis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/axes/{axis}/panel/stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stop Axis
+         * @description Stop an axis that one controls; with `release` the program has it again then.
+         */
+        post: operations["stop_axis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/boot-application": {
         parameters: {
             query?: never;
@@ -3948,6 +4008,14 @@ export interface components {
         };
         JsonValue: unknown;
         /**
+         * KeepAxis
+         * @description Say that one is there, at least once a second as long as one wants control.
+         */
+        KeepAxis: {
+            /** @description Number that the page has made up. */
+            holder: number;
+        };
+        /**
          * LibraryDetail
          * @description A library with everything in it.
          */
@@ -4842,6 +4910,14 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * PanelStatus
+         * @description Who moves the axis.
+         */
+        PanelStatus: {
+            holder: number;
+            state: string;
         };
         /**
          * ParameterValue
@@ -6099,6 +6175,36 @@ export interface components {
              * @default true
              */
             with_build: boolean;
+        };
+        /**
+         * SteerAxis
+         * @description Take control of an axis (`force`: also while a command of the program moves it), or move it.
+         */
+        SteerAxis: {
+            /** @default 100 */
+            acceleration?: number;
+            /** @enum {unknown} */
+            action: "force" | "jog_backward" | "jog_end" | "jog_forward" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
+            /** @default 100 */
+            deceleration?: number;
+            /** @description Number that the page has made up. */
+            holder: number;
+            /** @default 10000 */
+            jerk?: number;
+            /** @default 0 */
+            position?: number;
+            /** @default 10 */
+            velocity?: number;
+        };
+        /**
+         * StopAxis
+         * @description Stop an axis that one controls; with `release` the program has it again then.
+         */
+        StopAxis: {
+            /** @description Number that the page has made up. */
+            holder: number;
+            /** @default false */
+            release?: boolean;
         };
         /**
          * StoredSource
@@ -10607,6 +10713,141 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    steer_axis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                axis: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SteerAxis"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PanelStatus"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    keep_axis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                axis: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["KeepAxis"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PanelStatus"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    stop_axis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                axis: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StopAxis"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PanelStatus"];
+                };
             };
             /** @description The request was refused */
             422: {

@@ -1,8 +1,9 @@
 """The calls that axes need around the programs of their bus task, which nobody has to write.
 
 For each task that moves axes there are two programs, one before all others of the task and one behind them:
-the first takes over what the drives say, the second moves the axes on by a cycle, both in the order of the
-tree. Where no task can move an axis, an error at the axis says why.
+the first takes over what the drives say, the second lets their panels act and moves the axes on by a cycle,
+both in the order of the tree. With `xStop` of the second the runtime asks for a controlled stop before it
+stops (INF-08). Where no task can move an axis, an error at the axis says why.
 """
 
 from __future__ import annotations
@@ -12,14 +13,33 @@ from dataclasses import dataclass, replace
 
 from tappet.iec.task import Task
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import real
+from tappet.project.axes.variables import LIBRARY, real
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.source_text import SourceWriter
 
-SOURCE_NAME = "IoConfig_Axes"
-"""Of the text with the programs."""
+PANELS = "IoConfig_AxisPanels"
+"""The list of the panels, each with the name of its axis."""
 _NS_PER_S = 1_000_000_000
+_BEGIN = """{{axis}}.fTaskCycle := {cycle};
+{{axis}}.BeginCycle();"""
+_END = f"""IF {PANELS}.{{axis}}.xUsed THEN
+    {PANELS}.{{axis}}(Axis := {{axis}});
+END_IF
+IF xStop THEN
+    {{axis}}.bDriveStart := FALSE;
+    xMoves := xMoves OR ABS({{axis}}.fSetVelocity) > 0.0;
+END_IF
+{{axis}}.EndCycle();"""
+_END_VARIABLES = """VAR
+    xStop : BOOL;
+    xMoves : BOOL;
+    udiStood : UDINT;
+END_VAR
+xMoves := FALSE;"""
+_END_LAST = """IF xStop THEN
+    udiStood := SEL(xMoves, udiStood + 1, 0);
+END_IF"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +60,8 @@ def around_tasks(
         for item in project.children(pool.id)
         if isinstance(item.data, AxisSettings) and not item.excluded
     ]
+    writer.name = PANELS
+    _panels(writer, moved)
     _faults(writer, [one for one in moved if one.task is None])
     return [_with_calls(task, [one.axis for one in moved if one.task is task], writer) for task in tasks]
 
@@ -91,13 +113,28 @@ def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter)
         return task
     cycle = real(task.interval_ns / _NS_PER_S)
     before, behind = f"SM3_Begin_{task.name}", f"SM3_End_{task.name}"
-    _program(writer, before, axes, f"{{name}}.fTaskCycle := {cycle};\n{{name}}.BeginCycle();")
-    _program(writer, behind, axes, "{name}.EndCycle();")
+    _program(writer, f"PROGRAM {before}", axes, _BEGIN.format(cycle=cycle))
+    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", axes, _END, _END_LAST)
     return replace(task, programs=(before, *task.programs, behind))
 
 
-def _program(writer: SourceWriter, name: str, axes: Sequence[ProjectObject], call: str) -> None:
-    writer.keyword(f"{{attribute 'hide'}}\nPROGRAM {name}")
+def _program(
+    writer: SourceWriter, head: str, axes: Sequence[ProjectObject], call: str, last: str = ""
+) -> None:
+    writer.keyword(f"{{attribute 'hide'}}\n{head}")
     for axis in axes:
-        writer.part(axis.id, "declaration", call.format(name=axis.name))
+        writer.part(axis.id, "declaration", call.format(axis=axis.name))
+    writer.keyword(last or None)
     writer.keyword("END_PROGRAM")
+
+
+def _panels(writer: SourceWriter, moved: Sequence[_Moved]) -> None:
+    """The panels of the axes that are moved; they cost one look a cycle as long as nobody uses them."""
+    axes = [one.axis for one in moved if one.task is not None]
+    if axes:
+        writer.keyword("{attribute 'qualified_only'}\nVAR_GLOBAL")
+        for axis in axes:
+            writer.part(
+                axis.id, "declaration", f"    {{attribute 'hide'}}\n    {axis.name} : {LIBRARY}.AxisPanel;"
+            )
+        writer.keyword("END_VAR")
