@@ -70,6 +70,16 @@ class CProgram:
         library = directory / f"{source.stem}.so"
         command = [gcc, "-O2", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"]
         subprocess.run(command, check=True, capture_output=True)  # noqa: S603 - our own file and arguments
+        self._load(library)
+
+    @classmethod
+    def compiled(cls, library: Path) -> CProgram:
+        """The same of a shared library that was made in another way."""
+        program = cls.__new__(cls)
+        program._load(library)
+        return program
+
+    def _load(self, library: Path) -> None:
         self._library = ctypes.CDLL(str(library))
         self.cycle = ctypes.cast(self._library.cycle, ctypes.c_void_p).value or 0
 

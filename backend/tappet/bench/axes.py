@@ -1,0 +1,256 @@
+"""Cost of axes: in standstill, in motion, coupled, with a new command, and of building 100 of them.
+
+An axis has its PLCopen state machine, its monitoring, MC_Power and the block that moves it, called in every
+cycle. What it is measured against: docs/benchmarks.md. Bars: docs/architecture.md, section 4.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import shutil
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from tappet.bench.native import CProgram, NativeLoop, gcc_version, scratch_directory
+from tappet.bench.report import Report, Row
+from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task
+from tappet.lang.source import Source
+from tappet.runtime.flight import FlightSettings
+from tappet.runtime.local import LocalRuntime
+
+MOTION = Path(__file__).resolve().parent / "motion"
+AXES = 1000
+ROUNDS = 15
+CYCLES = 40
+"""Cycles of one timed round."""
+RUCKIG = "baseline: C++ Ruckig"
+BAR = "moving with limited jerk at most 200 ns, a new command at most 20 us, re-planning at most 2 x Ruckig"
+DISCRETE_MOTION, SYNCHRONIZED_MOTION = 4, 6
+RAMP_TYPES = ("trapez", "sin2", "quadratic", "quadratic_smooth")
+_HEAD = """PROGRAM Main
+VAR
+    Axis   : ARRAY [1..{axes}] OF SM3_Basic.AXIS_REF_VIRTUAL_SM3;
+    Power  : ARRAY [1..{axes}] OF SM3_Basic.MC_Power;
+    i      : INT;
+    xGo    : BOOL;
+    xAgain : BOOL; (* An edge in every second cycle *)
+    rtRamp : SM3_Basic.SMC_RAMPTYPE;
+    fTarget, fSpeed, fRamp, fJerk : LREAL;
+    result : LREAL;
+{variables}
+END_VAR
+IF xAgain THEN
+    xGo := NOT xGo;
+    fTarget := SEL(xGo, fTarget, 2010.0 - fTarget);
+END_IF
+FOR i := 1 TO {axes} DO
+    Axis[i].eRampType := rtRamp;
+    Axis[i].fTaskCycle := 0.001;
+    Axis[i].fMaxVelocity := 1E9;
+    Axis[i].fMaxAcceleration := 1E9;
+    Axis[i].fMaxDeceleration := 1E9;
+    Axis[i].BeginCycle();
+    Power[i](Axis := Axis[i], Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
+END_FOR
+{calls}
+FOR i := 1 TO {axes} DO
+    Axis[i].EndCycle();
+END_FOR
+result := Axis[{axes}].fSetPosition;
+END_PROGRAM
+"""
+
+
+def program(axes: int, variables: str, calls: str) -> str:
+    """A program with axes, `{axes}` in the parts being their number."""
+    parts = {"variables": variables.format(axes=axes), "calls": calls.format(axes=axes)}
+    return _HEAD.format(axes=axes, **parts)
+
+
+MOVES = (
+    "    Move : ARRAY [1..{axes}] OF SM3_Basic.MC_MoveAbsolute;",
+    """FOR i := 1 TO {axes} DO
+    Move[i](Axis := Axis[i], Execute := xGo, Position := fTarget, Velocity := fSpeed, Acceleration := fRamp,
+        Deceleration := fRamp, Jerk := fJerk);
+END_FOR""",
+)
+GEARS = (
+    "    Lead : SM3_Basic.MC_MoveVelocity;\n    Gear : ARRAY [1..{axes}] OF SM3_Basic.MC_GearIn;",
+    """Lead(Axis := Axis[1], Execute := xGo, Velocity := 100.0, Acceleration := 1.0, Deceleration := 1.0);
+FOR i := 2 TO {axes} DO
+    Gear[i](Master := Axis[1], Slave := Axis[i], Execute := xGo, RatioNumerator := 2, Acceleration := 1E6,
+        Deceleration := 1E6);
+END_FOR""",
+)
+
+
+@contextmanager
+def running(text: str) -> Iterator[tuple[LocalRuntime, int]]:
+    """The program in the soft PLC, stopped, with the address of its cycle; ValueError if it is wrong."""
+    runtime = LocalRuntime(built(text), flight=FlightSettings(memory=0), start=False)
+    try:
+        application = runtime.plc.application
+        assert application is not None
+        yield runtime, application.code[runtime.package.tasks[0].symbol]
+    finally:
+        runtime.close()
+
+
+def built(text: str) -> CodePackage:
+    """The application of a program; raises ValueError with its first error."""
+    options = BuildOptions(libraries=(LibraryReference("SM3_Basic"),))
+    source = Source(uri="Main.st", text=text, name="Main")
+    result = build_application(
+        [source], [Task("Task", programs=("Main",))], options=options, session=BuildSession()
+    )
+    if result.package is None:
+        raise ValueError(str(next(d for d in result.diagnostics if d.severity == "error")))
+    return result.package
+
+
+def _expect(runtime: LocalRuntime, path: str, state: int) -> None:
+    if runtime.read(path) != state:
+        raise ValueError(f"{path} is {runtime.read(path)}, not {state}: something else was measured")
+
+
+def _nanoseconds(loop: NativeLoop, cycle: int, axes: int, rounds: int = ROUNDS) -> float:
+    """Of one axis in one cycle, the fastest round."""
+    return min(loop.seconds(cycle, CYCLES) for _ in range(rounds)) / CYCLES / axes * 1e9
+
+
+def moving(loop: NativeLoop, ramp: int, axes: int = AXES) -> tuple[float, float, float]:
+    """Nanoseconds of an axis and cycle in standstill and in motion, and microseconds of a new command."""
+    with running(program(axes, *MOVES)) as (runtime, cycle):
+        for name, value in (("fTarget", 1e9), ("fSpeed", 1e6), ("fRamp", 20.0), ("fJerk", 1e-2)):
+            runtime.write(f"Main.{name}", value)
+        runtime.write("Main.rtRamp", ramp)
+        loop.seconds(cycle, 5)
+        standing = _nanoseconds(loop, cycle, axes)
+        runtime.write("Main.xGo", True)
+        command = loop.seconds(cycle, 1) / axes * 1e6
+        loop.seconds(cycle, 2)
+        in_motion = _nanoseconds(loop, cycle, axes)
+        _expect(runtime, "Main.Axis[1].nAxisState", DISCRETE_MOTION)
+    return standing, in_motion, command
+
+
+def replanning(loop: NativeLoop, axes: int = AXES) -> float:
+    """Microseconds of a command with limited jerk to an axis in motion, above those of moving."""
+    with running(program(axes, *MOVES)) as (runtime, cycle):
+        for name, value in (("fTarget", 1e3), ("fSpeed", 50.0), ("fRamp", 20.0), ("fJerk", 200.0)):
+            runtime.write(f"Main.{name}", value)
+        runtime.write("Main.rtRamp", RAMP_TYPES.index("quadratic"))
+        loop.seconds(cycle, 5)
+        runtime.write("Main.xGo", True)
+        loop.seconds(cycle, 2)
+        alone = _nanoseconds(loop, cycle, axes)
+        runtime.write("Main.xAgain", True)
+        return 2 * (_nanoseconds(loop, cycle, axes) - alone) / 1000
+
+
+def coupled(loop: NativeLoop, parts: tuple[str, str], axes: int = AXES) -> float:
+    """Nanoseconds of a slave and cycle while the master accelerates."""
+    with running(program(axes, *parts)) as (runtime, cycle):
+        loop.seconds(cycle, 5)
+        runtime.write("Main.xGo", True)
+        loop.seconds(cycle, 5)
+        found = _nanoseconds(loop, cycle, axes)
+        _expect(runtime, "Main.Axis[2].nAxisState", SYNCHRONIZED_MOTION)
+    return found
+
+
+def ruckig(directory: Path) -> CProgram | None:
+    """The moves of `replanning` in C++; None without g++ or the wheel of Ruckig, which has the library."""
+    found = importlib.util.find_spec("ruckig")
+    if found is None or found.origin is None or shutil.which("g++") is None:
+        return None
+    library = Path(found.origin)
+    target = directory / "ruckig_replan.so"
+    command = [
+        "g++",
+        "-O2",
+        "-std=c++20",
+        "-shared",
+        "-fPIC",
+        f"-I{library.parent / 'include'}",
+        "-o",
+        str(target),
+    ]
+    command += [str(MOTION / "ruckig_replan.cpp"), "-Wl,--unresolved-symbols=ignore-all", str(library)]
+    command += [f"-Wl,-rpath,{library.parent}"]
+    importlib.import_module("ruckig")
+    done = subprocess.run(command, check=False, capture_output=True)  # noqa: S603 - our own file and arguments
+    return CProgram.compiled(target) if done.returncode == 0 else None
+
+
+def _base(loop: NativeLoop, program: CProgram | None, count: int, divisor: float) -> float | None:
+    if program is None:
+        return None
+    loop.seconds(program.cycle, count)
+    return min(loop.seconds(program.cycle, count) for _ in range(ROUNDS)) / count / divisor
+
+
+def project(axes: int = 100) -> Row:
+    """Seconds to build a project with axes and a block each, and the memory of its variables."""
+    start = time.process_time()
+    package = built(program(axes, *MOVES))
+    seconds = time.process_time() - start
+    size = package.image_size
+    return Row(
+        f"build of {axes} axes",
+        seconds,
+        None,
+        "s",
+        f"{size / 1024:,.0f} KiB of variables, {size // axes} B an axis",
+    )
+
+
+def run(only: Sequence[str] = ()) -> Report:
+    """All rows, or those of the parts that are named: moving, count, gears, replan, build."""
+    loop = NativeLoop()
+    compiler = gcc_version()
+    with scratch_directory() as scratch:
+        directory = Path(scratch)
+        segments = CProgram(MOTION / "segments.c", directory) if compiler else None
+        evaluated = _base(loop, segments, CYCLES, AXES / 1e9)
+        parts: dict[str, Callable[[], list[Row]]] = {
+            "moving": lambda: _moving_rows(loop, evaluated),
+            "count": lambda: [
+                Row(f"moving, quadratic, {axes} axes", moving(loop, 2, axes)[1], evaluated, "ns")
+                for axes in (1, 10, 100, 10_000)
+            ],
+            "gears": lambda: [Row("slave of a gear", coupled(loop, GEARS), evaluated, "ns")],
+            "replan": lambda: [
+                Row(
+                    "re-planning in flight, quadratic",
+                    replanning(loop),
+                    _ruckig_time(loop, directory),
+                    "us",
+                    RUCKIG,
+                )
+            ],
+            "build": lambda: [project()],
+        }
+        rows = [row for name, part in parts.items() if not only or name in only for row in part()]
+    remark = () if compiler else ("gcc is not installed: no baseline",)
+    return Report(
+        "axes", f"segments evaluated in C, {compiler} -O2" if compiler else "none", rows, BAR, remark
+    )
+
+
+def _moving_rows(loop: NativeLoop, evaluated: float | None) -> list[Row]:
+    rows = []
+    for number, name in enumerate(RAMP_TYPES):
+        standing, in_motion, command = moving(loop, number)
+        rows.append(Row(f"moving, {name}", in_motion, evaluated, "ns", f"in standstill {standing:.0f} ns"))
+        rows.append(Row(f"new command, {name}", command, None, "us", f"to {AXES:,} axes in one cycle"))
+    return rows
+
+
+def _ruckig_time(loop: NativeLoop, directory: Path) -> float | None:
+    return _base(loop, ruckig(directory), 1000, 1e-6)

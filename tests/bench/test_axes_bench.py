@@ -1,0 +1,61 @@
+"""What `tappet bench axes` measures moves as it says; how fast it is is looked at, never asserted."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from ruckig import InputParameter, Ruckig, Trajectory
+
+from tappet.bench import axes
+from tappet.bench.native import CProgram, NativeLoop, gcc_version
+
+
+@pytest.mark.parametrize("ramp", range(len(axes.RAMP_TYPES)))
+def test_axes_are_measured_in_motion(ramp: int) -> None:
+    assert all(value > 0.0 for value in axes.moving(NativeLoop(), ramp, 10))
+
+
+def test_slaves_are_measured_in_gear() -> None:
+    assert axes.coupled(NativeLoop(), axes.GEARS, 10) > 0.0
+
+
+def test_slaves_that_are_not_in_gear_are_not_measured() -> None:
+    variables, calls = axes.GEARS
+    refused = calls.replace("RatioNumerator := 2", "RatioDenominator := 0")
+    with pytest.raises(ValueError, match="something else was measured"):
+        axes.coupled(NativeLoop(), (variables, refused), 10)
+
+
+@pytest.mark.skipif(shutil.which("g++") is None, reason="the C++ version needs g++")
+def test_the_moves_in_c_are_those_of_the_wheel(tmp_path: Path) -> None:
+    program = axes.ruckig(tmp_path)
+    assert program is not None
+    given = InputParameter(1)
+    given.max_velocity, given.max_acceleration, given.max_jerk = [50.0], [20.0], [200.0]
+    trajectory = Trajectory(1)
+    for number in range(4):
+        if number:
+            position, velocity, acceleration = trajectory.at_time(0.002)
+            given.current_position = position
+            given.current_velocity = velocity
+            given.current_acceleration = acceleration
+        given.target_position = [1000.0 if number % 2 == 0 else 1010.0]
+        Ruckig(1).calculate(given, trajectory)
+        NativeLoop().seconds(program.cycle, 1)
+        assert program.result == pytest.approx(trajectory.duration, rel=1e-12)
+
+
+@pytest.mark.skipif(gcc_version() is None, reason="the baseline needs gcc")
+def test_the_baseline_follows_its_segments(tmp_path: Path) -> None:
+    program = CProgram(axes.MOTION / "segments.c", tmp_path)
+    NativeLoop().seconds(program.cycle, 1000)
+    time = 1.0
+    assert program.result == pytest.approx(time * 1000.0 + time**2 + 1e-3 / 6.0, rel=1e-12)
+
+
+def test_a_project_of_axes_is_built() -> None:
+    row = axes.project(5)
+    assert row.ours > 0.0
+    assert "an axis" in row.note
