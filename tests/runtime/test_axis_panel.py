@@ -16,7 +16,7 @@ from tappet.runtime.operations.axis_panel import Action, KeepAxis, SteerAxis, St
 from tappet.runtime.operations.declaration import OperationError
 
 ME, ANOTHER = 7, 8
-PATIENCE = round(1.0 / CYCLE)
+PATIENCE = round(2.0 / CYCLE)
 
 
 @cache

@@ -1,0 +1,62 @@
+import { ofKind } from '@/api/objects';
+import { useText } from '@/i18n';
+import { objectIcon } from '@/project/kinds';
+import type { EditorProps } from '@/project/editorProps';
+import { useObjectSession } from '@/online/useObjectSession';
+import { FormPage } from '@/editors/form/FormPage';
+import styles from '@/editors/form/Form.module.css';
+import { useDraft } from '@/editors/form/useDraft';
+import { Tabs } from '@/ui/Tabs';
+import { BasicPage } from './BasicPage';
+import { CommissioningPage } from './CommissioningPage';
+import { InformationPage } from './InformationPage';
+import { canStore } from './model';
+import { ParametersPage } from './ParametersPage';
+import { ScalingPage } from './ScalingPage';
+import { StatusPage } from './StatusPage';
+
+const AxisIcon = objectIcon('axis');
+
+/** The pages of an axis (devices.md, 14.2 and 14.3); while logged in the ones that show and move it are in front. */
+export default function AxisEditor({ panelId, projectId, objectId }: EditorProps) {
+  const t = useText();
+  const draft = useDraft(panelId, projectId, objectId, ofKind('axis'), canStore);
+  const session = useObjectSession(projectId, draft.object);
+  const name = draft.object?.name ?? '';
+  const form = (Page: typeof BasicPage) => (
+    <FormPage draft={draft}>
+      {(axis) => (
+        <>
+          <h1 className={styles.title}>
+            <AxisIcon size={20} />
+            {name}
+          </h1>
+          <Page
+            projectId={projectId}
+            objectId={objectId}
+            axis={axis}
+            disabled={draft.readOnly !== null}
+            change={(changes) => draft.change({ ...axis, ...changes })}
+          />
+        </>
+      )}
+    </FormPage>
+  );
+  const pages = [
+    { id: 'basic', title: t('axis.page.basic'), content: form(BasicPage) },
+    { id: 'scaling', title: t('axis.page.scaling'), content: form(ScalingPage) },
+    {
+      id: 'commissioning',
+      title: t('axis.page.commissioning'),
+      content: <CommissioningPage session={session} name={name} settings={draft.data} />,
+    },
+    { id: 'parameters', title: t('axis.page.parameters'), content: <ParametersPage session={session} name={name} /> },
+    { id: 'status', title: t('axis.page.status'), content: <StatusPage session={session} name={name} /> },
+    {
+      id: 'information',
+      title: t('axis.page.information'),
+      content: <InformationPage name={name} drive={draft.data?.drive} />,
+    },
+  ];
+  return <Tabs pages={pages} initial="basic" />;
+}

@@ -1,0 +1,108 @@
+import { describe, expect, it } from 'vitest';
+import {
+  axisFaults,
+  beyondDrive,
+  canStore,
+  numberText,
+  typedNumber,
+  unitsPerIncrement,
+  type AxisSettings,
+} from './model';
+
+const LIMITS = { velocity: 100, acceleration: 100, deceleration: 100, jerk: 1e5 };
+
+function axis(changes: Partial<AxisSettings> = {}): AxisSettings {
+  return {
+    drive: 'SM_Drive_Virtual',
+    axis_type: 'modulo',
+    modulo: 360,
+    software_limits: { enabled: false, negative: 0, positive: 1000, deceleration: 0 },
+    dynamic_limits: LIMITS,
+    drive_limits: { velocity: 1e4, acceleration: 1e6, deceleration: 1e6, jerk: 1e8 },
+    ramp_type: 'trapez',
+    stopping_distance: 0,
+    scaling: {
+      increments: 65536,
+      motor_turns: 1,
+      gear_motor_turns: 1,
+      gear_output_turns: 1,
+      output_turns: 1,
+      units: 360,
+      invert: false,
+    },
+    bus_task: '',
+    ...changes,
+  };
+}
+
+const scaled = (changes: Partial<AxisSettings['scaling']>) => ({ ...axis().scaling, ...changes });
+
+describe('settings of an axis', () => {
+  it('are taken as they come', () => {
+    expect(axisFaults(axis())).toEqual({});
+    expect(canStore(axis())).toBe(true);
+  });
+
+  it('are refused field by field', () => {
+    expect(axisFaults(axis({ modulo: 0 }))).toEqual({ modulo: 'axis.fault.modulo' });
+    expect(axisFaults(axis({ modulo: Number.NaN }))).toEqual({ modulo: 'axis.fault.modulo' });
+    expect(axisFaults(axis({ dynamic_limits: { ...LIMITS, velocity: 0 } }))).toEqual({
+      'dynamic.velocity': 'axis.fault.positive',
+    });
+    expect(axisFaults(axis({ drive_limits: { ...LIMITS, jerk: -1 } }))).toEqual({
+      'drive.jerk': 'axis.fault.positive',
+    });
+    expect(axisFaults(axis({ scaling: scaled({ increments: 0, motor_turns: 1.5, units: 0 }) }))).toEqual({
+      increments: 'axis.fault.count',
+      motor_turns: 'axis.fault.count',
+      units: 'axis.fault.positive',
+    });
+    expect(axisFaults(axis({ stopping_distance: -1 }))).toEqual({ stopping_distance: 'axis.fault.notNegative' });
+  });
+
+  it('have a travel range where it is watched', () => {
+    const limits = { enabled: true, negative: 5, positive: 5, deceleration: 0 };
+    expect(axisFaults(axis({ software_limits: limits }))).toEqual({ positive: 'axis.fault.range' });
+    expect(axisFaults(axis({ software_limits: { ...limits, enabled: false } }))).toEqual({});
+    expect(axisFaults(axis({ software_limits: { ...limits, negative: Number.NaN } }))).toEqual({
+      negative: 'axis.fault.number',
+    });
+  });
+
+  it('warn of limits that the drive does not reach', () => {
+    expect(beyondDrive(axis())).toEqual([]);
+    expect(beyondDrive(axis({ dynamic_limits: { ...LIMITS, velocity: 1e5 } }))).toEqual(['velocity']);
+  });
+});
+
+describe('scaling', () => {
+  it('is that of the manual (devices EX-05)', () => {
+    expect(unitsPerIncrement(scaled({ increments: 3600, units: 6.283185307 }))).toBeCloseTo(0.001745329, 9);
+    expect(1024 * unitsPerIncrement(scaled({ increments: 4096 }))).toBe(90);
+    expect(1024 * unitsPerIncrement(scaled({ increments: 4096, invert: true }))).toBe(-90);
+    expect(
+      unitsPerIncrement(
+        scaled({ increments: 1000, gear_motor_turns: 10, gear_output_turns: 3, output_turns: 2, units: 5 }),
+      ),
+    ).toBeCloseTo(0.00075, 12);
+  });
+});
+
+describe('numbers', () => {
+  it('are read as they are typed', () => {
+    expect([' 12 ', '1,5', '-1e3', '.5', '5.'].map(typedNumber)).toEqual([12, 1.5, -1000, 0.5, 5]);
+    expect(['', 'abc', '1 2', '1,2,3', 'Infinity', '0x10'].map(typedNumber).every(Number.isNaN)).toBe(true);
+  });
+
+  it('are shown with the digits that they need', () => {
+    expect([360, 0.1 + 0.2, 1e-9, 2.5e12, 0, -1.5].map(numberText)).toEqual([
+      '360',
+      '0.3',
+      '1e-9',
+      '2.5e+12',
+      '0',
+      '-1.5',
+    ]);
+    expect(numberText(Number.NaN)).toBe('');
+  });
+});
