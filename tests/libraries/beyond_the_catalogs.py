@@ -97,5 +97,11 @@ PINS_ADDED: dict[str, dict[str, str]] = {
     "MC_PositionProfile": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},
     "MC_VelocityProfile": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},
     "MC_AccelerationProfile": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},
+    "MC_CamIn": {
+        "MasterStartDistance": "LREAL",
+        "MasterSyncPosition": "LREAL",
+        "BufferMode": "MC_BUFFER_MODE",
+        "Active": "BOOL",
+    },
 }
 """Pins of blocks of the catalogs that PLCopen has, and the catalogs have not."""
