@@ -51,52 +51,54 @@ function Commissioning({ session, name, settings }: { session: OnlineSession; na
       <LostBar session={session} />
       <div className={form.inner} data-wide>
         <div className={styles.commissioning}>
-          <Section title={t('axis.stateTitle')}>
-            <StateDiagram state={state} />
-            {failed && <ErrorBox runtimeId={runtimeId} expression={`${axis}.eFailure`} />}
-          </Section>
-          <Section title={t('axis.values')}>
-            <Facts>
-              <Fact
-                text={t('axis.value.setPosition')}
-                unit="u"
-                runtimeId={runtimeId}
-                expression={`${axis}.fSetPosition`}
-              />
-              <Fact
-                text={t('axis.value.actPosition')}
-                unit="u"
-                runtimeId={runtimeId}
-                expression={`${axis}.fActPosition`}
-              />
-              <Fact
-                text={t('axis.value.setVelocity')}
-                unit="u/s"
-                runtimeId={runtimeId}
-                expression={`${axis}.fSetVelocity`}
-              />
-              <Fact
-                text={t('axis.value.actVelocity')}
-                unit="u/s"
-                runtimeId={runtimeId}
-                expression={`${axis}.fActVelocity`}
-              />
-              <Fact
-                text={t('axis.value.setAcceleration')}
-                unit="u/s²"
-                runtimeId={runtimeId}
-                expression={`${axis}.fSetAcceleration`}
-              />
-              <Fact
-                text={t('axis.value.actAcceleration')}
-                unit="u/s²"
-                runtimeId={runtimeId}
-                expression={`${axis}.fActAcceleration`}
-              />
-            </Facts>
-          </Section>
+          <div className={styles.column}>
+            <Section title={t('axis.stateTitle')}>
+              <StateDiagram state={state} />
+              {failed && <ErrorBox runtimeId={runtimeId} expression={`${axis}.eFailure`} />}
+            </Section>
+            <Section title={t('axis.values')}>
+              <Facts>
+                <Fact
+                  text={t('axis.value.setPosition')}
+                  unit="u"
+                  runtimeId={runtimeId}
+                  expression={`${axis}.fSetPosition`}
+                />
+                <Fact
+                  text={t('axis.value.actPosition')}
+                  unit="u"
+                  runtimeId={runtimeId}
+                  expression={`${axis}.fActPosition`}
+                />
+                <Fact
+                  text={t('axis.value.setVelocity')}
+                  unit="u/s"
+                  runtimeId={runtimeId}
+                  expression={`${axis}.fSetVelocity`}
+                />
+                <Fact
+                  text={t('axis.value.actVelocity')}
+                  unit="u/s"
+                  runtimeId={runtimeId}
+                  expression={`${axis}.fActVelocity`}
+                />
+                <Fact
+                  text={t('axis.value.setAcceleration')}
+                  unit="u/s²"
+                  runtimeId={runtimeId}
+                  expression={`${axis}.fSetAcceleration`}
+                />
+                <Fact
+                  text={t('axis.value.actAcceleration')}
+                  unit="u/s²"
+                  runtimeId={runtimeId}
+                  expression={`${axis}.fActAcceleration`}
+                />
+              </Facts>
+            </Section>
+          </div>
+          <ControlSection session={session} name={name} settings={settings} />
         </div>
-        <ControlSection session={session} name={name} settings={settings} />
       </div>
     </div>
   );

@@ -8,7 +8,6 @@ import { useCommandContext } from '@/workbench/useCommandContext';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { atLeast } from '@/workbench/rights';
 import { Section } from '@/editors/form/FormPage';
-import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { useAxisControl, type Motion, type SteerAction } from './control';
 import { ErrorBox } from './ErrorBox';
@@ -108,7 +107,7 @@ export function ControlSection({ session, name, settings }: ControlProps) {
         <JogButton forward={false} disabledReason={movable} steer={(action) => control.steer(action, motion(0))} />
         <JogButton forward disabledReason={movable} steer={(action) => control.steer(action, motion(0))} />
       </div>
-      <div className={form.fields}>
+      <div className={styles.motion}>
         <NumberField label={t('axis.target')} unit="u" value={position} onValue={setPosition} />
         <NumberField label={t('axis.distance')} unit="u" value={distance} onValue={setDistance} />
         <NumberField label={t('axis.limit.velocity')} unit="u/s" value={velocity} onValue={setVelocity} />
