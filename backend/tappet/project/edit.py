@@ -24,6 +24,7 @@ from tappet.project.placement import (
     owner_of,
     proposed_name,
 )
+from tappet.project.renamed_variable import users_renamed
 from tappet.project.templates import new_data
 
 AnyData = Data | Mapping[str, Any]
@@ -244,7 +245,22 @@ def _following(project: Project, renamed: ProjectObject, name: str) -> list[Proj
         data = kind.follow(item.data, renaming)
         if data is not item.data:
             changed.append(changed_object(item, data=data))
+    lists = _lists_of(renamed)
+    if lists:
+        changed += users_renamed(
+            project,
+            project.walk(application.id if application else None),
+            (*lists, *((application.name,) if application else ())),
+            renamed.name,
+            name,
+        )
     return changed
+
+
+def _lists_of(item: ProjectObject) -> tuple[str, ...]:
+    """The lists in which an object is a global variable."""
+    kind = kind_of(item)
+    return () if kind is None else kind.compiled.variable_in
 
 
 def _free_name(site: Site, item: ProjectObject) -> str:

@@ -125,6 +125,8 @@ class Compiled(Generic[D]):
     around_tasks: Callable[[Project, ProjectObject, Sequence[Task], SourceWriter], list[Task]] | None = None
     """The tasks of the application with what an object has them call around their programs; writes the text
     of the programs that are called. Only for objects directly below an application."""
+    variable_in: tuple[str, ...] = ()
+    """The lists in which the object is a global variable of its name; texts follow when it is renamed."""
     libraries: Callable[[D, str], Iterable[LibraryReference]] | None = None
     """The libraries that an object needs or lists, from its data and its path in the tree."""
 

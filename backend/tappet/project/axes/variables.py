@@ -9,6 +9,8 @@ from tappet.project.axes.settings import AxisSettings
 
 LIBRARY = "SM3_Basic"
 """The library of all axes (AXIS-03, CAL-08)."""
+VARIABLES = "IoConfig_Globals"
+"""The list of global variables that the axes are in."""
 
 _TYPES = {"SM_Drive_Virtual": "AXIS_REF_VIRTUAL_SM3"}
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from tappet.project.axes.cyclic_calls import PANELS
 from tappet.project.axes.settings import AxisSettings
+from tappet.project.axes.variables import VARIABLES
 from tappet.project.naming import name_key
 from tappet.project.object_kind import Compiled, Naming, ObjectKind, Placement, Renaming
 
@@ -22,7 +24,7 @@ AXIS = ObjectKind(
     naming=Naming(proposal="Axis"),
     order=156,
     templates={"SM_Drive_Virtual": lambda name: AxisSettings()},
-    compiled=Compiled(in_parent=True),
+    compiled=Compiled(in_parent=True, variable_in=(VARIABLES, PANELS)),
     follow=_bus_task_renamed,
     reported=True,
 )

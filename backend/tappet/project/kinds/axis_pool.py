@@ -6,16 +6,13 @@ from pydantic import Field
 
 from tappet.project.axes.cyclic_calls import around_tasks
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import LIBRARY, declaration
+from tappet.project.axes.variables import LIBRARY, VARIABLES, declaration
 from tappet.project.data import CodeData, Line
 from tappet.project.library_reference import LibraryReference
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.object_kind import Compiled, Merging, Naming, ObjectKind, Placement, Renaming
 from tappet.project.source_text import SourceWriter
-
-VARIABLES = "IoConfig_Globals"
-"""The list of global variables that the axes are in."""
 
 
 class AxisPoolData(CodeData):
