@@ -53,6 +53,9 @@ def test_projects(admin: TestClient, press: str) -> None:
     problem(admin.post(f"{API}/projects", json={"name": "x", "template": "other"}), 422, "invalid-request")
     empty = admin.post(f"{API}/projects", json={"name": "Empty", "template": "empty"}).json()
     assert admin.get(f"{API}/projects/{empty['id']}/objects").json() == []
+    motion = admin.post(f"{API}/projects", json={"name": "Motion", "template": "motion"}).json()
+    kinds = {item["kind"] for item in admin.get(f"{API}/projects/{motion['id']}/objects").json()}
+    assert {"axis_pool", "axis", "pou", "task"} <= kinds
     changed = admin.patch(press, json={"name": "Stamp"}).json()
     assert (changed["name"], changed["description"]) == ("Stamp", "line 3")
     problem(admin.get(f"{API}/projects/{'0' * 32}"), 404, "unknown-project")

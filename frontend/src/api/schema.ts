@@ -571,7 +571,8 @@ export interface paths {
         put?: never;
         /**
          * Create Project
-         * @description Make a project: with a soft PLC, PLC_PRG and a task that calls it, or empty.
+         * @description Make a project: with a soft PLC, PLC_PRG and a task that calls it, with an axis that they move, or
+         *     empty.
          */
         post: operations["create_project"];
         delete?: never;
@@ -4538,7 +4539,8 @@ export interface components {
         };
         /**
          * NewProject
-         * @description A project to be made: empty, or with a soft PLC, an application and a first program.
+         * @description A project to be made: empty, with a soft PLC, an application and a first program, or with an axis that
+         *     moves, too.
          */
         NewProject: {
             /**
@@ -4553,7 +4555,7 @@ export interface components {
              * @default standard
              * @enum {string}
              */
-            template?: "standard" | "empty";
+            template?: "standard" | "motion" | "empty";
         };
         /**
          * NewRuntime

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated
 from urllib.parse import quote
 
@@ -11,6 +12,7 @@ from fastapi.responses import Response
 from tappet.iec.languages import languages
 from tappet.project.folder import read_zip, write_zip
 from tappet.project.model import Project
+from tappet.project.motion_project import motion_project
 from tappet.project.placement import PlacementRule, placement_rules
 from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
@@ -31,6 +33,8 @@ from tappet.server.shapes import Number
 
 router = Router(tags=["projects"])
 
+_TEMPLATES: dict[str, Callable[[str, str], Project]] = {"motion": motion_project, "empty": Project}
+"""What new projects begin with that are not the standard one of the store."""
 MAX_ARCHIVE_BYTES = 64 << 20
 """Largest archive that is taken; what it may unpack to is limited by `folder.archive`."""
 
@@ -51,8 +55,10 @@ def create_project(
     body: NewProject,
     store: StoreDep,
 ) -> ProjectSummary:
-    """Make a project: with a soft PLC, PLC_PRG and a task that calls it, or empty."""
-    content = Project(body.name, body.description) if body.template == "empty" else None
+    """Make a project: with a soft PLC, PLC_PRG and a task that calls it, with an axis that they move, or
+    empty."""
+    begin = _TEMPLATES.get(body.template)
+    content = None if begin is None else begin(body.name, body.description)
     act.begin(Act("project-created", body.name))
     info = store.create_project(body.name, act.who.username, description=body.description, content=content)
     act.resulted(subject=info.name, project_id=info.id)

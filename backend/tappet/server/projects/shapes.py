@@ -26,11 +26,12 @@ class ProjectSummary(Reply):
 
 
 class NewProject(Request):
-    """A project to be made: empty, or with a soft PLC, an application and a first program."""
+    """A project to be made: empty, with a soft PLC, an application and a first program, or with an axis that
+    moves, too."""
 
     name: Name
     description: str = ""
-    template: Literal["standard", "empty"] = "standard"
+    template: Literal["standard", "motion", "empty"] = "standard"
 
 
 class ProjectChange(Request):

@@ -104,6 +104,8 @@ export function ControlSection({ session, name, settings }: ControlProps) {
         <Button icon={RotateCcw} disabledReason={inControl} onClick={() => control.steer('reset')}>
           {t('axis.reset')}
         </Button>
+      </div>
+      <div className={styles.buttons}>
         <JogButton forward={false} disabledReason={movable} steer={(action) => control.steer(action, motion(0))} />
         <JogButton forward disabledReason={movable} steer={(action) => control.steer(action, motion(0))} />
       </div>

@@ -20,7 +20,7 @@ const descriptor: ObjectKindDescriptor = {
   ),
   compiled: true,
   editor: onDemand(() => import('./AxisPoolEditor')),
-  tree: { openAtFirst: true, fixedName: 'SoftMotion General Axis Pool' },
+  tree: { openAtFirst: true, fixedName: 'SoftMotion General Axis Pool', outsidePaths: true },
 };
 
 export default descriptor;

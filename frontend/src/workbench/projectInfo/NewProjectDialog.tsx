@@ -15,7 +15,7 @@ export function newProject(): Promise<ProjectSummary | undefined> {
   return openDialog<ProjectSummary>((close) => <NewProjectDialog close={close} />);
 }
 
-const TEMPLATES = ['standard', 'empty'] as const;
+const TEMPLATES = ['standard', 'motion', 'empty'] as const;
 
 function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void }) {
   const t = useText();
