@@ -13,6 +13,8 @@ from tests.project.axis_projects import moving, with_axes
 
 from tappet.cli.inputs import project_applications
 from tappet.codegen.build import BuildResult, build_application
+from tappet.lang.coding_settings import static_analysis
+from tappet.lang.diagnostics import TABLE
 from tappet.project import edit
 from tappet.project.axes.settings import Scaling
 from tappet.project.axes.variables import real
@@ -106,6 +108,14 @@ def test_an_axis_without_a_cyclic_task_is_an_error_at_the_axis(
     assert len(found) == 1
     source = next(s for s in application_sources(project, application_id(project)) if s.uri == found[0].uri)
     assert source.segments[0].object_id == only(project, "axis").id
+
+
+def test_coding_rules_of_users_say_nothing_about_what_they_did_not_write() -> None:
+    rules = {code: "warning" for code in TABLE if code.startswith("S")}
+    (one,) = project_applications(moving(with_axes("Drive", "Other")))
+    options = replace(one.options, level=1, static=static_analysis(rules, {}, {}))
+    found = build_application(one.sources, one.tasks, options=options).diagnostics
+    assert {d.uri for d in found} == {"PLC_PRG", ""}
 
 
 def test_an_application_without_any_task_says_so() -> None:

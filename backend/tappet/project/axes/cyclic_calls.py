@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from tappet.iec.task import Task
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import LIBRARY, real
+from tappet.project.axes.variables import LIBRARY, NOT_WRITTEN_BY_HAND, real
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.source_text import SourceWriter
@@ -60,7 +60,10 @@ def around_tasks(
         for item in project.children(pool.id)
         if isinstance(item.data, AxisSettings) and not item.excluded
     ]
+    if not moved:
+        return list(tasks)
     writer.name = PANELS
+    writer.keyword(NOT_WRITTEN_BY_HAND)
     _panels(writer, moved)
     _faults(writer, [one for one in moved if one.task is None])
     return [_with_calls(task, [one.axis for one in moved if one.task is task], writer) for task in tasks]

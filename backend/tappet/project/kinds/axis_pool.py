@@ -6,7 +6,7 @@ from pydantic import Field
 
 from tappet.project.axes.cyclic_calls import around_tasks
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import LIBRARY, VARIABLES, declaration
+from tappet.project.axes.variables import LIBRARY, NOT_WRITTEN_BY_HAND, VARIABLES, declaration
 from tappet.project.data import CodeData, Line
 from tappet.project.library_reference import LibraryReference
 from tappet.project.model import Project, ProjectObject
@@ -29,7 +29,7 @@ def _source(project: Project, pool: ProjectObject, writer: SourceWriter) -> None
     if not axes:
         return
     writer.name = VARIABLES
-    writer.keyword("VAR_GLOBAL")
+    writer.keyword(f"{NOT_WRITTEN_BY_HAND}\nVAR_GLOBAL")
     for axis in axes:
         writer.part(axis.id, "declaration", declaration(axis.name, axis.data_as(AxisSettings)))
     writer.keyword("END_VAR")
