@@ -42,6 +42,19 @@ def problem(answer: Any, status: int, kind: str) -> dict[str, Any]:
     return body
 
 
+def test_projects_begin_as_examples(admin: TestClient) -> None:
+    examples = {item["name"]: item for item in admin.get(f"{API}/examples").json()}
+    assert {"bottling", "flying_shear", "pick_and_place", "rotary_knife"} <= examples.keys()
+    assert all(item["title"] and item["description"] for item in examples.values())
+    made = admin.post(f"{API}/projects", json={"name": "Mine", "example": "flying_shear"}).json()
+    assert (made["name"], made["description"]) == ("Mine", examples["flying_shear"]["description"])
+    objects = tree(admin, f"{API}/projects/{made['id']}")
+    assert {"Web", "Shear", "PLC_PRG", "Machine3D"} <= objects.keys()
+    wrong = admin.post(f"{API}/projects", json={"name": "Other", "example": "../bottling"})
+    assert "flying_shear" in problem(wrong, 422, "unknown-example")["detail"]
+    assert [item["name"] for item in admin.get(f"{API}/projects").json()] == ["Mine"]
+
+
 def test_projects(admin: TestClient, press: str) -> None:
     listed = admin.get(f"{API}/projects").json()
     assert [(item["name"], item["description"], item["created_by"]) for item in listed] == [

@@ -18,7 +18,7 @@ import httpx
 import pytest
 
 from tappet.server import serve
-from tappet.server.example import UnknownExampleError, example_folders, find_example
+from tappet.server.projects.examples import UnknownExampleError, example_folders, find_example
 from tappet.server.settings import ServerSettings
 
 

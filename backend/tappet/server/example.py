@@ -8,17 +8,12 @@ from pathlib import Path
 
 from starlette.concurrency import run_in_threadpool
 
-import tappet
-from tappet.project import folder
-from tappet.project.edit import change_data
-from tappet.project.errors import ProjectError
-from tappet.project.kinds.device import DEVICE, DeviceData
-from tappet.project.model import Project
 from tappet.server.audit import Act, Result
 from tappet.server.audited import ActRecord
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
 from tappet.server.builds.recording import recording
+from tappet.server.projects.examples import example_content, find_example
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.services import Services
 from tappet.server.settings import LOCAL_RUNTIME
@@ -27,32 +22,6 @@ log = logging.getLogger(__name__)
 PATIENCE_S = 120.0
 """How long the local runtime may take to come up; its first start compiles the executive."""
 AUTHOR = "example"
-
-
-class UnknownExampleError(ProjectError):
-    """No example of this name is installed."""
-
-    code = "unknown_example"
-
-
-def example_folders() -> dict[str, Path]:
-    """The examples in the package or in the checkout, by name."""
-    package = Path(tappet.__file__).resolve().parent
-    roots = (package / "projects", package.parents[1] / "projects")
-    return {
-        path.parent.name: path.parent
-        for root in reversed(roots)
-        for path in sorted(root.glob("*/tappet-project.json"))
-    }
-
-
-def find_example(name: str) -> Path:
-    """The folder of an example. Raises UnknownExampleError naming those there are."""
-    found = example_folders()
-    if name not in found:
-        known = ", ".join(sorted(found)) or "none"
-        raise UnknownExampleError(f"there is no example '{name}'; installed: {known}")
-    return found[name]
 
 
 async def load_example(services: Services, name: str) -> str:
@@ -84,7 +53,7 @@ async def run_example(services: Services, project_id: str) -> None:
 
 
 def _load_once(services: Services, path: Path) -> str:
-    content = folder.load(path, with_extra_files=True)
+    content = example_content(path)
     for info in services.store.projects():
         if info.name == content.name:
             return info.id
@@ -92,19 +61,10 @@ def _load_once(services: Services, path: Path) -> str:
         content.name,
         AUTHOR,
         description=content.description,
-        content=_on_local_runtime(content),
+        content=content,
         comment=f"Example from {path.name}",
     )
     return info.id
-
-
-def _on_local_runtime(project: Project) -> Project:
-    """Devices that lead nowhere lead to the local runtime."""
-    for item in project.find_kind(DEVICE.name):
-        if isinstance(item.data, DeviceData) and item.data.runtime_id is None:
-            data = item.data.model_copy(update={"runtime_id": LOCAL_RUNTIME})
-            project = change_data(project, item.id, data)
-    return project
 
 
 async def _connected(link: RuntimeLink) -> bool:

@@ -25,7 +25,8 @@ from tappet.server.app import create_app
 from tappet.server.auth.login import LOCAL_LINK
 from tappet.server.connection_limits import raise_descriptor_limit
 from tappet.server.connections import limited_protocol
-from tappet.server.example import find_example, load_example, run_example
+from tappet.server.example import load_example, run_example
+from tappet.server.projects.examples import find_example
 from tappet.server.services import Services
 from tappet.server.settings import ServerSettings
 

@@ -26,6 +26,7 @@ export const keys = {
   objects: (projectId: string) => ['project', projectId, 'objects'] as const,
   object: (projectId: string, objectId: string) => ['project', projectId, 'object', objectId] as const,
   testRuns: (projectId: string) => ['project', projectId, 'testRun'] as const,
+  examples: ['examples'] as const,
   placement: ['placement'] as const,
   languages: ['languages'] as const,
   importFormats: ['importFormats'] as const,
@@ -42,6 +43,13 @@ export const projectsQuery = queryOptions({
   queryKey: keys.projects,
   queryFn: () => api.get('/api/v1/projects'),
   staleTime: 0,
+});
+
+/** Examples come with the server. */
+export const examplesQuery = queryOptions({
+  queryKey: keys.examples,
+  queryFn: () => api.get('/api/v1/examples'),
+  staleTime: Infinity,
 });
 
 export function projectQuery(projectId: string) {

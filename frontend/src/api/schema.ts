@@ -228,6 +228,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/examples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Examples
+         * @description The example projects that a new project can begin with.
+         */
+        get: operations["list_examples"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/health": {
         parameters: {
             query?: never;
@@ -571,8 +591,8 @@ export interface paths {
         put?: never;
         /**
          * Create Project
-         * @description Make a project: with a soft PLC, PLC_PRG and a task that calls it, with an axis that they move, or
-         *     empty.
+         * @description Make a project: with a soft PLC, PLC_PRG and a task that calls it, with an axis that they move, empty,
+         *     or as an example.
          */
         post: operations["create_project"];
         delete?: never;
@@ -3468,6 +3488,18 @@ export interface components {
         };
         EventServerMessage: components["schemas"]["ObjectChanged"] | components["schemas"]["Presence"] | components["schemas"]["PresenceChanged"];
         /**
+         * Example
+         * @description A project to begin with.
+         */
+        Example: {
+            /** Description */
+            description: string;
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+        };
+        /**
          * Existing
          * @description The object of the project that has the name of an imported one.
          */
@@ -4548,6 +4580,11 @@ export interface components {
              * @default
              */
             description?: string;
+            /**
+             * Example
+             * @description Name of an example to begin with, instead of a template.
+             */
+            example?: string | null;
             /** Name */
             name: string;
             /**
@@ -7343,6 +7380,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CompilerWarning"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_examples: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Example"][];
                 };
             };
             /** @description The request was refused */

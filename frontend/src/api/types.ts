@@ -12,6 +12,8 @@ export type User = Schemas['Me'];
 export type Account = Schemas['User'];
 
 export type ProjectSummary = Schemas['ProjectSummary'];
+/** A project that a new one can begin with. */
+export type Example = Schemas['Example'];
 export type Revision = Schemas['Revision'];
 
 /** An object in the tree. Its kind may be one that a plug-in of the server brought. */

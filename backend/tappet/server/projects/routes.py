@@ -10,6 +10,7 @@ from fastapi import Form, Query, UploadFile
 from fastapi.responses import Response
 
 from tappet.iec.languages import languages
+from tappet.project import folder
 from tappet.project.folder import read_zip, write_zip
 from tappet.project.model import Project
 from tappet.project.motion_project import motion_project
@@ -18,10 +19,12 @@ from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
+from tappet.server.projects.examples import example_content, example_folders, find_example
 from tappet.server.projects.part import PartDep
 from tappet.server.projects.replies import project_revision, project_summary
 from tappet.server.projects.shapes import (
     BodyLanguage,
+    Example,
     NewProject,
     ProjectChange,
     ProjectSummary,
@@ -49,18 +52,31 @@ def list_projects(
     return [project_summary(info) for info in store.projects(deleted=deleted)]
 
 
+@router.get("/examples")
+def list_examples(who: Viewer) -> list[Example]:
+    """The example projects that a new project can begin with."""
+    found = []
+    for name, path in example_folders().items():
+        project = folder.load(path)
+        found.append(Example(name=name, title=project.name, description=project.description))
+    return sorted(found, key=lambda example: example.title)
+
+
 @router.post("/projects", status_code=201)
 def create_project(
     act: Annotated[ActRecord, audited("project-created", Role.ENGINEER)],
     body: NewProject,
     store: StoreDep,
 ) -> ProjectSummary:
-    """Make a project: with a soft PLC, PLC_PRG and a task that calls it, with an axis that they move, or
-    empty."""
+    """Make a project: with a soft PLC, PLC_PRG and a task that calls it, with an axis that they move, empty,
+    or as an example."""
     begin = _TEMPLATES.get(body.template)
     content = None if begin is None else begin(body.name, body.description)
+    if body.example is not None:
+        content = example_content(find_example(body.example))
     act.begin(Act("project-created", body.name))
-    info = store.create_project(body.name, act.who.username, description=body.description, content=content)
+    description = body.description or (content.description if content else "")
+    info = store.create_project(body.name, act.who.username, description=description, content=content)
     act.resulted(subject=info.name, project_id=info.id)
     return project_summary(info)
 

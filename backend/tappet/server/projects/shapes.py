@@ -32,6 +32,17 @@ class NewProject(Request):
     name: Name
     description: str = ""
     template: Literal["standard", "motion", "empty"] = "standard"
+    example: str | None = Field(
+        default=None, description="Name of an example to begin with, instead of a template."
+    )
+
+
+class Example(Reply):
+    """A project to begin with."""
+
+    name: str
+    title: str
+    description: str
 
 
 class ProjectChange(Request):
