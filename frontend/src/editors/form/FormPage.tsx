@@ -10,12 +10,15 @@ interface FormPageProps<Data> {
   children: (data: Data) => ReactNode;
 }
 
-/** The scrolling page of a form editor, with what stands in the way of changing it on top. */
+/**
+ * The scrolling page of a form editor, with what stands in the way of changing it on top. Where nothing in it can have the keyboard,
+ * the page itself has it, so that it can be scrolled.
+ */
 export function FormPage<Data>({ draft, wide, children }: FormPageProps<Data>) {
   if (draft.error && !draft.object) return <Failed error={draft.error} />;
   if (!draft.object || draft.data === undefined) return <Loading />;
   return (
-    <div className={styles.page}>
+    <div className={styles.page} tabIndex={draft.readOnly ? 0 : undefined}>
       <div className={styles.inner} data-wide={wide}>
         {draft.readOnly && <div className={styles.banner}>{draft.readOnly}</div>}
         {draft.refused && (

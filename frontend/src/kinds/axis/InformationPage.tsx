@@ -8,7 +8,7 @@ import type { AxisSettings } from './model';
 export function InformationPage({ name, drive }: { name: string; drive: AxisSettings['drive'] | undefined }) {
   const t = useText();
   return (
-    <div className={form.page}>
+    <div className={form.page} tabIndex={0}>
       <div className={form.inner}>
         <Section title={t('axis.page.information')}>
           <Facts>

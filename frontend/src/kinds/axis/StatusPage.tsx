@@ -38,7 +38,7 @@ function Status({ session, name }: { session: OnlineSession; name: string }) {
     ...QUEUE.map((place) => `${path}.fbeFBError[${place}].eErrorID`),
   ]);
   return (
-    <div className={form.page}>
+    <div className={form.page} tabIndex={0}>
       <LostBar session={session} />
       <div className={form.inner}>
         <Section title={t('axis.page.status')}>
