@@ -75,6 +75,7 @@ VAR
 {_cams()}
     CamIn1, CamIn2 : SM3_Basic.MC_CamIn;
     CamOut1        : SM3_Basic.MC_CamOut;
+    Phasing        : SM3_Basic.MC_Phasing;
     StartPosition  : SM3_Basic.SMC_GetCamSlaveSetPosition;
     Tappet1, Tappet2 : SM3_Basic.SMC_GetTappetValue;
     Register       : SM3_Basic.SMC_CamRegister;
@@ -102,6 +103,7 @@ CASE nCam2 OF
     2: CamIn2.CamTableID := Select2.CamTableID;
     3: CamIn2.CamTableID := Select3.CamTableID;
 END_CASE
+Phasing(Master := Master, Slave := Slave);
 CamIn1(Master := Master, Slave := Slave);
 Tappet1(Tappets := CamIn1.Tappets);
 Tappet2(Tappets := CamIn1.Tappets);

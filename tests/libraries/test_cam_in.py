@@ -475,3 +475,21 @@ def test_a_buffered_command_begins_at_the_end_of_the_profile() -> None:
         pair.cycle(2)
         assert pair.says("SlaveTo", "Busy", "Active") == {"Busy", "Active"}
         assert pair.says("CamIn1", "Busy", "Active") == set()
+
+
+def test_a_phase_shifts_where_the_slave_sees_its_master() -> None:
+    """Spec ax3000 CAM-22, motion_semantics GEA-09: position and velocity go on without a step."""
+    with cam_pair(LINE, master_period=360.0, slave_period=360.0) as pair:
+        pair.select(1)
+        pair.couple()
+        pair.run(100.0)
+        pair.cycle(100)
+        pair.start("Phasing", PhaseShift=10.0, Velocity=20.0, Acceleration=100.0, Deceleration=100.0)
+        before = pair.slave
+        for _ in pair.cycles_until("Phasing.Done"):
+            assert 80.0 - 1e-6 <= pair.velocity <= 100.0 + 1e-6
+            assert (pair.slave - before) % 360.0 == pytest.approx(pair.velocity * CYCLE, abs=1e-3)
+            before = pair.slave
+        pair.cycle()
+        assert (pair.master - pair.slave) % 360.0 == pytest.approx(10.0, abs=1e-9)
+        assert pair.says("CamIn1") == {"Busy", "Active", "InSync"}

@@ -23,6 +23,7 @@ BEYOND = {
 }
 """What the library has beyond the catalogs."""
 PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
+PINS_BEYOND["MC_CAM_REF"] = {"nMaxElements"}
 """Pins that a block has beyond the catalogs."""
 OURS = {item.name: item for item in items(load("SM3_Basic"))}
 LATER = {"aCaptDesc", "out", "in"}
