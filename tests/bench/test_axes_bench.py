@@ -21,6 +21,20 @@ def test_slaves_are_measured_in_gear() -> None:
     assert axes.coupled(NativeLoop(), axes.GEARS, 10) > 0.0
 
 
+def test_slaves_are_measured_by_a_cam() -> None:
+    assert axes.coupled(NativeLoop(), axes.CAMS, 10) > 0.0
+
+
+@pytest.mark.skipif(gcc_version() is None, reason="the baseline needs gcc")
+def test_the_cam_in_c_is_that_of_the_library(tmp_path: Path) -> None:
+    """Spec cam EX-01: at a quarter of the first segment, and in the last one."""
+    program = CProgram(axes.MOTION / "cams.c", tmp_path)
+    NativeLoop().seconds(program.cycle, 300)
+    assert program.result == pytest.approx(7.8515625, rel=1e-9)
+    NativeLoop().seconds(program.cycle, 2700)
+    assert program.result == pytest.approx(318.75, rel=1e-9)
+
+
 def test_slaves_that_are_not_in_gear_are_not_measured() -> None:
     variables, calls = axes.GEARS
     refused = calls.replace("RatioNumerator := 2", "RatioDenominator := 0")

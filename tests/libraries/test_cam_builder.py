@@ -182,3 +182,35 @@ def test_a_watched_cam_keeps_or_takes_what_is_written() -> None:
         program.set("Main.Cam", nElements=0)
         program.cycle()
         assert program.literal("Main.Cam.nElements") == "3"
+
+
+def test_a_cam_as_the_compiler_generates_it() -> None:
+    """Spec cam EX-09, CAM-90 and CAM-93 to CAM-95: global variables, a cam that another variable takes."""
+    text = """
+VAR_GLOBAL
+    Cam_A : ARRAY[0..3] OF SMC_CAMXYVA := [(dX:=0,dY:=0,dV:=0,dA:=0), (dX:=120,dY:=120,dV:=1,dA:=0),
+                                           (dX:=240,dY:=240,dV:=1,dA:=0), (dX:=360,dY:=360,dV:=0,dA:=0)];
+    Cam_T : ARRAY[0..1] OF SMC_CAMTappet := [(ctt:=TAPPET_pos, cta:=TAPPETACTION_on, iGroupID:=1, x:=90),
+                                             (ctt:=TAPPET_neg, cta:=TAPPETACTION_off, iGroupID:=1, x:=90)];
+    Cam : MC_CAM_REF := (byType:=3, nElements:=4, xStart:=0, xEnd:=360, nTappets:=2, strCAMName:='Cam',
+                         pce:=ADR(Cam_A), pt:=ADR(Cam_T));
+    _SMC_CAM_LIST : ARRAY[0..0] OF POINTER TO MC_CAM_REF := [ADR(Cam)];
+END_VAR
+PROGRAM Main
+VAR
+    pCam     : MC_CAM_REF;
+    nElement : INT;
+    stBefore, stBehind : SMC_CAMValues;
+    sName    : STRING;
+END_VAR
+pCam := Cam;
+stBefore := SMC_CAMEvaluate(pCam, 60, nElement);
+Cam_A[1].dY := 60;
+stBehind := SMC_CAMEvaluate(pCam, 120, nElement);
+sName := _SMC_CAM_LIST[0]^.strCAMName;
+END_PROGRAM
+"""
+    with run(text, cycles=1) as program:
+        assert program.literal("Main.stBefore.dY") == "41.25"
+        assert program.literal("Main.stBehind.dY") == "60.0"
+        assert program.literal("Main.sName") == "'Cam'"

@@ -134,7 +134,7 @@ def test_an_offset_begins_the_cam_where_the_master_is() -> None:
 
 
 def test_end_of_profile_carries_the_rest_over() -> None:
-    """Spec motion_semantics EX-18, CAM-08 and CAM-09: X begins with what lies beyond the end."""
+    """Spec motion_semantics EX-18, ax3000 EX-AX-11: X begins with what lies beyond the end."""
     with cam_pair(LINE) as pair:
         pair.select(1)
         pair.place(0.19, 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.libraries.cam_pair import DEFAULT, FIRST, RELATIVE, SECOND, CamPair, Point, cam_pair
+from tests.libraries.cam_pair import CYCLE, DEFAULT, FIRST, RELATIVE, SECOND, CamPair, Point, cam_pair
 
 STEEP: tuple[Point, ...] = ((0, 0, 1, 0), (180, 180, 1, 0), (360, 360, 1, 0))
 BEHIND: tuple[Point, ...] = ((1000, 0, 1, 0), (1180, 180, 1, 0), (1360, 360, 0, 0))
@@ -169,3 +169,22 @@ def test_points_may_change_while_the_cam_runs() -> None:
         pair.give(1, [(0, 0, 0, 0), (360, 360, 0, 0)])
         pair.cycle()
         assert pair.slave == pytest.approx(360 * (10 / 6**3 - 15 / 6**4 + 6 / 6**5), abs=1e-9)
+
+
+def test_a_cam_for_each_object_on_a_belt() -> None:
+    """Spec cam EX-11: distances vary; the offset takes up how far the belt is over."""
+    with cam_pair() as pair:
+        pair.select(1, periodic=False, master_absolute=False, slave_absolute=False)
+        pair.run(500.0)
+        for number, arrival in enumerate((200.0, 700.0, 1080.0)):
+            pair.until(lambda arrival=arrival: pair.master >= arrival)
+            pair.set("CamIn1", Execute=False)
+            pair.cycle()
+            over = pair.master + 500.0 * CYCLE - arrival
+            pair.couple(MasterOffset=over)
+            pair.until(lambda arrival=arrival: pair.master >= arrival + 60.0)
+            expected = 360.0 * number + 41.25 + 1.4375 * (pair.master - arrival - 60.0)
+            assert pair.slave == pytest.approx(expected, abs=5e-3)
+            pair.until(lambda: pair.true("CamIn1.EndOfProfile"))
+            assert pair.slave == pytest.approx(360.0 * (number + 1), abs=1e-9)
+            assert pair.velocity == 0.0

@@ -29,7 +29,10 @@ ROUNDS = 15
 CYCLES = 40
 """Cycles of one timed round."""
 RUCKIG = "baseline: C++ Ruckig"
-BAR = "moving with limited jerk at most 200 ns, a new command at most 20 us, re-planning at most 2 x Ruckig"
+BAR = (
+    "moving with limited jerk at most 200 ns, a slave of a cam at most 300 ns, a new command at most 20 us,"
+    " re-planning at most 2 x Ruckig"
+)
 DISCRETE_MOTION, SYNCHRONIZED_MOTION = 4, 6
 RAMP_TYPES = ("trapez", "sin2", "quadratic", "quadratic_smooth")
 _HEAD = """PROGRAM Main
@@ -85,6 +88,19 @@ GEARS = (
 FOR i := 2 TO {axes} DO
     Gear[i](Master := Axis[1], Slave := Axis[i], Execute := xGo, RatioNumerator := 2, Acceleration := 1E6,
         Deceleration := 1E6);
+END_FOR""",
+)
+CAMS = (
+    """    Lead   : SM3_Basic.MC_MoveVelocity;
+    Points : ARRAY [0..3] OF SM3_Basic.SMC_CAMXYVA := [(dX := 0, dY := 0), (dX := 120, dY := 120, dV := 1),
+        (dX := 240, dY := 240, dV := 1), (dX := 360, dY := 360)];
+    Cam    : SM3_Basic.MC_CAM_REF := (byType := 3, nElements := 4, xEnd := 360, pce := ADR(Points));
+    Select : SM3_Basic.MC_CamTableSelect;
+    CamIn  : ARRAY [1..{axes}] OF SM3_Basic.MC_CamIn;""",
+    """Lead(Axis := Axis[1], Execute := xGo, Velocity := 100.0, Acceleration := 1E6, Deceleration := 1E6);
+Select(Master := Axis[1], Slave := Axis[2], CamTable := Cam, Execute := xGo, SlaveAbsolute := FALSE);
+FOR i := 2 TO {axes} DO
+    CamIn[i](Master := Axis[1], Slave := Axis[i], Execute := xGo, CamTableID := Select.CamTableID);
 END_FOR""",
 )
 
@@ -211,13 +227,14 @@ def project(axes: int = 100) -> Row:
 
 
 def run(only: Sequence[str] = ()) -> Report:
-    """All rows, or those of the parts that are named: moving, count, gears, replan, build."""
+    """All rows, or those of the parts that are named: moving, count, gears, cams, replan, build."""
     loop = NativeLoop()
     compiler = gcc_version()
     with scratch_directory() as scratch:
         directory = Path(scratch)
         segments = CProgram(MOTION / "segments.c", directory) if compiler else None
         evaluated = _base(loop, segments, CYCLES, AXES / 1e9)
+        cams = CProgram(MOTION / "cams.c", directory) if compiler else None
         parts: dict[str, Callable[[], list[Row]]] = {
             "moving": lambda: _moving_rows(loop, evaluated),
             "count": lambda: [
@@ -225,6 +242,15 @@ def run(only: Sequence[str] = ()) -> Report:
                 for axes in (1, 10, 100, 10_000)
             ],
             "gears": lambda: [Row("slave of a gear", coupled(loop, GEARS), evaluated, "ns")],
+            "cams": lambda: [
+                Row(
+                    "slave of a cam",
+                    coupled(loop, CAMS),
+                    _base(loop, cams, CYCLES, AXES / 1e9),
+                    "ns",
+                    "baseline: the cam in C",
+                )
+            ],
             "replan": lambda: [
                 Row(
                     "re-planning in flight, quadratic",
