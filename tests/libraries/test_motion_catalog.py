@@ -66,6 +66,10 @@ def _expected(name: str, section: str) -> dict[str, dict[str, Any]]:
 
 
 def _default(text: str | None, type_name: str) -> str:
+    enumeration = OURS[type_name].values if type_name in OURS else ()
+    for value in enumeration:
+        if value.value == text:
+            text = value.name
     text = (text or ZERO.get(type_name, "0")).upper().rpartition(".")[2] if not _is_number(text) else text
     return str(float(text)) if _is_number(text) else str(text)
 
