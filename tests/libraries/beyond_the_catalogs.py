@@ -93,6 +93,7 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
 ENUMERATIONS: dict[str, dict[str, int]] = {"MC_COMBINE_MODE": {"mcAddAxes": 0, "mcSubAxes": 1}}
 
 PINS_ADDED: dict[str, dict[str, str]] = {
+    "MC_Home": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},
     "MC_MoveSuperImposed": {"CoveredDistance": "LREAL"},
     "MC_PositionProfile": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},
     "MC_VelocityProfile": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},

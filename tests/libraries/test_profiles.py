@@ -253,3 +253,15 @@ def test_written_positions_go_the_shorter_way_around(axes: CoupledAxes) -> None:
     axes.cycle()
     assert axes.velocity == pytest.approx(200.0, abs=1e-6)
     assert axes.position == pytest.approx(0.1, abs=1e-9)
+
+
+def test_a_profile_of_a_rotary_axis_takes_its_slave_along(axes: CoupledAxes) -> None:
+    axes.set("Axis", iMovementType=0, fPositionPeriod=360.0)
+    _fill(axes, "Velocities", [(1000, 720.0), (1000, 720.0), (1000, 0.0)])
+    axes.start("Velocities", ArraySize=3)
+    fastest = 0.0
+    while "Done" not in axes.outputs("Velocities"):
+        axes.cycle()
+        fastest = max(fastest, abs(axes.number("Axis.fTravel")))
+    assert axes.position == pytest.approx(1440.0 % 360.0, abs=1e-9)
+    assert fastest == pytest.approx(720.0 * CYCLE, rel=1e-6)
