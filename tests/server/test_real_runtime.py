@@ -182,3 +182,37 @@ def test_a_server_ends_while_its_runtime_does_not_start(settings: ServerSettings
     with serving(app):
         link = app.state.services.runtimes.get(LOCAL_RUNTIME)
         _until(lambda: "next attempt" in (link.problem or ""), 90)
+
+
+def test_an_axis_is_moved_by_hand_and_let_go_when_nobody_is_there(app: FastAPI, engineer: TestClient) -> None:
+    made = engineer.post("/api/v1/projects", json={"name": "axes", "template": "motion"}).json()
+    application = app.state.services.store.load(made["id"]).applications()[0]
+    url = f"/api/v1/projects/{made['id']}/applications/{application.id}"
+    order = {"runtime_id": LOCAL_RUNTIME, "mode": "download", "start": True}
+    assert engineer.post(f"{url}/download", json=order).status_code == 200
+    _until(lambda: _value(engineer, "Drive.fSetVelocity") != 0.0)
+    panel = f"{RUNTIME}/axes/Drive/panel"
+
+    def alive() -> str:
+        answer = engineer.post(f"{panel}/alive", json={"holder": 5})
+        assert answer.status_code == 200, answer.text
+        return str(answer.json()["state"])
+
+    assert engineer.post(panel, json={"holder": 5, "action": "force"}).status_code == 200
+    _until(lambda: alive() == "Control")
+    refused = engineer.post(panel, json={"holder": 6, "action": "power_on"})
+    assert refused.status_code == 409
+    assert "another page controls the axis 'Drive'" in refused.json()["detail"]
+    assert engineer.post(panel, json={"holder": 5, "action": "fly"}).status_code == 422
+    missing = engineer.post(f"{RUNTIME}/axes/Nobody/panel", json={"holder": 5, "action": "take"})
+    assert missing.status_code == 404
+    _until(lambda: engineer.post(f"{panel}/alive", json={"holder": 6}).json()["state"] == "Free")
+    assert _value(engineer, "Drive.fSetVelocity") == 0.0  # what the program had begun has failed
+    back = {"expression": "PLC_PRG.xBack", "value": not _value(engineer, "PLC_PRG.xBack")}
+    assert engineer.post(f"{RUNTIME}/values/write", json={"values": [back]}).status_code == 200
+    _until(lambda: _value(engineer, "Drive.fSetVelocity") != 0.0)  # it has the axis again
+    acts = [entry for entry in engineer.get("/api/v1/audit").json() if entry["action"] == "axis-panel"]
+    assert {(entry["subject"], entry["new_value"]) for entry in acts} >= {("Drive", "force 0.0")}
+    assert all("alive" not in str(entry["new_value"]) for entry in acts)
+    assert engineer.post(f"{RUNTIME}/stop").status_code == 200
+    assert _value(engineer, "Drive.fSetVelocity") == 0.0
