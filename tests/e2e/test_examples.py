@@ -15,6 +15,7 @@ pytestmark = pytest.mark.e2e
 
 MACHINES = {
     "flying_shear": ("Flying shear", "Machine3D"),
+    "gantry": ("Gantry", "Machine3D"),
     "pick_and_place": ("Pick and place", "Machine3D"),
     "rotary_knife": ("Rotary knife", "Machine3D"),
 }
