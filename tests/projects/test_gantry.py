@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from tappet.runtime.local import LocalRuntime
 from tests.projects.example_machines import machine, number, run
+
+from tappet.runtime.local import LocalRuntime
 
 WHERE_SWITCHES_OPEN = 100.0
 
