@@ -67,6 +67,10 @@ def test_an_axis_is_moved_by_hand(runtime: LocalRuntime) -> None:
     steer(runtime, "set_position", position=100.0)
     assert stay(runtime, 3)[-1] == pytest.approx(100.0)
     assert runtime.literal("IoConfig_AxisPanels.Drive.eError") == "SMC_NO_ERROR"
+    steer(runtime, "home", position=25.0)
+    assert stay(runtime, 10)[-1] == pytest.approx(25.0)
+    assert runtime.literal("IoConfig_AxisPanels.Drive.eError") == "SMC_NO_ERROR"
+    assert runtime.literal("Drive.nAxisState") == "standstill"
     steer(runtime, "power_off")
     stay(runtime, 3)
     assert runtime.literal("Drive.nAxisState") == "power_off"

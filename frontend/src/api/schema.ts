@@ -6223,7 +6223,7 @@ export interface components {
             /** @default 100 */
             acceleration?: number;
             /** @enum {unknown} */
-            action: "force" | "jog_backward" | "jog_end" | "jog_forward" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
+            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
             /** @default 100 */
             deceleration?: number;
             /** @description Number that the page has made up. */

@@ -28,6 +28,7 @@ _COMMANDS = {
     "move_absolute": "MoveAbsolute",
     "move_relative": "MoveRelative",
     "set_position": "SetPosition",
+    "home": "Home",
     "reset": "Reset",
 }
 _JOGS = {"jog_forward": (True, False), "jog_backward": (False, True), "jog_end": (False, False)}
@@ -38,7 +39,7 @@ Finite = Annotated[float, Meta(ge=-1e300, le=1e300)]
 Positive = Annotated[float, Meta(gt=0, le=1e300)]
 Action = Literal[
     "take", "force", "power_on", "power_off", "jog_forward", "jog_backward", "jog_end", "move_absolute",
-    "move_relative", "set_position", "reset",
+    "move_relative", "set_position", "home", "reset",
 ]  # fmt: skip
 
 

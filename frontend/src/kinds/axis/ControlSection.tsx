@@ -1,4 +1,15 @@
-import { ArrowLeft, ArrowRight, Hand, MoveRight, OctagonX, Power, RotateCcw, SquarePen, Unlock } from 'lucide-react';
+import {
+  ArrowLeft,
+  ArrowRight,
+  Hand,
+  House,
+  MoveRight,
+  OctagonX,
+  Power,
+  RotateCcw,
+  SquarePen,
+  Unlock,
+} from 'lucide-react';
 import { useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
 import { Button } from '@/ui/Button';
@@ -137,6 +148,9 @@ export function ControlSection({ session, name, settings }: ControlProps) {
           onClick={() => control.steer('set_position', motion(position))}
         >
           {t('axis.setPosition')}
+        </Button>
+        <Button icon={House} disabledReason={movable} onClick={() => control.steer('home', motion(position))}>
+          {t('axis.home')}
         </Button>
       </div>
       <ErrorBox runtimeId={runtimeId} expression={`${panel}.eError`} />

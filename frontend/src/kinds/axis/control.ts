@@ -10,7 +10,7 @@ const TAKING_MS = 1500;
 const LOOK_MS = 80;
 
 export type SteerAction = 'power_on' | 'power_off' | 'jog_forward' | 'jog_backward' | 'jog_end' | MotionAction;
-export type MotionAction = 'move_absolute' | 'move_relative' | 'set_position' | 'reset';
+export type MotionAction = 'move_absolute' | 'move_relative' | 'set_position' | 'home' | 'reset';
 type Status = Schemas['PanelStatus'];
 
 export interface Motion {
