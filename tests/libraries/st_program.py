@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 
 from linked_application import LoadedApplication, loaded
 
 from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
+from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 from tappet.libraries import names
 
@@ -35,16 +37,21 @@ class Program:
         return [float(number) for number in self.literal(expression).strip("[]").split(",")]
 
 
-@contextmanager
-def run(text: str, cycles: int, cycle_ms: int = CYCLE_MS) -> Iterator[Program]:
-    """`text` after so many calls of its programs."""
+@cache
+def _package(text: str) -> CodePackage:
     libraries = tuple(LibraryReference(name) for name in names())
     options = BuildOptions(libraries=libraries, level=1)
     result = build_application([Source("program", text)], options=options, session=SESSION)
     assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
     assert result.package is not None
-    with loaded(result.package) as application:
+    return result.package
+
+
+@contextmanager
+def run(text: str, cycles: int, cycle_ms: float = CYCLE_MS) -> Iterator[Program]:
+    """`text` after so many calls of its programs."""
+    with loaded(_package(text)) as application:
         for _ in range(cycles):
             application.cycle()
-            application.clock_ns += cycle_ms * 1_000_000
+            application.clock_ns += round(cycle_ms * 1_000_000)
         yield Program(application)
