@@ -75,6 +75,20 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
         "inputs": {**_EXECUTE, "PhaseShift": "LREAL", "Velocity": "LREAL", **_RAMP},
         "outputs": {"Done": "BOOL", **_ENDED, "CoveredPhaseShift": "LREAL"},
     },
+    "MC_ReadMotionState": {
+        "in_out": _AXIS,
+        "inputs": {**_ENABLE, "Source": "MC_SOURCE"},
+        "outputs": {
+            "Valid": "BOOL",
+            "Busy": "BOOL",
+            **_ERROR,
+            "ConstantVelocity": "BOOL",
+            "Accelerating": "BOOL",
+            "Decelerating": "BOOL",
+            "DirectionPositive": "BOOL",
+            "DirectionNegative": "BOOL",
+        },
+    },
     "MC_CombineAxes": {
         "in_out": {"Master1": "AXIS_REF_SM3", "Master2": "AXIS_REF_SM3", "Slave": "AXIS_REF_SM3"},
         "inputs": {
@@ -90,7 +104,10 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
     },
 }
 
-ENUMERATIONS: dict[str, dict[str, int]] = {"MC_COMBINE_MODE": {"mcAddAxes": 0, "mcSubAxes": 1}}
+ENUMERATIONS: dict[str, dict[str, int]] = {
+    "MC_SOURCE": {"mcCommandedValue": 0, "mcSetValue": 1, "mcActualValue": 2},
+    "MC_COMBINE_MODE": {"mcAddAxes": 0, "mcSubAxes": 1},
+}
 
 PINS_ADDED: dict[str, dict[str, str]] = {
     "MC_Home": {"BufferMode": "MC_BUFFER_MODE", "Active": "BOOL"},

@@ -29,6 +29,7 @@ VAR
     Bus        : SM3_Basic.SMC_CheckAxisCommunication;
     Brake      : SM3_Basic.SMC3_BrakeControl;
     BrakeState : SM3_Basic.SMC3_BrakeStatus;
+    Motion     : SM3_Basic.MC_ReadMotionState;
     dwCycle    : DWORD;
     fAhead     : LREAL; (* The actual position is ahead of the set position by this *)
     xWithoutBus : BOOL;
@@ -47,6 +48,7 @@ MaxAcc(Axis := Axis, dwTimeStamp := dwCycle);
 Lag(Axis := Axis, dwTimeStamp := dwCycle);
 InPosition(Axis := Axis);
 Distance(Axis := Axis);
+Motion(Axis := Axis);
 SetLimits(Axis := Axis);
 Bus(Axis := Axis);
 Brake(Axis := Axis);
@@ -409,3 +411,39 @@ def test_an_axis_without_a_bus(axis: Watched) -> None:
     axis.set("", xWithoutBus=False)
     axis.cycle()
     assert axis.true("BrakeState.bValid")
+
+
+@pytest.mark.parametrize("source", ["Set", "Act"])
+@pytest.mark.parametrize(
+    ("velocity", "acceleration", "wanted"),
+    [
+        (3.0, 2.0, {"Accelerating", "DirectionPositive"}),
+        (3.0, -2.0, {"Decelerating", "DirectionPositive"}),
+        (-3.0, -2.0, {"Accelerating", "DirectionNegative"}),
+        (-3.0, 2.0, {"Decelerating", "DirectionNegative"}),
+        (-3.0, 0.0, {"ConstantVelocity", "DirectionNegative"}),
+        (0.0, 0.0, set()),
+    ],
+)
+def test_how_an_axis_moves(source: str, velocity: float, acceleration: float, wanted: set[str]) -> None:
+    """PLCopen part 1, MC_ReadMotionState; an axis without bus cycles keeps what it is given."""
+    text = PROGRAM.replace("Axis.BeginCycle();", "").replace("Axis.EndCycle();", "").replace("ROTARY", "1")
+    with run(text, 0) as program:
+        axis = Watched(program)
+        axis.set("Axis", **{f"f{source}Velocity": velocity, f"f{source}Acceleration": acceleration})
+        axis.set("Axis", wCommunicationState=100)
+        axis.set("Motion", Enable=True, Source={"Set": 1, "Act": 2}[source])
+        axis.cycle()
+        outputs = (
+            "ConstantVelocity",
+            "Accelerating",
+            "Decelerating",
+            "DirectionPositive",
+            "DirectionNegative",
+        )
+        assert {name for name in outputs if axis.true(f"Motion.{name}")} == wanted
+        assert axis.true("Motion.Valid")
+        axis.set("Axis", wCommunicationState=7)
+        axis.cycle()
+        assert axis.text("Motion.ErrorID") == "SMC_AXIS_IS_NOT_OPERATIONAL"
+        assert not any(axis.true(f"Motion.{name}") for name in (*outputs, "Valid", "Busy"))
