@@ -8,7 +8,13 @@ from pathlib import Path
 import pytest
 from linked_application import loaded
 
-from tappet.codegen.build import BuildOptions, BuildResult, LibraryReference, build_application
+from tappet.codegen.build import (
+    BuildOptions,
+    BuildResult,
+    BuildSession,
+    LibraryReference,
+    build_application,
+)
 from tappet.lang.services.code_actions import code_actions
 from tappet.lang.services.completion import complete
 from tappet.lang.services.documents import Position, Program, library_text, whole_file
@@ -198,3 +204,11 @@ def test_a_flag_that_is_none_is_refused(facts: dict[str, object]) -> None:
     assert json.dumps(manifest)
     with pytest.raises(LibraryFileError, match="'qualified_only' has to be true or false"):
         archive.install(manifest, TEXTS)
+
+
+def test_what_is_internal_in_a_library_is_not_offered_behind_its_type() -> None:
+    """CamFileSection of SM3_Basic is INTERNAL and has a value of this name."""
+    source = Source("Main", "PROGRAM Main\nVAR n : INT; END_VAR\nn := Nothing;\nEND_PROGRAM")
+    options = BuildOptions(libraries=(LibraryReference("SM3_Basic"),))
+    result = build_application([source], options=options, session=BuildSession())
+    assert [d.code for d in result.diagnostics if d.severity == "error"] == ["E0201"]

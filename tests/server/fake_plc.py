@@ -118,6 +118,11 @@ class FakePlc:
         self.notify("lost")
         self.clients.clear()
 
+    def symbols(self) -> SymbolMap:
+        if self.symbol_map is None:
+            raise PlcError("no application is loaded")
+        return self.symbol_map
+
     def set(self, path: str, value: Any) -> None:
         assert self.symbol_map is not None
         ref = self.symbol_map.resolve(path)

@@ -37,6 +37,7 @@ EXEMPT = {
     "run_tests": READS,
     "search": READS,
     "cancel_build": "ends a question",
+    "keep_axis": "the heartbeat of control over an axis, which was recorded when it was taken",
     "cancel_tests": "ends a question",
     "log_in": READS,
     "log_out": "changes nothing: there is nothing kept of a login to a runtime",

@@ -77,10 +77,17 @@ class Level:
 
     def seen_names(self, qualified_only: bool) -> dict[str, Symbol]:
         """The names of a library for texts outside of it; `qualified_only`: each as one to be qualified."""
-        names = self.names()
+        names = {key: symbol for key, symbol in self.names().items() if not self._is_inside(symbol)}
         if not qualified_only:
             return names
         return {key: self._behind(symbol) for key, symbol in names.items() if symbol.access != "INTERNAL"}
+
+    def _is_inside(self, symbol: Symbol) -> bool:
+        """A name that could be qualified by an INTERNAL type or list only."""
+        if not isinstance(symbol, QualifiedSymbol):
+            return False
+        outer = self.objects.get(symbol.choice.partition(".")[0].upper())
+        return outer is not None and outer.access == "INTERNAL"
 
     def _behind(self, symbol: Symbol) -> QualifiedSymbol:
         target: Symbol | None = symbol
