@@ -314,3 +314,26 @@ def test_a_move_by_nothing_needs_no_velocity(axis: OneAxis) -> None:
     axis.start("Relative1", Distance=0.0)
     assert axis.until_done("Relative1", 0.01) <= TWO_CYCLES
     assert (axis.state, axis.position) == ("standstill", 0.0)
+
+
+@pytest.mark.parametrize("ramp", range(4))
+@pytest.mark.parametrize(("direction", "sign"), [(1, 1.0), (-1, -1.0), (2, 1.0), (2, -1.0)])
+def test_a_rotary_axis_that_cannot_stop_in_time_goes_around_once_more(
+    axis: OneAxis, direction: int, sign: float, ramp: int
+) -> None:
+    """PRO-04: a direction is never left on the way to the target."""
+    axis.set("Axis", iMovementType=0, fPositionPeriod=360.0, eRampType=ramp)
+    moving = {"Velocity": 100.0, "Acceleration": 100.0, "Deceleration": 100.0, "Jerk": 1000.0}
+    axis.start("Velocity1", Direction=int(sign), **moving)
+    axis.until(lambda: "InVelocity" in axis.outputs("Velocity1"))
+    target = (axis.position + sign * 5.0) % 360.0
+    turned, before = 0.0, axis.position
+    axis.start("Absolute1", Position=target, Direction=direction, **moving)
+    while "Done" not in axis.outputs("Absolute1"):
+        assert sign * axis.velocity >= -1e-9
+        turned += (axis.position - before + 180.0) % 360.0 - 180.0
+        before = axis.position
+        axis.cycle()
+    turned += (axis.position - before + 180.0) % 360.0 - 180.0
+    assert turned == pytest.approx(sign * 365.0, abs=1e-6)
+    assert axis.position == pytest.approx(target, abs=1e-9)
