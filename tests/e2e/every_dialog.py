@@ -384,6 +384,23 @@ def online(ui: Ui, server: Server) -> Iterator[str]:
         yield title
 
 
+@tour("axis.forceTitle")
+def axes(ui: Ui, server: Server) -> Iterator[str]:
+    """What is asked before an axis is taken from its program."""
+    page = ui.page
+    fetch(page, server, "POST", "/projects", data={"name": "M1", "template": "motion"})
+    ui.command("command.closeProject")
+    expect(page.get_by_role("button", name=ui.name("command.newProject")).first).to_be_visible()
+    page.reload()
+    open_project(page, "M1")
+    tree_item(page, "PLC_PRG").click()
+    log_in(page, ui.text("runtime.state.run"))
+    open_object(page, "Drive")
+    ui.panel().get_by_role("tab", name=ui.text("axis.page.commissioning")).click()
+    ui.panel().get_by_role("button", name=ui.text("axis.take"), exact=True).click()
+    yield "axis.forceTitle"
+
+
 @tour(
     "project.deleteTitle",
     "command.newProject",
