@@ -5,13 +5,16 @@ from __future__ import annotations
 from tappet.codegen.layout import Layout
 from tappet.codegen.online_constants import ChangedConstants, bits_without, without
 from tappet.codegen.package import CodePackage, OnlineChange
-from tappet.codegen.symbol_map import SymbolMap
+from tappet.codegen.symbol_map import Root, SymbolMap
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 
 NO_COPY = "NO_COPY"
 """Flag of a variable that an online change does not copy (LPRG-35)."""
 INIT = "INIT_ON_CHANGE"
 """Flag of a variable that every online change initialises (LPRG-28)."""
+INIT_OTHER = "INIT_ON_CHANGE_FROM_"
+"""Begin of a flag of a variable that an online change initialises from another one: the value of the
+attribute follows, which stands for what the variable begins with."""
 
 
 def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, image: bytes) -> OnlineChange:
@@ -21,12 +24,12 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
     plan = _Plan(old.symbols, symbols)
     for symbol, place in placed.objects.items():
         if symbol in placed.kept:
-            root = symbols.roots.get(symbol.rpartition("tappet.data.")[2])
+            root = symbols.roots.get(root_name(symbol))
             if root is not None:
-                _mark(plan, symbols, symbols.types[root.type], root.offset)
+                plan.mark(old.symbols.roots.get(root_name(symbol)), root)
             continue
         before = old.data_objects.get(symbol)
-        name = symbol.rpartition("tappet.data.")[2]
+        name = root_name(symbol)
         if symbol.startswith("tappet.area."):
             size = min(before.size, place.size) if before else 0
             if before is not None:
@@ -45,7 +48,7 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
         )
     for symbol in old.data_objects:
         if symbol not in placed.objects:
-            plan.reasons.append(f"{symbol.rpartition('tappet.data.')[2]} was removed")
+            plan.reasons.append(f"{root_name(symbol)} was removed")
     constants = ChangedConstants(old.symbols, old.initial_image, symbols, image).find()
     plan.moves = without(plan.moves, constants)
     plan.bits = bits_without(plan.bits, constants)
@@ -57,42 +60,27 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
 def code_change(old: CodePackage, symbols: SymbolMap) -> OnlineChange:
     """An online change of code alone: what is marked to be initialised at every change still is."""
     plan = _Plan(old.symbols, symbols)
-    for root in symbols.roots.values():
-        _mark(plan, symbols, symbols.types[root.type], root.offset)
+    for name, root in symbols.roots.items():
+        plan.mark(old.symbols.roots.get(name), root)
     initialise = tuple(sorted(plan.fresh))
     return OnlineChange(old.code_id, old.data_id, initialise=initialise, bits=tuple(plan.bits))
 
 
-def _mark(plan: _Plan, symbols: SymbolMap, type_: TypeInfo, at: int) -> None:
-    """Initialise what every online change initialises inside an object that stays (LPRG-28)."""
-    for member in type_.members:
-        inner = symbols.types[member.type]
-        if member.absolute or member.section == "VAR_IN_OUT":
-            continue
-        start = at + member.offset
-        if INIT in member.flags:
-            plan.fresh.append((start, 1 if member.bit is not None else inner.size))
-            if (
-                member.bit is not None
-            ):  # bytes are initialised: the other bits of this one get back what they had
-                plan.bits += [(start, bit, start, bit) for bit in _kept_beside(type_, member)]
-        elif inner.kind == "array" and inner.elem is not None:
-            element = symbols.types[inner.elem]
-            for offset in range(0, inner.size, element.size) if element.members else ():
-                _mark(plan, symbols, element, start + offset)
-        elif inner.members:
-            _mark(plan, symbols, inner, start)
+def root_name(symbol: str) -> str:
+    """The root of the symbol map that a data object holds."""
+    return symbol.rpartition("tappet.data.")[2]
 
 
-def _kept_beside(type_: TypeInfo, member: MemberInfo) -> list[int]:
-    """Bits of the byte of a BIT that belong to others, which no online change initialises."""
-    beside = (m for m in type_.members if m.offset == member.offset and INIT not in m.flags)
-    return [m.bit for m in beside if m.bit is not None]
+def _is_initialised(before: MemberInfo | None, member: MemberInfo) -> bool:
+    """Whether an online change initialises a variable wherever it is (LPRG-28)."""
+    return INIT in member.flags or any(
+        flag.startswith(INIT_OTHER) and (before is None or flag not in before.flags) for flag in member.flags
+    )
 
 
-def _is_reinitialised(member: MemberInfo) -> bool:
+def _is_reinitialised(before: MemberInfo | None, member: MemberInfo) -> bool:
     """Whether a variable is initialised where its object moves (LPRG-28, LPRG-35)."""
-    return NO_COPY in member.flags or INIT in member.flags
+    return NO_COPY in member.flags or _is_initialised(before, member)
 
 
 class _Plan:
@@ -107,12 +95,48 @@ class _Plan:
         self.reasons: list[str] = []
         self.same: dict[tuple[int, int], bool] = {}
 
+    def mark(self, old: Root | None, new: Root) -> None:
+        """Initialise what an online change initialises inside an object that stays (LPRG-28)."""
+        before = self.old.types[old.type] if old is not None else None
+        self._mark(before, self.new.types[new.type], new.offset)
+
+    def _mark(self, old: TypeInfo | None, type_: TypeInfo, at: int) -> None:
+        known = {m.name.upper(): m for m in old.members} if old is not None else {}
+        for member in type_.members:
+            inner = self.new.types[member.type]
+            if member.absolute or member.section == "VAR_IN_OUT":
+                continue
+            start = at + member.offset
+            before = known.get(member.name.upper())
+            if _is_initialised(before, member):
+                self.fresh.append((start, 1 if member.bit is not None else inner.size))
+                if member.bit is not None:
+                    # bytes are initialised: the other bits of this one get back what they had
+                    self.bits += [
+                        (start, m.bit, start, m.bit)
+                        for m in type_.members
+                        if m.offset == member.offset
+                        and m.bit is not None
+                        and not _is_initialised(known.get(m.name.upper()), m)
+                    ]
+                continue
+            inner_before = self.old.types[before.type] if before is not None else None
+            if inner.kind == "array" and inner.elem is not None:
+                element = self.new.types[inner.elem]
+                was = inner_before.elem if inner_before is not None else None
+                for offset in range(0, inner.size, element.size) if element.members else ():
+                    self._mark(self.old.types[was] if was is not None else None, element, start + offset)
+            elif inner.members:
+                self._mark(inner_before, inner, start)
+
     def members(self, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int) -> None:
         """Move the members that both types have."""
         known = {m.name.upper(): m for m in old.members}
         for member in new.members:
             before = known.get(member.name.upper())
-            if before is None or member.absolute or before.absolute or _is_reinitialised(member):
+            if before is None or member.absolute or before.absolute:
+                continue
+            if _is_reinitialised(before, member):
                 continue
             if member.bit is not None and before.bit is not None:
                 self.bits.append((old_at + before.offset, before.bit, new_at + member.offset, member.bit))
@@ -188,7 +212,7 @@ class _Plan:
         return all(
             a.name.upper() == b.name.upper()
             and (a.offset, a.bit, a.absolute) == (b.offset, b.bit, b.absolute)
-            and not _is_reinitialised(b)
+            and not _is_reinitialised(a, b)
             and self.equal(a.type, b.type)
             for a, b in zip(old.members, new.members, strict=True)
         )

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from tappet.codegen.display import FLAG as DISPLAY_FLAG
 from tappet.codegen.display import MODES
 from tappet.codegen.layout import Signatures
-from tappet.codegen.online import INIT, NO_COPY
+from tappet.codegen.online import INIT, INIT_OTHER, NO_COPY
 from tappet.codegen.package import DataObject, RemanentRange
 from tappet.codegen.symbol_export import FLAG as SYMBOL_FLAG
 from tappet.codegen.symbol_export import right_of
@@ -168,8 +168,9 @@ def marks(decl: ast.VarDecl | None) -> set[str]:
         found.add(f"{DISPLAY_FLAG}{mode.upper()}")
     if attribute_value(decl.attributes, "no_copy") is not None:
         found.add(NO_COPY)
-    if attribute_value(decl.attributes, "init_on_onlchange") is not None:
-        found.add(INIT)
+    initialised = attribute_value(decl.attributes, "init_on_onlchange")
+    if initialised is not None:
+        found.add(f"{INIT_OTHER}{initialised}" if initialised else INIT)
     right = right_of(attribute_value(decl.attributes, "symbol"))
     if right is not None:
         found.add(f"{SYMBOL_FLAG}{right.upper()}")
