@@ -16,7 +16,7 @@ import tappet.lang
 from tappet import libraries
 from tappet.iec.words import KEYWORDS
 from tappet.lang.diagnostic_translations import Texts, phrase, said, texts
-from tappet.lang.diagnostics import Diagnostic
+from tappet.lang.diagnostics import TABLE, Diagnostic
 from tappet.lang.sample_texts import samples
 from tappet.lang.types import ELEMENTARY
 
@@ -114,3 +114,10 @@ def test_a_union_without_members_is_called_one() -> None:
     assert (
         said(found.code, Texts(found.message, found.advice), found.facts, "zh").message == "联合体“U”没有成员"
     )
+
+
+def test_what_is_wrong_with_a_cam_is_said_in_chinese() -> None:
+    """Its whole text stands in a pragma, and has words of its own."""
+    text = "Cam: The velocity jumps from 1 to -0.5 at X = 10"
+    found = said("W1225", Texts(text, TABLE["W1225"].advice), {"text": text}, "zh")
+    assert found.message == "Cam：速度在 X = 10 处从 1 跳变到 -0.5"

@@ -62,6 +62,7 @@ def every_kind() -> Project:
     add(application.id, "scene", "Scene")
     pool = add(application.id, "axis_pool", "SoftMotion General Axis Pool")
     add(pool, "axis", "Axis")
+    add(application.id, "cam", "Cam")
     add(None, "script", "Script")
     add(None, "page_setup", "Page Setup")
     inner = add(application.id, "application", "Second")

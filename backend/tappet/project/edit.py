@@ -245,22 +245,18 @@ def _following(project: Project, renamed: ProjectObject, name: str) -> list[Proj
         data = kind.follow(item.data, renaming)
         if data is not item.data:
             changed.append(changed_object(item, data=data))
-    lists = _lists_of(renamed)
-    if lists:
+    kind = kind_of(renamed)
+    if kind is not None and kind.compiled.variable_in:
         changed += users_renamed(
             project,
             project.walk(application.id if application else None),
-            (*lists, *((application.name,) if application else ())),
-            renamed.name,
-            name,
+            (
+                *(name.format(name=renamed.name) for name in kind.compiled.variable_in),
+                *((application.name,) if application else ()),
+            ),
+            {renamed.name + ending: name + ending for ending in kind.compiled.variable_endings},
         )
     return changed
-
-
-def _lists_of(item: ProjectObject) -> tuple[str, ...]:
-    """The lists in which an object is a global variable."""
-    kind = kind_of(item)
-    return () if kind is None else kind.compiled.variable_in
 
 
 def _free_name(site: Site, item: ProjectObject) -> str:

@@ -126,7 +126,12 @@ class Compiled(Generic[D]):
     """The tasks of the application with what an object has them call around their programs; writes the text
     of the programs that are called. Only for objects directly below an application."""
     variable_in: tuple[str, ...] = ()
-    """The lists in which the object is a global variable of its name; texts follow when it is renamed."""
+    """The lists in which the object is a global variable of its name, `{name}` in theirs being that name;
+    texts follow when it is renamed."""
+    variable_endings: tuple[str, ...] = ("",)
+    """What is behind that name in the names of all variables that the object is."""
+    together: Callable[[Project, Sequence[ProjectObject], SourceWriter], None] | None = None
+    """Writes one text for all objects of the kind that an application sees, in tree order, its own first."""
     libraries: Callable[[D, str], Iterable[LibraryReference]] | None = None
     """The libraries that an object needs or lists, from its data and its path in the tree."""
 
@@ -140,6 +145,8 @@ class JsonFile:
     texts: Mapping[str, str] = field(default_factory=dict)
     """Data fields that are text files of their own beside the JSON, `<name>.<ending>`, by field: the
     ending."""
+    flat: bool = False
+    """Objects that hold no lists and no other objects stand in one line each, like rows of a table."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ and not in comments and strings. Names that a base block of a library declares a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
 from tappet.iec.languages import language_of
@@ -23,20 +23,23 @@ _SECTIONS = ("VAR", "VAR_")
 
 
 def users_renamed(
-    project: Project, items: Iterable[ProjectObject], lists: Sequence[str], old: str, new: str
+    project: Project, items: Iterable[ProjectObject], lists: Sequence[str], names: Mapping[str, str]
 ) -> list[ProjectObject]:
-    """The objects of `items` whose texts use the variable `old`, with `new`; `lists` are the variable lists
-    that hold it."""
+    """The objects of `items` whose texts use variables, with their new `names`, by the old ones; `lists` are
+    the variable lists that hold them."""
     holders = frozenset(name_key(name).upper() for name in lists)
     changed = []
     for item in items:
-        if not isinstance(item.data, CodeData) or _declares(project, item, old):
+        if not isinstance(item.data, CodeData):
             continue
-        update = {
-            field: text
-            for field in _texts(item)
-            if (text := renamed(getattr(item.data, field), holders, old, new)) != getattr(item.data, field)
-        }
+        used = {old: new for old, new in names.items() if not _declares(project, item, old)}
+        update = {}
+        for field in _texts(item):
+            before = text = getattr(item.data, field)
+            for old, new in used.items():
+                text = renamed(text, holders, old, new)
+            if text != before:
+                update[field] = text
         if update:
             changed.append(changed_object(item, data=item.data.model_copy(update=update)))
     return changed

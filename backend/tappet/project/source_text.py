@@ -35,6 +35,11 @@ class SourceWriter:
         """Append a part of an object."""
         self._append(Segment(self.line, object_id, part), text)
 
+    def element(self, object_id: str, element: str, text: str) -> None:
+        """Append lines that are about an element of a drawn object."""
+        segment = Segment(self.line, object_id, "implementation", elements=((element, 0),), drawn=True)
+        self._append(segment, text)
+
     def keyword(self, text: str | None) -> None:
         """Append a line that is in no part; None appends nothing."""
         if text is not None:

@@ -85,15 +85,19 @@ def application_sources(
     written.begin()
     texts: list[Source] = []
     hidden: set[str] = set()
+    seen: list[ProjectObject] = []
     for application in _with_parents(project, application_id):
         own = [item for item in in_scope_of(project, application) if not item.excluded]
         visible = [item for item in own if name_key(item.name) not in hidden]
         texts += _texts(project, visible, Scope.APPLICATION, written)
+        seen += visible
         hidden.update(name_key(item.name) for item in own if item.kind != FOLDER)
-    shared = (item for item in in_scope_of(project, None) if not item.excluded)
+    shared = [item for item in in_scope_of(project, None) if not item.excluded]
     texts += _texts(project, shared, Scope.POUS, written)
-    calls, _ = _around_tasks(project, _application(project, application_id))
-    return texts + [written.unchanged(source) for source in calls]
+    seen += [item for item in shared if name_key(item.name) not in hidden]
+    application = _application(project, application_id)
+    joined = [*_together(project, application, seen), *_around_tasks(project, application)[0]]
+    return texts + [written.unchanged(source) for source in joined]
 
 
 def tasks(project: Project, application_id: str) -> list[Task]:
@@ -103,6 +107,22 @@ def tasks(project: Project, application_id: str) -> list[Task]:
     An application without any task calls PLC_PRG every 20 ms if there is one (POU-07); else it has no task.
     """
     return _around_tasks(project, _application(project, application_id))[1]
+
+
+def _together(
+    project: Project, application: ProjectObject, seen: Iterable[ProjectObject]
+) -> Iterator[Source]:
+    """The texts that objects of one kind have together."""
+    of_kind: dict[str, list[ProjectObject]] = {}
+    for item in seen:
+        if compiled(item).together is not None:
+            of_kind.setdefault(item.kind, []).append(item)
+    for kind, items in of_kind.items():
+        write = compiled(items[0]).together
+        assert write is not None
+        writer = SourceWriter()
+        write(project, items, writer)
+        yield Source(uri=f"{kind}.{application.name}", text=writer.text(), name=writer.name, map=writer.map())
 
 
 def _around_tasks(project: Project, application: ProjectObject) -> tuple[list[Source], list[Task]]:

@@ -2779,6 +2779,278 @@ export interface components {
             uri: string | null;
         };
         /**
+         * CamObject
+         * @description A cam: how a slave axis depends on a master; it is a global variable of its name.
+         */
+        CamObject: {
+            data: components["schemas"]["CamTable"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "cam";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * CamPoint
+         * @description A point of a cam: where the slave is for a position of the master, and its derivatives there.
+         */
+        CamPoint: {
+            /**
+             * A
+             * @description d²Y/dX².
+             * @default 0
+             */
+            a: number;
+            /**
+             * J
+             * @description d³Y/dX³; polynomials of seventh degree use it.
+             * @default 0
+             */
+            j: number;
+            /**
+             * V
+             * @description dY/dX.
+             * @default 0
+             */
+            v: number;
+            /**
+             * X
+             * @description Position of the master.
+             */
+            x: number;
+            /**
+             * Y
+             * @description Position of the slave.
+             */
+            y: number;
+        };
+        /**
+         * CamSegment
+         * @description What leads from a point to the next one.
+         */
+        CamSegment: {
+            /**
+             * Inflection
+             * @description Of a modified sine: the part in front of the inflection point.
+             * @default 0.5
+             */
+            inflection: number;
+            /**
+             * Law
+             * @description Law of motion, VDI 2143.
+             * @default poly5
+             * @enum {string}
+             */
+            law: "line" | "poly3" | "poly5" | "poly7" | "sine" | "inclined_sine" | "modified_sine" | "harmonic";
+        };
+        /**
+         * CamTable
+         * @description A cam; by default the one of CAM-12 with the tracks of CAM-13.
+         */
+        CamTable: {
+            /**
+             * @default {
+             *       "acceleration": true,
+             *       "jerk": false,
+             *       "velocity": true
+             *     }
+             */
+            checks: components["schemas"]["ContinuityChecks"];
+            /**
+             * Compile Format
+             * @description What the cam is compiled into (CAM-75).
+             * @default polynomial
+             * @enum {string}
+             */
+            compile_format: "polynomial" | "segments" | "one_dimensional" | "two_dimensional";
+            /**
+             * Cubic
+             * @description Between the points of a table cubic, else linear.
+             * @default false
+             */
+            cubic: boolean;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * Periodic
+             * @description The end goes over into the start, up to periods of the slave (CAM-72).
+             * @default false
+             */
+            periodic: boolean;
+            /**
+             * Points
+             * @description In order of the master; the first and the last one are the ends of its range.
+             * @default [
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 0,
+             *         "x": 0,
+             *         "y": 0
+             *       },
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 1,
+             *         "x": 120,
+             *         "y": 120
+             *       },
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 1,
+             *         "x": 240,
+             *         "y": 240
+             *       },
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 0,
+             *         "x": 360,
+             *         "y": 360
+             *       }
+             *     ]
+             */
+            points: components["schemas"]["CamPoint"][];
+            /**
+             * Segments
+             * @description One behind each point but the last one.
+             * @default [
+             *       {
+             *         "inflection": 0.5,
+             *         "law": "poly5"
+             *       },
+             *       {
+             *         "inflection": 0.5,
+             *         "law": "poly5"
+             *       },
+             *       {
+             *         "inflection": 0.5,
+             *         "law": "poly5"
+             *       }
+             *     ]
+             */
+            segments: components["schemas"]["CamSegment"][];
+            /**
+             * Slave End
+             * @description Highest position that is shown.
+             * @default 360
+             */
+            slave_end: number;
+            /**
+             * Slave Period
+             * @description In units of the slave.
+             * @default 360
+             */
+            slave_period: number;
+            /**
+             * Slave Start
+             * @description Lowest position that is shown (CAM-71).
+             * @default 0
+             */
+            slave_start: number;
+            /**
+             * Table Size
+             * @description Of the formats with tables of points: how many.
+             * @default 256
+             */
+            table_size: number;
+            /**
+             * Tracks
+             * @description Tracks of tappets, each with an id of its own.
+             * @default [
+             *       {
+             *         "id": 1,
+             *         "tappets": [
+             *           {
+             *             "negative": "off",
+             *             "positive": "on",
+             *             "x": 90
+             *           },
+             *           {
+             *             "negative": "off",
+             *             "positive": "on",
+             *             "x": 270
+             *           }
+             *         ]
+             *       },
+             *       {
+             *         "id": 2,
+             *         "tappets": []
+             *       }
+             *     ]
+             */
+            tracks: components["schemas"]["CamTrack"][];
+        };
+        /**
+         * CamTappet
+         * @description What happens to the bit of a track when the master passes a position (CAM-53).
+         */
+        CamTappet: {
+            /**
+             * Negative
+             * @description When the master decreases.
+             * @default off
+             * @enum {string}
+             */
+            negative: "none" | "on" | "off" | "invert";
+            /**
+             * Positive
+             * @description When the master increases.
+             * @default on
+             * @enum {string}
+             */
+            positive: "none" | "on" | "off" | "invert";
+            /**
+             * X
+             * @description Position of the master.
+             */
+            x: number;
+        };
+        /**
+         * CamTrack
+         * @description Tappets that switch the same bit (CAM-50).
+         */
+        CamTrack: {
+            /**
+             * Id
+             * @description Names the bit: iGroupID.
+             */
+            id: number;
+            /**
+             * Tappets
+             * @default []
+             */
+            tappets: components["schemas"]["CamTappet"][];
+        };
+        /**
          * Camera
          * @description Where the view starts, in scene units.
          */
@@ -2991,6 +3263,27 @@ export interface components {
              * @enum {string}
              */
             severity: "warning" | "info";
+        };
+        /**
+         * ContinuityChecks
+         * @description What may not jump between two segments, beside the position (CAM-74).
+         */
+        ContinuityChecks: {
+            /**
+             * Acceleration
+             * @default true
+             */
+            acceleration: boolean;
+            /**
+             * Jerk
+             * @default false
+             */
+            jerk: boolean;
+            /**
+             * Velocity
+             * @default true
+             */
+            velocity: boolean;
         };
         /**
          * CopyTarget
@@ -4685,7 +4978,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.

@@ -119,7 +119,7 @@ def _encode_object(item: ProjectObject, place: str, files: dict[str, bytes]) -> 
         defaults = kinds()[item.kind].data().model_dump(mode="json", exclude_none=True)
         data = {} if data == defaults else data
     if data or not form.optional:
-        files[f"{place}.{item.kind}.json"] = write_json(data)
+        files[f"{place}.{item.kind}.json"] = write_json(data, flat=form.flat)
     return entry
 
 

@@ -106,10 +106,30 @@ def read_endings(value: object) -> Endings:
     return found if len(set(found.values())) == len(found) and "json" not in found.values() else {}
 
 
-def write_json(data: Any) -> bytes:
-    """JSON with sorted keys, two blanks of indentation and a final line break."""
-    text = json.dumps(data, sort_keys=True, ensure_ascii=False, indent=2, allow_nan=False)
-    return (text + "\n").encode()
+def write_json(data: Any, *, flat: bool = False) -> bytes:
+    """JSON with sorted keys, two blanks of indentation and a final line break.
+
+    With `flat`, objects below the first one that hold no lists and no objects stand in one line.
+    """
+    return ((_rows(data, "\n") if flat else _json(data, indent=2)) + "\n").encode()
+
+
+def _json(value: Any, indent: int | None = None) -> str:
+    return json.dumps(value, sort_keys=True, ensure_ascii=False, indent=indent, allow_nan=False)
+
+
+def _rows(value: Any, line: str, *, outermost: bool = True) -> str:
+    """JSON whose flat objects are lines; `line` begins a line of the value itself."""
+    inner = line + "  "
+    if isinstance(value, dict) and (
+        outermost or any(isinstance(member, dict | list) for member in value.values())
+    ):
+        members = [f"{_json(key)}: {_rows(value[key], inner, outermost=False)}" for key in sorted(value)]
+        return "{" + inner + f",{inner}".join(members) + line + "}" if members else "{}"
+    if isinstance(value, list) and value:
+        items = [_rows(item, inner, outermost=False) for item in value]
+        return "[" + inner + f",{inner}".join(items) + line + "]"
+    return _json(value)
 
 
 def read_json(path: str, content: bytes) -> Any:
