@@ -73,11 +73,12 @@ lock: $(VENV)/.ready
 	$(BIN)/uv pip compile pyproject.toml --group dev --universal --python-version 3.11 --quiet \
 	  --custom-compile-command "make lock" -o requirements.lock
 
-## generate: what is made from the sources: OpenAPI, client types, pages of the diagnostics
+## generate: what is made from the sources: OpenAPI, client types, pages of the diagnostics, manual of the motion library
 generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.server.print_openapi > frontend/src/api/openapi.json
 	cd frontend && npm run --silent generate
 	$(BIN)/python -m tappet.lang.diagnostic_pages
+	$(BIN)/python -m tappet.manual
 	$(BIN)/python -m tappet.iec.typescript
 	$(BIN)/python -m tappet.lang.languages.il.typescript
 	$(BIN)/python tests/iec/iec_texts.py

@@ -1,0 +1,248 @@
+"""A page for each block, function and type of SM3_Basic, and an index, in English and Chinese."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+
+from tappet.libraries import load
+from tappet.libraries.catalog import Item, NamedValue, Pin, items
+from tappet.libraries.library import Library
+from tappet.manual.examples import CYCLE_MS, Example
+from tappet.manual.library_errors import errors_of
+from tappet.manual.words import GROUPS, group, state, word
+from tappet.translation.language import Language
+from tappet.translation.library_comments import paragraphs, said
+
+LIBRARY = "SM3_Basic"
+LANGUAGES: tuple[Language, ...] = ("en", "zh")
+_SECTIONS = (("in_out", "in_out"), ("inputs", "inputs"), ("outputs", "outputs"))
+_POUS = ("function_block", "function", "program")
+_IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+
+
+def pages(examples: Mapping[str, Example]) -> dict[str, str]:
+    """Text of every page by its path below `docs/motion/blocks`."""
+    made: dict[str, str] = {}
+    for language in LANGUAGES:
+        manual = _Manual(load(LIBRARY), examples, language)
+        for item in manual.items.values():
+            made[f"{manual.folder}{item.name}.md"] = manual.page(item)
+        made[f"{manual.folder}README.md"] = manual.index()
+    return made
+
+
+@cache
+def _rows() -> dict[str, dict[str, str]]:
+    text = files(__package__).joinpath("blocks.csv").read_text(encoding="utf-8")
+    return {row["name"]: row for row in csv.DictReader(text.splitlines())}
+
+
+def group_of(item: Item) -> str:
+    """Key of the group in which the index shows an item."""
+    if item.kind not in _POUS:
+        return "types"
+    return _rows().get(item.name, {}).get("group", "other")
+
+
+class _Manual:
+    """The pages in a language."""
+
+    def __init__(self, library: Library, examples: Mapping[str, Example], language: Language) -> None:
+        self.items = {item.name: item for item in items(library)}
+        self.folder = "zh/" if language == "zh" else ""
+        self._library = library
+        self._examples = examples
+        self._language = language
+        self._up = "../../" if language == "zh" else "../"
+        self._numbers = {
+            value.name: (number, value.comment) for value, number in _numbered(self.items["SMC_ERROR"])
+        }
+        self._users: dict[str, set[str]] = {}
+        for item in self.items.values():
+            for pin in (*item.inputs, *item.outputs, *item.in_out, *item.members):
+                for name in _IDENTIFIER.findall(pin.type):
+                    if name in self.items and name != item.name:
+                        self._users.setdefault(name, set()).add(item.name)
+
+    def page(self, item: Item) -> str:
+        """The page of an item."""
+        lines = [f"# {item.name}", ""]
+        kind = self._word(item.kind)
+        where = f"{kind}, [{group(group_of(item), self._language)}](README.md)"
+        other = self._word("other language", page=f"{item.name}.md")
+        lines += [f"{where} · [{self._word('source')}]({self._up}{self._source(item)}) · {other}", ""]
+        for paragraph in self._paragraphs(item.summary):
+            lines += [paragraph, ""]
+        lines += self._form(item)
+        lines += self._state(item) + self._errors(item) + self._example(item)
+        users = sorted(self._users.get(item.name, ()), key=str.upper)
+        if users and item.name != "AXIS_REF_SM3":
+            lines += [
+                f"## {self._word('used by')}",
+                "",
+                ", ".join(f"[{name}]({name}.md)" for name in users),
+                "",
+            ]
+        return _joined(lines)
+
+    def _form(self, item: Item) -> list[str]:
+        lines: list[str] = []
+        if item.returns and item.kind in ("function", "alias"):
+            lines += [
+                self._word("returns" if item.kind == "function" else "stands for", type=item.returns),
+                "",
+            ]
+        for section, heading in _SECTIONS:
+            lines += self._pins(self._word(heading), getattr(item, section))
+        lines += self._pins(
+            self._word("parameters" if item.kind == "parameter_list" else "members"), item.members
+        )
+        if item.values:
+            head = (self._word("name"), self._word("number"), self._word("meaning"))
+            rows = [
+                (f"`{value.name}`", number, self._say(value.comment)) for value, number in _numbered(item)
+            ]
+            lines += [f"## {self._word('values')}", "", *_table(head, rows), ""]
+        public = [method for method in item.methods if self._is_public(item, method)]
+        for method in public:
+            lines += [f"## {self._word('methods')}: {method.name}", ""]
+            lines += [*self._paragraphs(method.summary), ""]
+            for section, heading in _SECTIONS:
+                lines += self._pins(self._word(heading), getattr(method, section), "###")
+        return lines
+
+    def _is_public(self, item: Item, method: Item) -> bool:
+        text = next(source.text for source in self._library.sources if source.name == item.name)
+        return re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{method.name}\b", text) is not None
+
+    def _pins(self, heading: str, pins: Sequence[Pin], level: str = "##") -> list[str]:
+        if not pins:
+            return []
+        head = (self._word("name"), self._word("type"), self._word("default"), self._word("meaning"))
+        rows = [
+            (f"`{pin.name}`", self._type(pin.type), _code(pin.default), self._say(pin.comment))
+            for pin in pins
+        ]
+        return [f"{level} {heading}", "", *_table(head, rows), ""]
+
+    def _state(self, item: Item) -> list[str]:
+        key = _rows().get(item.name, {}).get("state", "")
+        if not key:
+            return []
+        return [f"## {self._word('state')}", "", state(key, self._language), ""]
+
+    def _errors(self, item: Item) -> list[str]:
+        if item.kind != "function_block" or all(pin.type != "SMC_ERROR" for pin in item.outputs):
+            return []
+        found = sorted(
+            (int(self._numbers[name][0]), name)
+            for name in errors_of(self._library, item.name)
+            if name in self._numbers
+        )
+        if not found:
+            return []
+        head = (self._word("number"), self._word("name"), self._word("meaning"))
+        rows = [(str(number), f"`{name}`", self._say(self._numbers[name][1])) for number, name in found]
+        return [f"## {self._word('errors')}", "", self._word("own errors"), "", *_table(head, rows), ""]
+
+    def _example(self, item: Item) -> list[str]:
+        example = self._examples.get(item.name)
+        if example is None:
+            return []
+        file = f"{self._up}examples/{item.name}.st"
+        names = ", ".join(f"`{name}`" for name in example.axes)
+        key = "axis" if len(example.axes) == 1 else "axes" if example.axes else "no axis"
+        axes = self._word(key, name=example.axes[0] if example.axes else "", names=names)
+        lines = []
+        if example.charted:
+            chart = f"{'../' if self._language == 'zh' else ''}charts/{item.name}.svg"
+            lines += [f"## {self._word('timing')}", "", f"![{item.name}]({chart})", ""]
+            lines += [self._word("chart", cycles=example.cycles, cycle=CYCLE_MS), ""]
+        lines += [f"## {self._word('example')}", "", *self._paragraphs(example.comment), ""]
+        lines += [
+            self._word("example text", axes=axes, file=file),
+            "",
+            "```iecst",
+            example.program,
+            "```",
+            "",
+        ]
+        return lines
+
+    def index(self) -> str:
+        """The index in groups, behind the rules that hold for all blocks."""
+        rules = files(__package__).joinpath(f"rules_{self._language}.md").read_text(encoding="utf-8")
+        lines = [f"# {self._word('title')}", "", self._word("other language", page="README.md"), ""]
+        lines += [
+            self._word("intro", cycle=CYCLE_MS),
+            "",
+            f"## {self._word('general')}",
+            "",
+            rules.strip(),
+            "",
+        ]
+        head = (self._word("name"), self._word("kind"), self._word("what"))
+        for key in GROUPS:
+            members = [item for item in self.items.values() if group_of(item) == key]
+            rows = [
+                (f"[{item.name}]({item.name}.md)", self._word(item.kind), self._first(item))
+                for item in members
+            ]
+            if rows:
+                lines += [f"## {group(key, self._language)}", "", *_table(head, rows), ""]
+        return _joined(lines)
+
+    def _first(self, item: Item) -> str:
+        """The first sentence of what an item is."""
+        found = self._paragraphs(item.summary)
+        end = "。" if self._language == "zh" else ". "
+        sentence, stop, _ = (found[0] if found else "").partition(end)
+        return sentence + stop.rstrip()
+
+    def _type(self, text: str) -> str:
+        """A type with links to the pages of its parts."""
+
+        def linked(match: re.Match[str]) -> str:
+            name = match.group()
+            return f"[{name}]({name}.md)" if name in self.items else name
+
+        if not any(name in self.items for name in _IDENTIFIER.findall(text)):
+            return f"`{text}`"
+        return _IDENTIFIER.sub(linked, text.replace("[", r"\[").replace("]", r"\]"))
+
+    def _source(self, item: Item) -> str:
+        return f"../../backend/tappet/libraries/{LIBRARY}/{item.name}.st"
+
+    def _word(self, key: str, **facts: object) -> str:
+        return word(key, self._language, **facts)
+
+    def _say(self, comment: str) -> str:
+        return " ".join(self._paragraphs(comment))
+
+    def _paragraphs(self, comment: str) -> list[str]:
+        return [said(part, LIBRARY, self._language) for part in paragraphs(comment)]
+
+
+def _numbered(item: Item) -> Iterable[tuple[NamedValue, str]]:
+    """The values of an enumeration with their numbers."""
+    number = -1
+    for value in item.values:
+        number = int(value.value) if value.value else number + 1
+        yield value, str(number)
+
+
+def _code(text: str) -> str:
+    return f"`{text}`" if text else ""
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    lines = [f"| {' | '.join(head)} |", "|" + "---|" * len(head)]
+    return lines + [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in rows]
+
+
+def _joined(lines: Sequence[str]) -> str:
+    return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)).rstrip() + "\n"
