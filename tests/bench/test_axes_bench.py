@@ -44,8 +44,9 @@ def test_slaves_that_are_not_in_gear_are_not_measured() -> None:
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="the C++ version needs g++")
-def test_the_moves_in_c_are_those_of_the_wheel(tmp_path: Path) -> None:
-    program = axes.ruckig(tmp_path)
+@pytest.mark.parametrize("targets", [axes.FAR, axes.NEAR])
+def test_the_moves_in_c_are_those_of_the_wheel(tmp_path: Path, targets: tuple[float, float]) -> None:
+    program = axes.ruckig(tmp_path, targets)
     assert program is not None
     given = InputParameter(1)
     given.max_velocity, given.max_acceleration, given.max_jerk = [50.0], [20.0], [200.0]
@@ -56,7 +57,7 @@ def test_the_moves_in_c_are_those_of_the_wheel(tmp_path: Path) -> None:
             given.current_position = position
             given.current_velocity = velocity
             given.current_acceleration = acceleration
-        given.target_position = [1000.0 if number % 2 == 0 else 1010.0]
+        given.target_position = [targets[number % 2]]
         Ruckig(1).calculate(given, trajectory)
         NativeLoop().seconds(program.cycle, 1)
         assert program.result == pytest.approx(trajectory.duration, rel=1e-12)

@@ -78,6 +78,25 @@ def test_as_short_as_ruckigs(plan: Plan, start: str) -> None:
     check_segments(_check_against_ruckig(plan, random_cases(1, 5000, start)), within=False)
 
 
+def _to_rest(cases: Numbers) -> Numbers:
+    """The same, to targets at rest, for which fewer ways are looked at."""
+    cases = cases.copy()
+    cases[:, [4, 5]] = 0.0
+    return cases
+
+
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+def test_as_short_as_ruckigs_to_rest(plan: Plan, start: str) -> None:
+    check_segments(_check_against_ruckig(plan, _to_rest(random_cases(31, 5000, start))), within=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("start", ["within", "at", "beyond"])
+@pytest.mark.parametrize("seed", range(2, 5))
+def test_as_short_as_ruckigs_to_rest_often(plan: Plan, start: str, seed: int) -> None:
+    check_segments(_check_against_ruckig(plan, _to_rest(random_cases(seed, 12000, start))), within=False)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("start", ["within", "at", "beyond"])
 @pytest.mark.parametrize("seed", range(2, 8))

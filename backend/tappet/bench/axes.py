@@ -43,13 +43,15 @@ VAR
     xGo    : BOOL;
     xAgain : BOOL; (* An edge in every second cycle *)
     rtRamp : SM3_Basic.SMC_RAMPTYPE;
-    fTarget, fSpeed, fRamp, fJerk : LREAL;
+    fTarget, fOther, fBefore, fSpeed, fRamp, fJerk : LREAL;
     result : LREAL;
 {variables}
 END_VAR
 IF xAgain THEN
     xGo := NOT xGo;
-    fTarget := SEL(xGo, fTarget, 2010.0 - fTarget);
+    fBefore := fTarget;
+    fTarget := SEL(xGo, fTarget, fOther);
+    fOther := SEL(xGo, fOther, fBefore);
 END_IF
 FOR i := 1 TO {axes} DO
     Axis[i].eRampType := rtRamp;
@@ -155,11 +157,17 @@ def moving(loop: NativeLoop, ramp: int, axes: int = AXES) -> tuple[float, float,
     return standing, in_motion, command
 
 
-def replanning(loop: NativeLoop, axes: int = AXES) -> float:
+FAR, NEAR = (1000.0, 1010.0), (10.0, -10.0)
+"""Two targets in turn: those over the largest velocity, and those where it is not reached."""
+
+
+def replanning(loop: NativeLoop, targets: tuple[float, float], axes: int = AXES) -> float:
     """Microseconds of a command with limited jerk to an axis in motion, above those of moving."""
     with running(program(axes, *MOVES)) as (runtime, cycle):
-        for name, value in (("fTarget", 1e3), ("fSpeed", 50.0), ("fRamp", 20.0), ("fJerk", 200.0)):
+        for name, value in (("fSpeed", 50.0), ("fRamp", 20.0), ("fJerk", 200.0)):
             runtime.write(f"Main.{name}", value)
+        runtime.write("Main.fTarget", targets[0])
+        runtime.write("Main.fOther", targets[1])
         runtime.write("Main.rtRamp", RAMP_TYPES.index("quadratic"))
         loop.seconds(cycle, 5)
         runtime.write("Main.xGo", True)
@@ -180,13 +188,13 @@ def coupled(loop: NativeLoop, parts: tuple[str, str], axes: int = AXES) -> float
     return found
 
 
-def ruckig(directory: Path) -> CProgram | None:
+def ruckig(directory: Path, targets: tuple[float, float]) -> CProgram | None:
     """The moves of `replanning` in C++; None without g++ or the wheel of Ruckig, which has the library."""
     found = importlib.util.find_spec("ruckig")
     if found is None or found.origin is None or shutil.which("g++") is None:
         return None
     library = Path(found.origin)
-    target = directory / "ruckig_replan.so"
+    target = directory / f"ruckig_{targets[0]:.0f}.so"
     command = [
         "g++",
         "-O2",
@@ -198,7 +206,7 @@ def ruckig(directory: Path) -> CProgram | None:
         str(target),
     ]
     command += [str(MOTION / "ruckig_replan.cpp"), "-Wl,--unresolved-symbols=ignore-all", str(library)]
-    command += [f"-Wl,-rpath,{library.parent}"]
+    command += [f"-Wl,-rpath,{library.parent}", f"-DTARGET={targets[0]}", f"-DOTHER={targets[1]}"]
     importlib.import_module("ruckig")
     done = subprocess.run(command, check=False, capture_output=True)  # noqa: S603 - our own file and arguments
     return CProgram.compiled(target) if done.returncode == 0 else None
@@ -253,12 +261,13 @@ def run(only: Sequence[str] = ()) -> Report:
             ],
             "replan": lambda: [
                 Row(
-                    "re-planning in flight, quadratic",
-                    replanning(loop),
-                    _ruckig_time(loop, directory),
+                    f"re-planning in flight, quadratic, {name}",
+                    replanning(loop, targets),
+                    _base(loop, ruckig(directory, targets), 1000, 1e-6),
                     "us",
                     RUCKIG,
                 )
+                for name, targets in (("far", FAR), ("near", NEAR))
             ],
             "build": lambda: [project()],
         }
@@ -276,7 +285,3 @@ def _moving_rows(loop: NativeLoop, evaluated: float | None) -> list[Row]:
         rows.append(Row(f"moving, {name}", in_motion, evaluated, "ns", f"in standstill {standing:.0f} ns"))
         rows.append(Row(f"new command, {name}", command, None, "us", f"to {AXES:,} axes in one cycle"))
     return rows
-
-
-def _ruckig_time(loop: NativeLoop, directory: Path) -> float | None:
-    return _base(loop, ruckig(directory), 1000, 1e-6)

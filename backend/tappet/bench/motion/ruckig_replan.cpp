@@ -24,7 +24,7 @@ void cycle() {
                            input.current_acceleration[0]);
     }
     away = !away;
-    input.target_position[0] = away ? 1000.0 : 1010.0;
+    input.target_position[0] = away ? TARGET : OTHER;
     planner.calculate(input, trajectory);
     result = trajectory.get_duration();
 }
