@@ -72,13 +72,20 @@ def test_what_examples_expect_comes_true() -> None:
     assert [message for one in recordings() for message in one.wrong] == []
 
 
+def test_every_block_has_an_example() -> None:
+    blocks = {item.name for item in items(load("SM3_Basic")) if item.kind in ("function_block", "function")}
+    examples = {one.example.name for one in recordings()}
+    assert examples - blocks == set()
+    assert blocks - examples == {"AXIS_REF_SM3", "AXIS_REF_VIRTUAL_SM3", "AxisPanel"}
+
+
 def test_a_wrong_expectation_is_told() -> None:
     one = next(one for one in recordings() if one.example.name == "MC_MoveAbsolute")
     other = tuple(replace(expected, value="99.9") for expected in one.example.expectations)
     assert replace(one, example=replace(one.example, expectations=other)).wrong == [
         "MC_MoveAbsolute, cycle 3: Move.Busy is TRUE, not 99.9",
-        "MC_MoveAbsolute, cycle 600: Move.Done is TRUE, not 99.9",
-        "MC_MoveAbsolute, cycle 600: Axis.fSetPosition is 100.0, not 99.9",
+        "MC_MoveAbsolute, cycle 500: Move.Done is TRUE, not 99.9",
+        "MC_MoveAbsolute, cycle 500: Axis.fSetPosition is 100.0, not 99.9",
     ]
 
 

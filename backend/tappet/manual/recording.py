@@ -94,7 +94,7 @@ def _built(examples: tuple[Example, ...]) -> CodePackage:
     cycle = _CYCLE.format(begin=begin, calls=calls, end=end)
     sources += [Source("Axes", frame(), name="Axes"), Source("Cycle", cycle, name="Cycle")]
     task = Task("Bus", interval_ns=CYCLE_MS * NS_PER_MS, programs=("Cycle",))
-    options = BuildOptions(libraries=(LibraryReference("SM3_Basic"),), level=1)
+    options = BuildOptions(libraries=(LibraryReference("SM3_Basic"), LibraryReference("Standard")), level=1)
     result = build_application(sources, [task], options=options, session=BuildSession())
     messages = [str(one) for one in result.diagnostics if _counts(one)]
     if messages or result.package is None:
