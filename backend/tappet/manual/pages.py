@@ -15,9 +15,11 @@ from tappet.manual.examples import CYCLE_MS, Example
 from tappet.manual.library_errors import errors_of
 from tappet.manual.words import GROUPS, group, state, word
 from tappet.translation.language import Language
-from tappet.translation.library_comments import paragraphs, said
+from tappet.translation.library_comments import said
 
 LIBRARY = "SM3_Basic"
+EXAMPLES = "SM3_Basic_examples"
+"""Table of the sentences of the examples."""
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
 _SECTIONS = (("in_out", "in_out"), ("inputs", "inputs"), ("outputs", "outputs"))
 _POUS = ("function_block", "function", "program")
@@ -48,6 +50,12 @@ def group_of(item: Item) -> str:
     return _rows().get(item.name, {}).get("group", "other")
 
 
+def public_methods(library: Library, item: Item) -> list[Item]:
+    """The methods that programs may call."""
+    text = next((source.text for source in library.sources if source.name == item.name), "")
+    return [one for one in item.methods if re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{one.name}\b", text)]
+
+
 class _Manual:
     """The pages in a language."""
 
@@ -72,7 +80,7 @@ class _Manual:
         """The page of an item."""
         lines = [f"# {item.name}", ""]
         kind = self._word(item.kind)
-        where = f"{kind}, [{group(group_of(item), self._language)}](README.md)"
+        where = f"{kind}{self._word('comma')}[{group(group_of(item), self._language)}](README.md)"
         other = self._word("other language", page=f"{item.name}.md")
         lines += [f"{where} · [{self._word('source')}]({self._up}{self._source(item)}) · {other}", ""]
         for paragraph in self._paragraphs(item.summary):
@@ -107,17 +115,12 @@ class _Manual:
                 (f"`{value.name}`", number, self._say(value.comment)) for value, number in _numbered(item)
             ]
             lines += [f"## {self._word('values')}", "", *_table(head, rows), ""]
-        public = [method for method in item.methods if self._is_public(item, method)]
-        for method in public:
+        for method in public_methods(self._library, item):
             lines += [f"## {self._word('methods')}: {method.name}", ""]
-            lines += [*self._paragraphs(method.summary), ""]
+            lines += [self._say(method.summary), ""]
             for section, heading in _SECTIONS:
                 lines += self._pins(self._word(heading), getattr(method, section), "###")
         return lines
-
-    def _is_public(self, item: Item, method: Item) -> bool:
-        text = next(source.text for source in self._library.sources if source.name == item.name)
-        return re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{method.name}\b", text) is not None
 
     def _pins(self, heading: str, pins: Sequence[Pin], level: str = "##") -> list[str]:
         if not pins:
@@ -162,7 +165,7 @@ class _Manual:
             chart = f"{'../' if self._language == 'zh' else ''}charts/{item.name}.svg"
             lines += [f"## {self._word('timing')}", "", f"![{item.name}]({chart})", ""]
             lines += [self._word("chart", cycles=example.cycles, cycle=CYCLE_MS), ""]
-        lines += [f"## {self._word('example')}", "", *self._paragraphs(example.comment), ""]
+        lines += [f"## {self._word('example')}", "", self._say(example.comment, EXAMPLES), ""]
         lines += [
             self._word("example text", axes=axes, file=file),
             "",
@@ -198,10 +201,7 @@ class _Manual:
 
     def _first(self, item: Item) -> str:
         """The first sentence of what an item is."""
-        found = self._paragraphs(item.summary)
-        end = "。" if self._language == "zh" else ". "
-        sentence, stop, _ = (found[0] if found else "").partition(end)
-        return sentence + stop.rstrip()
+        return next(iter(self._paragraphs(item.summary)), "")
 
     def _type(self, text: str) -> str:
         """A type with links to the pages of its parts."""
@@ -220,11 +220,15 @@ class _Manual:
     def _word(self, key: str, **facts: object) -> str:
         return word(key, self._language, **facts)
 
-    def _say(self, comment: str) -> str:
-        return " ".join(self._paragraphs(comment))
+    def _say(self, comment: str, library: str = LIBRARY) -> str:
+        between = "" if self._language == "zh" else " "
+        return between.join(said(comment, library, self._language))
 
     def _paragraphs(self, comment: str) -> list[str]:
-        return [said(part, LIBRARY, self._language) for part in paragraphs(comment)]
+        """The first sentence of a comment, and what it goes on with."""
+        found = said(comment, LIBRARY, self._language)
+        between = "" if self._language == "zh" else " "
+        return [text for text in (between.join(found[:1]), between.join(found[1:])) if text]
 
 
 def _numbered(item: Item) -> Iterable[tuple[NamedValue, str]]:

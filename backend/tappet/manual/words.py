@@ -5,6 +5,7 @@ from __future__ import annotations
 from tappet.translation.language import Language
 
 _WORDS: dict[str, tuple[str, str]] = {
+    "comma": (", ", "，"),
     "title": ("Blocks and types of SM3_Basic", "SM3_Basic 的功能块和类型"),
     "intro": (
         "Made from the sources of the library by `make generate`; every chart is recorded from the example "

@@ -1,7 +1,7 @@
-"""Comments of the product's libraries in the languages of its users, paragraph by paragraph.
+"""Comments of the product's libraries in the languages of its users, sentence by sentence.
 
-The tables `<language>/libraries/<library>.csv` have the English paragraph of each. What cites a specification
-stands behind a paragraph and is the same in all languages.
+The tables `<language>/libraries/<library>.csv` have the English sentence of each. What cites a specification
+stands behind the others and is the same in all languages.
 """
 
 from __future__ import annotations
@@ -13,25 +13,27 @@ from importlib.resources import files
 
 from tappet.translation.language import Language
 
-_CITATION = re.compile(r"(?:^|(?<=[.;:])\s+)(Spec\s[^.]*(?:\.\d[^.]*)*\.)\s*$")
-"""`Spec STA-01, motion_semantics 2 to 5.` at the end of a comment."""
+_CITATION = re.compile(r"(?:^|(?<=[.;:)])\s+)(Spec\s[^.]*(?:\.\d[^.]*)*\.)")
+"""`Spec STA-01, motion_semantics 2 to 5.`"""
+_END = re.compile(r"(?<=\.)\s+(?=[A-Z(])")
+"""Between two sentences."""
 
 
-def paragraphs(comment: str) -> list[str]:
-    """The paragraphs of a comment, each on one line, without the specification that it cites."""
-    plain = _CITATION.sub("", comment.rstrip())
-    found = (" ".join(part.split()) for part in re.split(r"\n\s*\n", plain))
-    return [paragraph for paragraph in found if paragraph]
+def sentences(comment: str) -> list[str]:
+    """The sentences of a comment, without the specification that it cites."""
+    plain = " ".join(_CITATION.sub("", comment).split())
+    return [sentence for sentence in _END.split(plain) if sentence]
 
 
-def said(paragraph: str, library: str, language: Language) -> str:
-    """A paragraph in a language; as it is where there are no words for it."""
-    return table(library, language).get(paragraph, paragraph)
+def said(comment: str, library: str, language: Language) -> list[str]:
+    """The sentences of a comment in a language; those without words for it as they are."""
+    known = table(library, language)
+    return [known.get(sentence, sentence) for sentence in sentences(comment)]
 
 
 @cache
 def table(library: str, language: Language) -> dict[str, str]:
-    """What there is in a language of the comments of a library, by English paragraph."""
+    """What there is in a language of the comments of a library, by English sentence."""
     path = files(__package__).joinpath(language, "libraries", f"{library}.csv")
     if language == "en" or not path.is_file():
         return {}
