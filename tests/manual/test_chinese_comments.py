@@ -12,7 +12,7 @@ from tappet.libraries import load
 from tappet.libraries.catalog import Item, items
 from tappet.manual.examples import read_examples
 from tappet.manual.pages import EXAMPLES, LIBRARY, public_methods
-from tappet.translation.library_comments import said, sentences, table
+from tappet.translation.library_comments import comment, said, sentences, table
 
 CHINESE = re.compile("[一-鿿]")
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?![\w])")
@@ -68,6 +68,19 @@ def test_a_comment_is_cut_into_sentences_and_loses_what_it_cites() -> None:
     ]
     assert sentences("") == []
     assert sentences("Why") == ["Why"]
+
+
+def test_a_whole_comment_has_no_blanks_between_chinese_sentences() -> None:
+    assert (
+        comment("The axis stands. It starts in standstill only.", LIBRARY, "zh")
+        == "The axis stands. 只能在静止时启动。"
+    )
+    assert comment(
+        "Moves the axis to a position. PLCopen part 1, version 2.0. Spec X-01.", LIBRARY, "zh"
+    ) == ("使轴运动到一个位置。PLCopen 第 1 部分，2.0 版本。")
+    assert (
+        comment("Nobody has\n\nsaid this. Spec X-01.", LIBRARY, "zh") == "Nobody has\n\nsaid this. Spec X-01."
+    )
 
 
 def test_what_has_no_row_stays_english() -> None:

@@ -21,6 +21,19 @@ def test_list_and_items(admin: TestClient) -> None:
     assert [(pin["name"], pin["type"]) for pin in ton["inputs"]] == [("IN", "BOOL"), ("PT", "TIME")]
 
 
+def test_comments_come_in_the_language_of_the_request(admin: TestClient) -> None:
+    def move(language: str) -> dict[str, str]:
+        library = admin.get(f"{URL}/SM3_Basic", headers={"Accept-Language": language}).json()
+        item = next(item for item in library["items"] if item["name"] == "MC_MoveAbsolute")
+        pins = {pin["name"]: pin["comment"] for pin in item["inputs"] + item["outputs"]}
+        return {"summary": item["summary"], "Position": pins["Position"]}
+
+    assert move("zh-CN") == {"summary": "使轴运动到一个位置。", "Position": "目标位置 [u]"}
+    assert move("en")["Position"] == "Target [u]"
+    standard = admin.get(f"{URL}/Standard", headers={"Accept-Language": "zh"}).json()
+    assert next(item for item in standard["items"] if item["name"] == "TON")["summary"].isascii()
+
+
 def test_sources_are_open(admin: TestClient) -> None:
     assert "FUNCTION_BLOCK TON" in admin.get(f"{URL}/Standard/sources/ton").json()["text"]
     assert admin.get(f"{URL}/Standard/sources/..%2F..%2Fsecret").status_code == 404

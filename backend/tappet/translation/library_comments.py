@@ -31,6 +31,14 @@ def said(comment: str, library: str, language: Language) -> list[str]:
     return [known.get(sentence, sentence) for sentence in sentences(comment)]
 
 
+def comment(english: str, library: str, language: Language) -> str:
+    """A whole comment in a language; as it is if there are no words for any of its sentences."""
+    found = said(english, library, language)
+    if found == sentences(english):
+        return english
+    return re.sub(r"(?<=[。）]) ", "", " ".join(found))
+
+
 @cache
 def table(library: str, language: Language) -> dict[str, str]:
     """What there is in a language of the comments of a library, by English sentence."""

@@ -6,6 +6,7 @@
  * else stored. The events socket (`workbench/events.ts`) keeps these caches fresh when somebody else changes something.
  */
 import { QueryClient, queryOptions, useQuery, type UseQueryResult } from '@tanstack/react-query';
+import { language } from '@/i18n';
 import { api, ApiError } from './client';
 import { shaped, type Check } from './objects';
 import type { ObjectOf, ObjectSummary, ProjectObject } from './types';
@@ -97,7 +98,7 @@ export const librariesQuery = queryOptions({
 /** A library with all its items; without a version the newest one. */
 export function libraryQuery(name: string, version = '*') {
   return queryOptions({
-    queryKey: keys.library(name, version),
+    queryKey: [...keys.library(name, version), language()], // its comments may be in it
     queryFn: () => api.get('/api/v1/libraries/{name}', { params: { path: { name }, query: { version } } }),
     staleTime: Infinity,
   });

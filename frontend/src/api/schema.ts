@@ -422,6 +422,8 @@ export interface paths {
         /**
          * Get Library
          * @description A library with its POUs and types, their pins, defaults and comments.
+         *
+         *     Comments of `SM3_Basic` come in the language of the request.
          */
         get: operations["get_library"];
         put?: never;

@@ -34,6 +34,8 @@ from tappet.server.problems import Problem, not_found
 from tappet.server.projects.routes import download
 from tappet.server.routing import Router
 from tappet.server.services import Services
+from tappet.server.spoken import LanguageDep
+from tappet.translation.language import Language
 
 router = Router(tags=["libraries"])
 _ITEMS = TypeAdapter(list[LibraryItem])
@@ -48,10 +50,11 @@ def _load(name: str, version: str = "*") -> Library:
 
 
 @lru_cache(maxsize=32)
-def _items(library: Library) -> list[LibraryItem]:
+def _items(library: Library, language: Language) -> list[LibraryItem]:
     from tappet.libraries import catalog  # parses: only a server whose libraries are looked at needs that
 
-    return _ITEMS.validate_python(catalog.items(library), from_attributes=True)
+    items = _ITEMS.validate_python(catalog.items(library), from_attributes=True)
+    return [item.in_language(library.name, language) for item in items]
 
 
 @router.get("/libraries")
@@ -61,10 +64,13 @@ def list_libraries(who: Viewer) -> list[LibrarySummary]:
 
 
 @router.get("/libraries/{name}")
-def get_library(name: str, who: Viewer, version: Version = "*") -> LibraryDetail:
-    """A library with its POUs and types, their pins, defaults and comments."""
+def get_library(name: str, who: Viewer, language: LanguageDep, version: Version = "*") -> LibraryDetail:
+    """A library with its POUs and types, their pins, defaults and comments.
+
+    Comments of `SM3_Basic` come in the language of the request.
+    """
     library = _load(name, version)
-    return LibraryDetail(**LibrarySummary.of(library).model_dump(), items=_items(library))
+    return LibraryDetail(**LibrarySummary.of(library).model_dump(), items=_items(library, language))
 
 
 @router.get("/libraries/{name}/sources/{item}")

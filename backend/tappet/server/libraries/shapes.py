@@ -5,6 +5,8 @@ from __future__ import annotations
 from pydantic import Field
 
 from tappet.server.shapes import Reply, Request
+from tappet.translation.language import Language
+from tappet.translation.library_comments import comment, table
 
 
 class ParameterValue(Reply):
@@ -72,6 +74,19 @@ class LibraryItem(Reply):
     values: list[NamedValue]
     returns: str | None
     methods: list[LibraryItem]
+
+    def in_language(self, library: str, language: Language) -> LibraryItem:
+        """The item of a library with comments in a language, as far as there are words for them."""
+        if not table(library, language):
+            return self
+        changed: dict[str, object] = {"summary": comment(self.summary, library, language)}
+        for field in ("inputs", "outputs", "in_out", "members", "values"):
+            changed[field] = [
+                part.model_copy(update={"comment": comment(part.comment, library, language)})
+                for part in getattr(self, field)
+            ]
+        changed["methods"] = [method.in_language(library, language) for method in self.methods]
+        return self.model_copy(update=changed)
 
 
 class LibraryDetail(LibrarySummary):
