@@ -27,6 +27,7 @@ OTHER_WORDS = {
     "project/store/migrations": "columns of the database",
     "project/store/tables.py": "columns of the database",
     "server/auth/tables.py": "columns of the database",
+    "manual/words.py": "headings of pages",
 }
 """Where the same words mean something else than a kind of object, and what."""
 

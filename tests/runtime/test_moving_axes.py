@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from tests.project.axis_projects import BODY, moving, with_axes
+from tests.project.axis_projects import BODY, DECLARATION, moving, with_axes
 
 from tappet.cli.inputs import project_applications
 from tappet.codegen.build import build_application
 from tappet.codegen.package import CodePackage
 from tappet.project import edit
 from tappet.project.model import Project
-from tappet.runtime.local import LocalRuntime
+from tappet.runtime.local import ApplicationException, LocalRuntime
 
 CYCLE = 0.02
 VELOCITY, ACCELERATION = 10.0, 100.0
@@ -129,3 +130,91 @@ def test_a_stop_does_not_wait_for_an_axis_that_is_not_moved() -> None:
             "stopped although not all axes stand",
             "Application stopped",
         ]
+
+
+FAULT = "IF iFaultAt = 0 THEN iQuotient := 1 / iFaultAt; END_IF"
+FAULTING = """PROGRAM Faulting
+VAR
+    iFaultAt : INT := 100;
+    iQuotient : INT;
+END_VAR"""
+GEARED = """fbPower(Axis := Drive, Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
+fbMove(Axis := Drive, Execute := fbPower.Status, Position := 50.0, Velocity := 10.0,
+    Acceleration := 100.0, Deceleration := 100.0);
+fbSlave(Axis := Second, Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
+fbGear(Master := Drive, Slave := Second, Execute := fbSlave.Status, RatioNumerator := 2,
+    RatioDenominator := 1, Acceleration := 1000.0, Deceleration := 1000.0);"""
+
+
+def faulting(where: str) -> Project:
+    """The slave of a gear moves with Drive; a program divides by zero when its counter is set to 0: one of a
+    task of its own, or that of the bus task before or behind the blocks of the axes."""
+    project = with_axes("Drive", "Second", dynamic_limits={"deceleration": 100.0})
+    declaration = DECLARATION.replace(
+        "END_VAR",
+        "    fbSlave : MC_Power;\n    fbGear : MC_GearIn;\n    iFaultAt : INT := 100;\n"
+        "    iQuotient : INT;\nEND_VAR",
+    )
+    body = {"before": f"{FAULT}\n{GEARED}", "behind": f"{GEARED}\n{FAULT}"}.get(where, GEARED)
+    (program,) = project.find_kind("pou")
+    project = edit.change_data(project, program.id, {"declaration": declaration, "implementation": body})
+    (application,) = project.applications()
+    text = {"declaration": FAULTING, "implementation": FAULT}
+    project, _ = edit.add_object(project, application.id, "pou", "Faulting", data=text)
+    (configuration,) = project.find_kind("task_configuration")
+    task = {"interval": "T#30ms", "priority": 3, "pous": [{"name": "Faulting"}]}
+    project, _ = edit.add_object(project, configuration.id, "task", "Slow", data=task)
+    return project
+
+
+@pytest.mark.parametrize("where", ["another task", "before", "behind"])
+def test_axes_brake_by_their_ramps_when_a_program_faults(where: str) -> None:
+    """They do not stop dead, and no program of the user runs any more."""
+    with LocalRuntime(package(faulting(where))) as runtime:
+        runtime.run(cycles=200)
+        assert runtime.read("Drive.fSetVelocity") == 10.0
+        assert runtime.read("Second.fSetVelocity") == pytest.approx(20.0)
+        names = ["Drive.fSetPosition", "Second.fSetPosition", "PLC_PRG.fbMove.Busy"]
+        before = [float(runtime.literal(name)) for name in names[:2]]
+        trace = runtime.trace(names, task="MainTask")
+        faulty = "Faulting" if where == "another task" else "PLC_PRG"
+        runtime.write(f"{faulty}.iFaultAt", 0)
+        with pytest.raises(ApplicationException, match="zero"):
+            runtime.run(cycles=20)
+        assert runtime.state == "exception"
+        samples = trace.samples
+        for name, place, velocity in zip(names, before, (10.0, 20.0), strict=False):
+            places = [place] + [float(str(sample.values[name])) for sample in samples]
+            speeds = [(b - a) / CYCLE for a, b in pairwise(places)]
+            steps = [b - a for a, b in pairwise([velocity, *speeds])]
+            assert max(steps) <= 1e-6, "no axis becomes faster"
+            assert min(steps) >= -100.0 * CYCLE * (1 + 1e-6), "the deceleration of its settings"
+            assert speeds[-1] == 0.0
+        assert runtime.literal("Drive.bRegulatorOn") == "TRUE"
+        runtime.reset("warm")
+        runtime.start()
+        assert no_step([0.0, *positions(runtime, 100)])
+
+
+def test_a_fault_with_standing_axes_ends_at_once() -> None:
+    with LocalRuntime(package(faulting("behind"))) as runtime:
+        runtime.run(cycles=600)
+        assert runtime.read("Drive.fSetVelocity") == 0.0
+        runtime.write("PLC_PRG.iFaultAt", 0)
+        now = runtime.now_ns
+        with pytest.raises(ApplicationException):
+            runtime.run(cycles=20)
+        assert runtime.now_ns - now < 10 * CYCLE * 1e9
+
+
+def test_axes_brake_in_real_time_as_well() -> None:
+    with LocalRuntime(package(faulting("another task")), virtual=False) as runtime:
+        runtime.run(cycles=60)
+        assert runtime.read("Drive.fSetVelocity") == 10.0
+        runtime.write("Faulting.iFaultAt", 0)
+        end = time.monotonic() + 30.0
+        while time.monotonic() < end and runtime.read("Second.fSetVelocity") != 0.0:
+            time.sleep(0.01)
+        assert runtime.state == "exception"
+        assert runtime.read("Second.fSetVelocity") == 0.0
+        assert runtime.read("Drive.fSetVelocity") == 0.0

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tappet.codegen.constants import constants_within
 from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
+from tappet.runtime.axis_programs import brake_of
 from tappet.runtime.contexts import FAULTED, RUNNING, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
 from tappet.runtime.described_types import SERVICE, DescribedTypes
 from tappet.runtime.executive.loader import FILE_SERVICES, Executive
@@ -150,6 +151,10 @@ class LoadedApplication:
         self.connect_types()
         for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):
             self.executive.store(task.place("pCode"), code[spec.symbol])
+            brake = brake_of(self.package, spec.name)
+            if brake is not None:
+                self.executive.store(task.place("pStood"), self.image.address + brake.stood)
+            self.executive.store(task.place("pBrake"), code[brake.symbol] if brake is not None else 0)
 
     def count_change(self) -> None:
         """What programs are told of the package that the application has become by an online change."""

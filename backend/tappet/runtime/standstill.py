@@ -1,10 +1,8 @@
 """The controlled stop of the axes of an application before it stops (motion_semantics INF-08).
 
-Contract: for each task that moves axes the build makes a program `SM3_End_<task>`
-(`project.axes.cyclic_calls`). While its `xStop` is TRUE it takes `bDriveStart` from its axes, so that they
-brake by their ramp, and counts in `udiStood` the cycles since all of them stand. The programs of the user run
-on until then: what they command is refused. A task that runs no cycles any more is not waited for longer than
-`LONGEST_NS`.
+It asks the programs of `axis_programs` for it. The programs of the user run on until the axes stand: what
+they command is refused. A task that runs no cycles any more is not waited for longer than `LONGEST_NS`.
+Behind a fault the executive brings them to standstill (`cycle.st`).
 """
 
 from __future__ import annotations
@@ -15,6 +13,7 @@ from threading import RLock
 
 from tappet.codegen.symbol_map import SymbolMap, VarRef
 from tappet.runtime.application import LoadedApplication
+from tappet.runtime.axis_programs import ends_of
 from tappet.runtime.contexts import RUNNING
 from tappet.runtime.forces import PlacedValue
 from tappet.runtime.logbook import Logbook
@@ -22,7 +21,6 @@ from tappet.runtime.places import Place
 
 LONGEST_NS = 10_000_000_000
 """The stop of an application does not wait longer for its axes."""
-_BEGINNING = "SM3_END_"
 _STEP_NS = 1_000_000
 _CYCLES = 3
 """A command of the cycle in which the stop is asked for moves the axis for the first time in the next one."""
@@ -77,7 +75,7 @@ class Standstill:
 
     def __init__(self, application: LoadedApplication) -> None:
         symbols = application.package.symbols
-        ends = [name for name in symbols.roots if name.startswith(_BEGINNING)]
+        ends = ends_of(application.package)
         self.application = application
         self._asked = _members(symbols, ends, "xStop")
         self._stood = _members(symbols, ends, "udiStood")

@@ -3,7 +3,9 @@
 For each task that moves axes there are two programs, one before all others of the task and one behind them:
 the first takes over what the drives say, the second lets their panels act and moves the axes on by a cycle,
 both in the order of the tree. With `xStop` of the second the runtime asks for a controlled stop before it
-stops (INF-08). Where no task can move an axis, an error at the axis says why.
+stops (INF-08). Behind a fault of any program it calls a third part instead of the programs, in which axes
+brake: a cycle that has begun is completed, and then there are cycles of the axes alone. Where no task can
+move an axis, an error at the axis says why.
 """
 
 from __future__ import annotations
@@ -31,15 +33,34 @@ IF xStop THEN
     xMoves := xMoves OR ABS({{axis}}.fSetVelocity) > 0.0;
 END_IF
 {{axis}}.EndCycle();"""
-_END_VARIABLES = """VAR
+_BEGIN_VARIABLES = """VAR_OUTPUT
+    udiBegun : UDINT;
+END_VAR
+udiBegun := udiBegun + 1;"""
+_END_VARIABLES = """VAR_INPUT
     xStop : BOOL;
+END_VAR
+VAR_OUTPUT
+    udiEnded : UDINT;
+END_VAR
+VAR
     xMoves : BOOL;
     udiStood : UDINT;
 END_VAR
 xMoves := FALSE;"""
 _END_LAST = """IF xStop THEN
     udiStood := SEL(xMoves, udiStood + 1, 0);
-END_IF"""
+END_IF
+udiEnded := {before}.udiBegun;"""
+_BRAKE = """{{attribute 'hide'}}
+{{attribute 'tappet_export' := 'SM3_Brake_{task}'}}
+FUNCTION SM3_Brake_{task} : BOOL
+IF {before}.udiBegun = {behind}.udiEnded THEN
+    {before}();
+END_IF
+{behind}(xStop := TRUE);
+SM3_Brake_{task} := TRUE;
+END_FUNCTION"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,8 +137,9 @@ def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter)
         return task
     cycle = real(task.interval_ns / _NS_PER_S)
     before, behind = f"SM3_Begin_{task.name}", f"SM3_End_{task.name}"
-    _program(writer, f"PROGRAM {before}", axes, _BEGIN.format(cycle=cycle))
-    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", axes, _END, _END_LAST)
+    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", axes, _BEGIN.format(cycle=cycle))
+    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", axes, _END, _END_LAST.format(before=before))
+    writer.keyword(_BRAKE.format(task=task.name, before=before, behind=behind))
     return replace(task, programs=(before, *task.programs, behind))
 
 

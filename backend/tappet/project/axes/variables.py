@@ -10,7 +10,8 @@ from tappet.project.axes.settings import AxisSettings
 LIBRARY = "SM3_Basic"
 """The library of all axes (AXIS-03, CAL-08)."""
 NOT_WRITTEN_BY_HAND = (
-    "{analysis -S1001, -S1002, -S1003, -S1004, -S1101, -S1211, -S1242, -S1416, -S1418, -S1610}"
+    "{analysis -S1001, -S1002, -S1003, -S1004, -S1101, -S1102, -S1211, -S1242, -S1408, -S1414, -S1416, "
+    "-S1418, -S1609, -S1610}"
 )
 """First line of the texts that are made of axes: how a user wants his texts to be says nothing about them."""
 VARIABLES = "IoConfig_Globals"
