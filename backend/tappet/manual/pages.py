@@ -13,6 +13,7 @@ from tappet.libraries.catalog import Item, NamedValue, Pin, items
 from tappet.libraries.library import Library
 from tappet.manual.examples import CYCLE_MS, Example
 from tappet.manual.library_errors import errors_of
+from tappet.manual.markdown import joined, table
 from tappet.manual.words import GROUPS, group, state, word
 from tappet.translation.language import Language
 from tappet.translation.library_comments import said
@@ -95,7 +96,7 @@ class _Manual:
                 ", ".join(f"[{name}]({name}.md)" for name in users),
                 "",
             ]
-        return _joined(lines)
+        return joined(lines)
 
     def _form(self, item: Item) -> list[str]:
         lines: list[str] = []
@@ -114,7 +115,7 @@ class _Manual:
             rows = [
                 (f"`{value.name}`", number, self._say(value.comment)) for value, number in _numbered(item)
             ]
-            lines += [f"## {self._word('values')}", "", *_table(head, rows), ""]
+            lines += [f"## {self._word('values')}", "", *table(head, rows), ""]
         for method in public_methods(self._library, item):
             lines += [f"## {self._word('methods')}: {method.name}", ""]
             lines += [self._say(method.summary), ""]
@@ -130,7 +131,7 @@ class _Manual:
             (f"`{pin.name}`", self._type(pin.type), _code(pin.default), self._say(pin.comment))
             for pin in pins
         ]
-        return [f"{level} {heading}", "", *_table(head, rows), ""]
+        return [f"{level} {heading}", "", *table(head, rows), ""]
 
     def _state(self, item: Item) -> list[str]:
         key = _rows().get(item.name, {}).get("state", "")
@@ -150,7 +151,7 @@ class _Manual:
             return []
         head = (self._word("number"), self._word("name"), self._word("meaning"))
         rows = [(str(number), f"`{name}`", self._say(self._numbers[name][1])) for number, name in found]
-        return [f"## {self._word('errors')}", "", self._word("own errors"), "", *_table(head, rows), ""]
+        return [f"## {self._word('errors')}", "", self._word("own errors"), "", *table(head, rows), ""]
 
     def _example(self, item: Item) -> list[str]:
         example = self._examples.get(item.name)
@@ -196,8 +197,8 @@ class _Manual:
                 for item in members
             ]
             if rows:
-                lines += [f"## {group(key, self._language)}", "", *_table(head, rows), ""]
-        return _joined(lines)
+                lines += [f"## {group(key, self._language)}", "", *table(head, rows), ""]
+        return joined(lines)
 
     def _first(self, item: Item) -> str:
         """The first sentence of what an item is."""
@@ -241,12 +242,3 @@ def _numbered(item: Item) -> Iterable[tuple[NamedValue, str]]:
 
 def _code(text: str) -> str:
     return f"`{text}`" if text else ""
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    lines = [f"| {' | '.join(head)} |", "|" + "---|" * len(head)]
-    return lines + [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in rows]
-
-
-def _joined(lines: Sequence[str]) -> str:
-    return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)).rstrip() + "\n"

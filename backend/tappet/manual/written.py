@@ -6,11 +6,18 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from tappet.manual.chart import chart
+from tappet.manual.compliance import statements
 from tappet.manual.examples import read_examples
 from tappet.manual.pages import pages
 from tappet.manual.recording import Recording, record
 
-MADE = ("blocks/*.md", "blocks/zh/*.md", "blocks/charts/*.svg")
+MADE = (
+    "blocks/*.md",
+    "blocks/zh/*.md",
+    "blocks/charts/*.svg",
+    "plcopen-compliance.md",
+    "zh/plcopen-compliance.md",
+)
 """What no hand writes."""
 
 
@@ -19,6 +26,7 @@ def made(recordings: Iterable[Recording]) -> dict[str, str]:
     recorded = list(recordings)
     examples = {recording.example.name: recording.example for recording in recorded}
     files = {f"blocks/{name}": text for name, text in pages(examples).items()}
+    files |= statements()
     for recording in recorded:
         if recording.example.charted:
             files[f"blocks/charts/{recording.example.name}.svg"] = chart(recording)
