@@ -22,7 +22,7 @@ READERS = {
     *("SMC_ReadSetPosition", "SMC_ReadFBError", "SMC_GetOverride", "SMC3_BrakeStatus"),
     *("SMC_CheckAxisCommunication", "SMC_CheckLimits", "SMC_GetMaxSetAccDec", "SMC_GetMaxSetVelocity"),
     *("SMC_GetTrackingError", "SMC_InPosition", "SMC_MeasureDistance", "SMC_GetCamSlaveSetPosition"),
-    *("MC_DigitalCamSwitch", "SMC_CamRegister", "MC_CamTableSelect"),
+    *("MC_DigitalCamSwitch", "SMC_CamRegister", "MC_CamTableSelect", "SMC_AxisDiagnosticLog"),
 }
 """They change nothing of an axis, so that they may be called anywhere."""
 REFUSED_BEFORE = {

@@ -108,7 +108,15 @@ FOR_OTHERS = {
     f"; the memory for tests is used up ({PLACE} MiB)", f"; the memory of __NEW is used up ({PLACE} MiB)",
 }  # fmt: skip
 """Texts that no user of the workbench reads, or that are parts of others."""
-CODE = ("default-src", "{attribute '", "    {attribute '", "IF xStop", "PROGRAM PLC_PRG", "// ")
+CODE = (
+    "default-src",
+    "{attribute '",
+    "{{attribute '",
+    "    {attribute '",
+    "IF xStop",
+    "PROGRAM PLC_PRG",
+    "// ",
+)
 """Begins of texts that are no sentences."""
 TWO_WORDS = re.compile(r"[a-z]{2,} [a-z]{2,}")
 QUOTED = re.compile("“[^”]*”|`[^`]*`|“?Authorization: Bearer <token>”?")
