@@ -79,6 +79,27 @@ def test_every_block_has_an_example() -> None:
     assert blocks - examples == {"AXIS_REF_SM3", "AXIS_REF_VIRTUAL_SM3", "AxisPanel"}
 
 
+HOLD_THE_AXIS = {"MC_Stop", "MC_CamOut", "MC_GearOut"}
+"""They are busy behind their end: their page says so."""
+
+
+def test_at_most_one_output_says_how_a_command_stands() -> None:
+    """EXE-01 to EXE-10, in each cycle of each example."""
+    seen = set()
+    for one in recordings():
+        name = one.example.name
+        outputs = [
+            values
+            for pin in ("Busy", "Done", "CommandAborted", "Error")
+            for prefix in ("", "b")
+            if (values := one.traces.get(f"{one.example.instance}.{prefix}{pin}")) is not None
+        ]
+        together = {sum(map(bool, cycle)) for cycle in zip(*outputs, strict=True)}
+        if len(outputs) > 1 and together - {0, 1}:
+            seen.add(name)
+    assert seen == HOLD_THE_AXIS
+
+
 def test_a_wrong_expectation_is_told() -> None:
     one = next(one for one in recordings() if one.example.name == "MC_MoveAbsolute")
     other = tuple(replace(expected, value="99.9") for expected in one.example.expectations)

@@ -81,6 +81,7 @@ class _Manual:
         """The page of an item."""
         lines = [f"# {item.name}", ""]
         kind = self._word(item.kind)
+        kind = kind[0].upper() + kind[1:]
         where = f"{kind}{self._word('comma')}[{group(group_of(item), self._language)}](README.md)"
         other = self._word("other language", page=f"{item.name}.md")
         lines += [f"{where} · [{self._word('source')}]({self._up}{self._source(item)}) · {other}", ""]
