@@ -11,8 +11,8 @@ import sys
 import time
 from pathlib import Path
 
-from tappet.server.builds.messages import CANCEL, pack_frame, read_frame
 from tappet.server.builds.worker import BuildCancelled
+from tappet.server.frames import CANCEL, pack_frame, read_frame
 
 
 def obey(number: int, frame: object) -> None:

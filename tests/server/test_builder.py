@@ -14,9 +14,9 @@ from tappet.codegen.generate import Generator
 from tappet.iec.places import Segment, SourceMap
 from tappet.iec.source import Source
 from tappet.server.builds.builder import WORKER, Application, Builder
-from tappet.server.builds.messages import CANCEL, pack_frame
 from tappet.server.builds.packages import KEEP, PackageStore
 from tappet.server.builds.worker import Compiler
+from tappet.server.frames import CANCEL, pack_frame
 from tappet.server.problems import Problem
 
 FAKE = (sys.executable, str(Path(__file__).with_name("fake_compiler.py")))

@@ -25,10 +25,10 @@ from tappet.project.kinds.application import NO_RULES, StaticAnalysisData
 from tappet.project.library_reference import LibraryReference
 from tappet.project.library_texts import library_requirements, library_sources
 from tappet.project.model import Project
-from tappet.server.builds.compiler_process import BuildCrashedError, CompilerProcess
 from tappet.server.builds.messages import BuildOrder
 from tappet.server.builds.shapes import BuildReport, Diagnostic, Part, Severity
 from tappet.server.problems import Problem
+from tappet.server.worker_process import WorkerCrashedError, WorkerProcess
 
 log = logging.getLogger(__name__)
 KEPT_BUILDS = 32
@@ -114,7 +114,7 @@ class Builder:
 
     def __init__(self, workers: int, cache: Path, command: Sequence[str] = WORKER) -> None:
         self._cache = cache
-        self._workers = [CompilerProcess(command) for _ in range(max(1, workers))]
+        self._workers = [WorkerProcess(command) for _ in range(max(1, workers))]
         self._built: OrderedDict[tuple[str, str], Built] = OrderedDict()
         self._running: dict[tuple[str, str], tuple[str, asyncio.Task[Built]]] = {}
         self._cleaned: set[tuple[str, str]] = set()
@@ -139,7 +139,7 @@ class Builder:
             running, task = self._running[key]
             if running == fingerprint:
                 return await self._wait(task)
-            with suppress(asyncio.CancelledError, BuildCrashedError):
+            with suppress(asyncio.CancelledError, WorkerCrashedError):
                 await asyncio.shield(task)
         task = asyncio.create_task(self._run(key, application, order, fingerprint))
         self._running[key] = (fingerprint, task)
@@ -159,8 +159,8 @@ class Builder:
         """
         order, _ = await asyncio.to_thread(self._order, application, None, check_only=True)
         try:
-            outcome = await self._worker(order).build(order)
-        except BuildCrashedError as error:
+            outcome = await self._worker(order).ask(asdict(order))
+        except WorkerCrashedError as error:
             raise _crashed(error) from error
         report = _report(application, outcome)
         faulty = any(diagnostic.severity is Severity.ERROR for diagnostic in report.diagnostics)
@@ -188,7 +188,7 @@ class Builder:
             if task.cancelled():
                 raise Problem(409, "build-cancelled", "The build was cancelled.") from None
             raise
-        except BuildCrashedError as error:
+        except WorkerCrashedError as error:
             raise _crashed(error) from error
 
     def _finished(self, key: tuple[str, str], task: asyncio.Task[Built]) -> None:
@@ -227,14 +227,14 @@ class Builder:
         )
         return order, _fingerprint(order, previous[0] if previous else None)
 
-    def _worker(self, order: BuildOrder) -> CompilerProcess:
+    def _worker(self, order: BuildOrder) -> WorkerProcess:
         number = int(hashlib.sha256(order.key.encode()).hexdigest(), 16) % len(self._workers)
         return self._workers[number]
 
     async def _run(
         self, key: tuple[str, str], application: Application, order: BuildOrder, fingerprint: str
     ) -> Built:
-        outcome = await self._worker(order).build(order)
+        outcome = await self._worker(order).ask(asdict(order))
         built = Built(
             application,
             fingerprint,
@@ -251,7 +251,7 @@ class Builder:
         return built
 
 
-def _crashed(error: BuildCrashedError) -> Problem:
+def _crashed(error: WorkerCrashedError) -> Problem:
     return Problem(500, "compiler-crashed", f"The compiler failed: {error}.")
 
 

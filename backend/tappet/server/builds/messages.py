@@ -1,23 +1,11 @@
-"""The seam between the web server and a compiler process: orders there, outcomes back, a signal to cancel.
-
-A frame is the length of what follows (8 bytes, little endian) and a msgpack map.
-"""
+"""What the web server orders of a compiler process."""
 
 from __future__ import annotations
 
-import signal
-import struct
 from dataclasses import dataclass
-from typing import Any, BinaryIO
-
-import msgpack
+from typing import Any
 
 from tappet.project.library_reference import LibraryReference
-
-LENGTH = struct.Struct("<Q")
-LARGEST_FRAME = 1 << 31
-CANCEL = signal.SIGUSR1
-"""Ends the running build; what earlier ones left for the next stays."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,22 +36,3 @@ class BuildOrder:
     """Name of the project, for programs that ask."""
     fresh: bool = False
     """Use nothing that earlier builds left: no trees, no objects."""
-
-
-def read_frame(stream: BinaryIO) -> dict[str, Any] | None:
-    """The next map; None at the end of the stream."""
-    head = stream.read(LENGTH.size)
-    if len(head) < LENGTH.size:
-        return None
-    (length,) = LENGTH.unpack(head)
-    body = stream.read(length)
-    if len(body) < length:
-        return None
-    frame: dict[str, Any] = msgpack.unpackb(body, raw=False, max_bin_len=LARGEST_FRAME)
-    return frame
-
-
-def pack_frame(content: dict[str, Any]) -> bytes:
-    """A map with its length in front."""
-    body: bytes = msgpack.packb(content, use_bin_type=True)
-    return LENGTH.pack(len(body)) + body

@@ -26,7 +26,7 @@ from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
 from tappet.project.library_reference import LibraryReference
-from tappet.server.builds.messages import CANCEL, pack_frame, read_frame
+from tappet.server.frames import CANCEL, pack_frame, read_frame
 
 KEPT_SESSIONS = 8
 """Applications whose parsed texts are kept."""

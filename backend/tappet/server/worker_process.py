@@ -1,35 +1,41 @@
-"""A compiler process as the web server sees it: an order goes there, its outcome comes back."""
+"""A worker process as the web server sees it: an order goes there, its outcome comes back.
+
+What takes long or may crash is done there: builds, curves of cams. The program reads frames from its
+standard input and writes one to its standard output for each; `crash` in an outcome says that it failed.
+"""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import asdict
 from typing import Any
 
 import msgpack
 
-from tappet.server.builds.messages import CANCEL, LARGEST_FRAME, LENGTH, BuildOrder, pack_frame
+from tappet.server.frames import CANCEL, LARGEST_FRAME, LENGTH, pack_frame
 
 GRACE_S = 3.0
-"""A compiler process that does not end a cancelled build within this time is killed."""
+"""A process that does not end a cancelled order within this time is killed."""
 
 
-class BuildCrashedError(RuntimeError):
-    """The compiler process died or failed; a fault of the product, not of the program."""
+class WorkerCrashedError(RuntimeError):
+    """The process died or failed; a fault of the product, not of what it was given."""
 
 
-class CompilerProcess:
-    """One compiler process, started when it is first needed and again after it was killed."""
+class WorkerProcess:
+    """One process, started when it is first needed and again after it was killed."""
 
     def __init__(self, command: Sequence[str]) -> None:
         self._command = tuple(command)
         self._process: asyncio.subprocess.Process | None = None
         self._turn = asyncio.Lock()
 
-    async def build(self, order: BuildOrder) -> dict[str, Any]:
-        """One build; when this call is cancelled, the process ends the build and keeps its caches."""
+    async def ask(self, order: dict[str, Any]) -> dict[str, Any]:
+        """One order; when this call is cancelled, the process ends it and keeps its caches.
+
+        Raises WorkerCrashedError.
+        """
         async with self._turn:
             process = await self._start()
             exchange = asyncio.create_task(self._exchange(process, order))
@@ -59,22 +65,22 @@ class CompilerProcess:
             )
         return self._process
 
-    async def _exchange(self, process: asyncio.subprocess.Process, order: BuildOrder) -> dict[str, Any]:
+    async def _exchange(self, process: asyncio.subprocess.Process, order: dict[str, Any]) -> dict[str, Any]:
         assert process.stdin is not None
         assert process.stdout is not None
-        frame = await asyncio.to_thread(pack_frame, asdict(order))
+        frame = await asyncio.to_thread(pack_frame, order)
         try:
             process.stdin.write(frame)
             await process.stdin.drain()
             head = await process.stdout.readexactly(LENGTH.size)
             body = await process.stdout.readexactly(LENGTH.unpack(head)[0])
         except (OSError, asyncio.IncompleteReadError):
-            raise BuildCrashedError("its process ended") from None
+            raise WorkerCrashedError("its process ended") from None
         outcome: dict[str, Any] = await asyncio.to_thread(
             msgpack.unpackb, body, raw=False, max_bin_len=LARGEST_FRAME
         )
         if "crash" in outcome:
-            raise BuildCrashedError(outcome["crash"])
+            raise WorkerCrashedError(outcome["crash"])
         return outcome
 
     async def _kill(self) -> None:
@@ -90,7 +96,7 @@ class CompilerProcess:
 
 
 async def _ends(process: asyncio.subprocess.Process, exchange: asyncio.Task[dict[str, Any]]) -> bool:
-    """Whether a process ends its build on request, and is ready for the next one."""
+    """Whether a process ends its order on request, and is ready for the next one."""
     with suppress(ProcessLookupError):
         process.send_signal(CANCEL)
     await asyncio.wait([exchange], timeout=GRACE_S)
