@@ -36,6 +36,7 @@ EXEMPT = {
     "run_static_analysis": READS,
     "run_tests": READS,
     "search": READS,
+    "draw_cam": READS,
     "cancel_build": "ends a question",
     "keep_axis": "the heartbeat of control over an axis, which was recorded when it was taken",
     "cancel_tests": "ends a question",

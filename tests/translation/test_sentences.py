@@ -91,12 +91,6 @@ FOR_OTHERS = {
     f"The bus task {PLACE} of the axis {PLACE} is not cyclic; set values are computed for a fixed time, "
     "so choose a cyclic task",
     f"{{error '{PLACE}'}}", f"{{{PLACE} cam '{PLACE}: {PLACE}'}}",
-    f"The {PLACE} jumps from {PLACE} to {PLACE} at X = {PLACE}",
-    f"The cam is periodic, and the {PLACE} jumps from {PLACE} at its end to {PLACE} at its start",
-    f"The cam is periodic, and its end at Y = {PLACE} is not the start at Y = {PLACE} up to periods of "
-    f"{PLACE}",
-    f"The segment behind X = {PLACE} is of the type {PLACE}, which the compile format of polynomials does "
-    "not have; choose the format of segments",
     # halves of sentences that are in the table as wholes
     "placeholders are ",
     "; look-around and back references cannot be searched for", "invalid perl operator",

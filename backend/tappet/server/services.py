@@ -20,6 +20,7 @@ from tappet.server.auth.passwords import Passwords
 from tappet.server.builds.builder import Builder
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.builds.packages import PackageStore
+from tappet.server.cams.calculator import CamCalculator
 from tappet.server.comparisons.service import Comparisons
 from tappet.server.database import Database
 from tappet.server.events.service import ProjectEvents
@@ -54,6 +55,7 @@ class Services:
     login: Login
     runtimes: RuntimeRegistry
     commissioning: Commissioning
+    cams: CamCalculator
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
     comparisons: Comparisons = field(default_factory=Comparisons)
@@ -126,6 +128,7 @@ class Services:
             await self._analysis.close()
         await self.views.close()
         await self.commissioning.builder.close()
+        await self.cams.close()
         await self.runtimes.close()
         if self.local_runtime is not None:
             await self.local_runtime.close()
@@ -171,6 +174,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
             Builder(settings.build_workers, objects),
             PackageStore(packages),
         ),
+        cams=CamCalculator(objects),
     )
     services.audit_reserve.try_move(database)
     if database.read(accounts.count) == 0:

@@ -906,6 +906,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/cams/curves": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Draw Cam
+         * @description The curves of a cam by the compiled library SM3_Basic, its extremes and what is wrong with it.
+         */
+        post: operations["draw_cam"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/clean": {
         parameters: {
             query?: never;
@@ -2781,11 +2801,41 @@ export interface components {
             uri: string | null;
         };
         /**
+         * CamDrawing
+         * @description The curves of a cam by the compiled library, and what is wrong with it.
+         */
+        CamDrawing: {
+            /** At */
+            at: components["schemas"]["CamValues"][];
+            /** Findings */
+            findings: components["schemas"]["CamFinding"][];
+            /** Segments */
+            segments: components["schemas"]["CamSegmentCurve"][];
+        };
+        /**
+         * CamFinding
+         * @description What is wrong with a cam.
+         */
+        CamFinding: {
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "error" | "warning" | "information";
+            /** Text */
+            text: string;
+            /**
+             * X
+             * @description Position of the master that it is about.
+             */
+            x: number;
+        };
+        /**
          * CamObject
          * @description A cam: how a slave axis depends on a master; it is a global variable of its name.
          */
         CamObject: {
-            data: components["schemas"]["CamTable"];
+            data: components["schemas"]["CamTable-Output"];
             /**
              * Excluded
              * @description From the build.
@@ -2819,7 +2869,41 @@ export interface components {
          * CamPoint
          * @description A point of a cam: where the slave is for a position of the master, and its derivatives there.
          */
-        CamPoint: {
+        "CamPoint-Input": {
+            /**
+             * A
+             * @description d²Y/dX².
+             * @default 0
+             */
+            a?: number;
+            /**
+             * J
+             * @description d³Y/dX³; polynomials of seventh degree use it.
+             * @default 0
+             */
+            j?: number;
+            /**
+             * V
+             * @description dY/dX.
+             * @default 0
+             */
+            v?: number;
+            /**
+             * X
+             * @description Position of the master.
+             */
+            x: number;
+            /**
+             * Y
+             * @description Position of the slave.
+             */
+            y: number;
+        };
+        /**
+         * CamPoint
+         * @description A point of a cam: where the slave is for a position of the master, and its derivatives there.
+         */
+        "CamPoint-Output": {
             /**
              * A
              * @description d²Y/dX².
@@ -2853,7 +2937,26 @@ export interface components {
          * CamSegment
          * @description What leads from a point to the next one.
          */
-        CamSegment: {
+        "CamSegment-Input": {
+            /**
+             * Inflection
+             * @description Of a modified sine: the part in front of the inflection point.
+             * @default 0.5
+             */
+            inflection?: number;
+            /**
+             * Law
+             * @description Law of motion, VDI 2143.
+             * @default poly5
+             * @enum {string}
+             */
+            law?: "line" | "poly3" | "poly5" | "poly7" | "sine" | "inclined_sine" | "modified_sine" | "harmonic";
+        };
+        /**
+         * CamSegment
+         * @description What leads from a point to the next one.
+         */
+        "CamSegment-Output": {
             /**
              * Inflection
              * @description Of a modified sine: the part in front of the inflection point.
@@ -2869,10 +2972,42 @@ export interface components {
             law: "line" | "poly3" | "poly5" | "poly7" | "sine" | "inclined_sine" | "modified_sine" | "harmonic";
         };
         /**
+         * CamSegmentCurve
+         * @description The curves of a segment; at its ends it has its own values, also where they jump.
+         */
+        CamSegmentCurve: {
+            /** A */
+            a: number[];
+            /** Acceleration */
+            acceleration: number;
+            /** Greatest */
+            greatest: number;
+            /** J */
+            j: number[];
+            /** Jerk */
+            jerk: number;
+            /**
+             * Least
+             * @description Lowest position of the slave, also between the samples.
+             */
+            least: number;
+            /** V */
+            v: number[];
+            /**
+             * Velocity
+             * @description Largest absolute value, also between the samples.
+             */
+            velocity: number;
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
+        };
+        /**
          * CamTable
          * @description A cam; by default the one of CAM-12 with the tracks of CAM-13.
          */
-        CamTable: {
+        "CamTable-Input": {
             /**
              * @default {
              *       "acceleration": true,
@@ -2880,7 +3015,150 @@ export interface components {
              *       "velocity": true
              *     }
              */
-            checks: components["schemas"]["ContinuityChecks"];
+            checks?: components["schemas"]["ContinuityChecks-Input"];
+            /**
+             * Compile Format
+             * @description What the cam is compiled into (CAM-75).
+             * @default polynomial
+             * @enum {string}
+             */
+            compile_format?: "polynomial" | "segments" | "one_dimensional" | "two_dimensional";
+            /**
+             * Cubic
+             * @description Between the points of a table cubic, else linear.
+             * @default false
+             */
+            cubic?: boolean;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * Periodic
+             * @description The end goes over into the start, up to periods of the slave (CAM-72).
+             * @default false
+             */
+            periodic?: boolean;
+            /**
+             * Points
+             * @description In order of the master; the first and the last one are the ends of its range.
+             * @default [
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 0,
+             *         "x": 0,
+             *         "y": 0
+             *       },
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 1,
+             *         "x": 120,
+             *         "y": 120
+             *       },
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 1,
+             *         "x": 240,
+             *         "y": 240
+             *       },
+             *       {
+             *         "a": 0,
+             *         "j": 0,
+             *         "v": 0,
+             *         "x": 360,
+             *         "y": 360
+             *       }
+             *     ]
+             */
+            points?: components["schemas"]["CamPoint-Input"][];
+            /**
+             * Segments
+             * @description One behind each point but the last one.
+             * @default [
+             *       {
+             *         "inflection": 0.5,
+             *         "law": "poly5"
+             *       },
+             *       {
+             *         "inflection": 0.5,
+             *         "law": "poly5"
+             *       },
+             *       {
+             *         "inflection": 0.5,
+             *         "law": "poly5"
+             *       }
+             *     ]
+             */
+            segments?: components["schemas"]["CamSegment-Input"][];
+            /**
+             * Slave End
+             * @description Highest position that is shown.
+             * @default 360
+             */
+            slave_end?: number;
+            /**
+             * Slave Period
+             * @description In units of the slave.
+             * @default 360
+             */
+            slave_period?: number;
+            /**
+             * Slave Start
+             * @description Lowest position that is shown (CAM-71).
+             * @default 0
+             */
+            slave_start?: number;
+            /**
+             * Table Size
+             * @description Of the formats with tables of points: how many.
+             * @default 256
+             */
+            table_size?: number;
+            /**
+             * Tracks
+             * @description Tracks of tappets, each with an id of its own.
+             * @default [
+             *       {
+             *         "id": 1,
+             *         "tappets": [
+             *           {
+             *             "negative": "off",
+             *             "positive": "on",
+             *             "x": 90
+             *           },
+             *           {
+             *             "negative": "off",
+             *             "positive": "on",
+             *             "x": 270
+             *           }
+             *         ]
+             *       },
+             *       {
+             *         "id": 2,
+             *         "tappets": []
+             *       }
+             *     ]
+             */
+            tracks?: components["schemas"]["CamTrack-Input"][];
+        };
+        /**
+         * CamTable
+         * @description A cam; by default the one of CAM-12 with the tracks of CAM-13.
+         */
+        "CamTable-Output": {
+            /**
+             * @default {
+             *       "acceleration": true,
+             *       "jerk": false,
+             *       "velocity": true
+             *     }
+             */
+            checks: components["schemas"]["ContinuityChecks-Output"];
             /**
              * Compile Format
              * @description What the cam is compiled into (CAM-75).
@@ -2940,7 +3218,7 @@ export interface components {
              *       }
              *     ]
              */
-            points: components["schemas"]["CamPoint"][];
+            points: components["schemas"]["CamPoint-Output"][];
             /**
              * Segments
              * @description One behind each point but the last one.
@@ -2959,7 +3237,7 @@ export interface components {
              *       }
              *     ]
              */
-            segments: components["schemas"]["CamSegment"][];
+            segments: components["schemas"]["CamSegment-Output"][];
             /**
              * Slave End
              * @description Highest position that is shown.
@@ -3009,13 +3287,38 @@ export interface components {
              *       }
              *     ]
              */
-            tracks: components["schemas"]["CamTrack"][];
+            tracks: components["schemas"]["CamTrack-Output"][];
         };
         /**
          * CamTappet
          * @description What happens to the bit of a track when the master passes a position (CAM-53).
          */
-        CamTappet: {
+        "CamTappet-Input": {
+            /**
+             * Negative
+             * @description When the master decreases.
+             * @default off
+             * @enum {string}
+             */
+            negative?: "none" | "on" | "off" | "invert";
+            /**
+             * Positive
+             * @description When the master increases.
+             * @default on
+             * @enum {string}
+             */
+            positive?: "none" | "on" | "off" | "invert";
+            /**
+             * X
+             * @description Position of the master.
+             */
+            x: number;
+        };
+        /**
+         * CamTappet
+         * @description What happens to the bit of a track when the master passes a position (CAM-53).
+         */
+        "CamTappet-Output": {
             /**
              * Negative
              * @description When the master decreases.
@@ -3040,7 +3343,7 @@ export interface components {
          * CamTrack
          * @description Tappets that switch the same bit (CAM-50).
          */
-        CamTrack: {
+        "CamTrack-Input": {
             /**
              * Id
              * @description Names the bit: iGroupID.
@@ -3050,7 +3353,39 @@ export interface components {
              * Tappets
              * @default []
              */
-            tappets: components["schemas"]["CamTappet"][];
+            tappets?: components["schemas"]["CamTappet-Input"][];
+        };
+        /**
+         * CamTrack
+         * @description Tappets that switch the same bit (CAM-50).
+         */
+        "CamTrack-Output": {
+            /**
+             * Id
+             * @description Names the bit: iGroupID.
+             */
+            id: number;
+            /**
+             * Tappets
+             * @default []
+             */
+            tappets: components["schemas"]["CamTappet-Output"][];
+        };
+        /**
+         * CamValues
+         * @description A place on the curves.
+         */
+        CamValues: {
+            /** A */
+            a: number;
+            /** J */
+            j: number;
+            /** V */
+            v: number;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
         };
         /**
          * Camera
@@ -3270,7 +3605,28 @@ export interface components {
          * ContinuityChecks
          * @description What may not jump between two segments, beside the position (CAM-74).
          */
-        ContinuityChecks: {
+        "ContinuityChecks-Input": {
+            /**
+             * Acceleration
+             * @default true
+             */
+            acceleration?: boolean;
+            /**
+             * Jerk
+             * @default false
+             */
+            jerk?: boolean;
+            /**
+             * Velocity
+             * @default true
+             */
+            velocity?: boolean;
+        };
+        /**
+         * ContinuityChecks
+         * @description What may not jump between two segments, beside the position (CAM-74).
+         */
+        "ContinuityChecks-Output": {
             /**
              * Acceleration
              * @default true
@@ -3314,6 +3670,25 @@ export interface components {
             password: string;
             /** Username */
             username: string;
+        };
+        /**
+         * CurvesOrder
+         * @description What to draw.
+         */
+        CurvesOrder: {
+            /**
+             * At
+             * @description Positions of the master to tell values of.
+             * @default []
+             */
+            at?: number[];
+            cam: components["schemas"]["CamTable-Input"];
+            /**
+             * Samples
+             * @description Of the whole cam, spread by width; a segment has at least both of its ends.
+             * @default 1000
+             */
+            samples?: number;
         };
         /**
          * DeletedObject
@@ -9322,6 +9697,50 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    draw_cam: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CurvesOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CamDrawing"];
+                };
             };
             /** @description The request was refused */
             422: {

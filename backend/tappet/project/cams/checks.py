@@ -56,13 +56,13 @@ class Finding:
     @property
     def text(self) -> str:
         """In English."""
+        what = self.derivative
         before, behind, x = _short(self.before), _short(self.behind), number_text(self.x)
         if self.kind == "jump":
-            return f"The {self.derivative} jumps from {before} to {behind} at X = {x}"
+            return f"The {what} jumps from {before} to {behind} at X = {x}"
         if self.kind == "period":
             return (
-                f"The cam is periodic, and the {self.derivative} jumps from {before} at its end to {behind} "
-                "at its start"
+                f"The cam is periodic, and the {what} jumps from {before} at its end to {behind} at its start"
             )
         if self.kind == "end":
             return (

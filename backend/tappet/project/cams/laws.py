@@ -100,8 +100,11 @@ def _power_values(c: Sequence[float], s: float) -> Values:
     return Values(*found)
 
 
-def _harmonic(left: CamPoint, segment: CamSegment, right: CamPoint, s: float) -> Values:
-    """c0 + c1 s + c2 cos(pi s) + c3 sin(pi s) + c4 cos(2 pi s) + c5 sin(2 pi s)."""
+def harmonic_coefficients(left: CamPoint, segment: CamSegment, right: CamPoint) -> list[float]:
+    """c1 to c5 of Y0 + c1 s + c2 (cos(pi s) - 1) + c3 sin(pi s) + c4 (cos(2 pi s) - 1) + c5 sin(2 pi s).
+
+    Of sines, inclined sines and harmonics.
+    """
     h = right.x - left.x
     rise = right.y - left.y
     v0 = v1 = a0 = a1 = 0.0
@@ -111,10 +114,13 @@ def _harmonic(left: CamPoint, segment: CamSegment, right: CamPoint, s: float) ->
     elif segment.law == "harmonic":
         v0, v1, a0, a1 = left.v * h, right.v * h, left.a * h * h, right.a * h * h
     c2 = (a1 - a0) / (2 * _PI**2)
-    c4 = -(a0 + a1) / (8 * _PI**2)
-    c3 = (v0 - v1) / (2 * _PI)
     c1 = rise + 2 * c2
     c5 = ((v0 + v1) / 2 - c1) / (2 * _PI)
+    return [c1, c2, (v0 - v1) / (2 * _PI), -(a0 + a1) / (8 * _PI**2), c5]
+
+
+def _harmonic(left: CamPoint, segment: CamSegment, right: CamPoint, s: float) -> Values:
+    c1, c2, c3, c4, c5 = harmonic_coefficients(left, segment, right)
     sin1, cos1 = math.sin(_PI * s), math.cos(_PI * s)
     sin2, cos2 = 2 * sin1 * cos1, 1 - 2 * sin1 * sin1
     return Values(

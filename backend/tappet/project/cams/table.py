@@ -22,7 +22,7 @@ LAST_TRACK = 32_767
 LARGEST_TABLE = 10_000
 """Elements of a table of positions."""
 
-Coordinate = Annotated[float, Field(ge=-FARTHEST, le=FARTHEST, allow_inf_nan=False)]
+Coordinate = Annotated[float, Field(strict=True, ge=-FARTHEST, le=FARTHEST, allow_inf_nan=False)]
 Law = Literal["line", "poly3", "poly5", "poly7", "sine", "inclined_sine", "modified_sine", "harmonic"]
 TappetAction = Literal["none", "on", "off", "invert"]
 CompileFormat = Literal["polynomial", "segments", "one_dimensional", "two_dimensional"]
@@ -44,6 +44,7 @@ class CamSegment(Data):
     law: Law = Field(default="poly5", description="Law of motion, VDI 2143.")
     inflection: float = Field(
         default=0.5,
+        strict=True,
         gt=0,
         lt=1,
         allow_inf_nan=False,
@@ -102,7 +103,12 @@ class CamTable(CodeData):
         default=False, description="The end goes over into the start, up to periods of the slave (CAM-72)."
     )
     slave_period: float = Field(
-        default=360.0, gt=0, le=FARTHEST, allow_inf_nan=False, description="In units of the slave."
+        default=360.0,
+        strict=True,
+        gt=0,
+        le=FARTHEST,
+        allow_inf_nan=False,
+        description="In units of the slave.",
     )
     checks: ContinuityChecks = ContinuityChecks()
     compile_format: CompileFormat = Field(

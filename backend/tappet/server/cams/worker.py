@@ -1,0 +1,99 @@
+"""Computes cams as a process of its own: reads orders from its input, writes outcomes to its output.
+
+An outcome has the JSON of the answer as `body`, so that the web server only passes it on. The program with
+the library is built for the first order that needs it.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from tappet.motion.cam_curves import SegmentCurve, cam_curves
+from tappet.motion.cam_program import CamProgram, Numbers
+from tappet.project.cams.checks import findings
+from tappet.project.cams.table import CamTable
+from tappet.server.frames import pack_frame, read_frame
+from tappet.translation.sentences import sentence
+
+BEHIND_TYPING = 5
+"""Niceness."""
+COLUMNS = ("x", "y", "v", "a", "j")
+
+
+class CamWorker:
+    """Answers one order after the other."""
+
+    def __init__(self) -> None:
+        self._program: CamProgram | None = None
+
+    def outcome(self, order: dict[str, Any]) -> dict[str, Any]:
+        """What is sent back."""
+        try:
+            answer = _ANSWERS[order["do"]](self, CamTable.model_validate_json(order["cam"]), order)
+        except Exception as error:
+            traceback.print_exc()
+            return {"crash": f"{type(error).__name__}: {error}"}
+        return {"body": msgspec.json.encode(answer)}
+
+    def program(self, cache: str) -> CamProgram:
+        """The compiled library."""
+        if self._program is None:
+            self._program = CamProgram(Path(cache))
+        return self._program
+
+    def curves(self, cam: CamTable, order: dict[str, Any]) -> dict[str, Any]:
+        """The shape CamDrawing."""
+        curves = cam_curves(self.program(order["cache"]), cam, order["samples"], order["at"])
+        return {
+            "segments": [_curve(one) for one in curves.segments],
+            "at": [dict(zip(COLUMNS, row, strict=True)) for row in curves.at.tolist()],
+            "findings": [
+                {"severity": one.severity, "text": sentence(one.text, order["language"]), "x": one.x}
+                for one in findings(cam)
+            ],
+        }
+
+
+_ANSWERS: dict[str, Callable[[CamWorker, CamTable, dict[str, Any]], Any]] = {"curves": CamWorker.curves}
+
+
+def _curve(curve: SegmentCurve) -> dict[str, Any]:
+    return _columns(curve.samples) | {
+        "least": curve.least,
+        "greatest": curve.greatest,
+        "velocity": curve.velocity,
+        "acceleration": curve.acceleration,
+        "jerk": curve.jerk,
+    }
+
+
+def _columns(rows: Numbers) -> dict[str, Any]:
+    return dict(zip(COLUMNS, rows.T.tolist(), strict=True))
+
+
+def main() -> None:
+    """Serves orders until the input ends."""
+    os.nice(BEHIND_TYPING)
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever prints in here must not get between the frames
+    worker = CamWorker()
+    gc.freeze()
+    while (order := read_frame(sys.stdin.buffer)) is not None:
+        try:
+            output.write(pack_frame(worker.outcome(order)))
+            output.flush()
+        except BrokenPipeError:
+            os._exit(0)  # the server was killed: there is nobody to answer
+        del order
+
+
+if __name__ == "__main__":
+    main()

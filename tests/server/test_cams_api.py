@@ -1,0 +1,102 @@
+"""The cam editor's questions over REST."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from tappet.project.cams.table import CamTable
+
+PROJECTS = "/api/v1/projects"
+DEFAULT = CamTable().model_dump(mode="json")
+
+
+@pytest.fixture
+def cams(admin: TestClient) -> str:
+    """URL of the cams of a project."""
+    project = admin.post(PROJECTS, json={"name": "Press"}).json()["id"]
+    return f"{PROJECTS}/{project}/cams"
+
+
+def _ask(client: TestClient, url: str, /, **body: Any) -> Any:
+    answer = client.post(url, json=body)
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def test_curves_of_the_default_cam(admin: TestClient, cams: str) -> None:
+    """cam EX-01, over REST."""
+    drawn = _ask(admin, f"{cams}/curves", cam=DEFAULT, samples=30, at=[60, 120])
+    first, second, third = drawn["segments"]
+    assert [len(one["x"]) for one in (first, second, third)] == [10, 10, 10]
+    assert (first["x"][0], first["x"][-1], first["y"][-1]) == (0, 120, 120)
+    assert first["velocity"] == pytest.approx(1.512)
+    assert first["acceleration"] == pytest.approx(0.0328352829)
+    assert (first["j"][-1], second["j"][0]) == (pytest.approx(1 / 600), 0)
+    assert drawn["at"][0] == {"x": 60, "y": 41.25, "v": 1.4375, "a": 0.0125, "j": pytest.approx(-1 / 960)}
+    assert drawn["findings"] == []
+    short = _ask(admin, f"{cams}/curves", cam=DEFAULT)
+    assert sum(len(one["x"]) for one in short["segments"]) == 999
+    assert short["at"] == []
+
+
+def test_findings_are_said_in_the_language_of_the_reader(admin: TestClient, cams: str) -> None:
+    jump = {**DEFAULT, "segments": [{"law": "line"}, {}, {}], "periodic": True, "slave_period": 100}
+    drawn = _ask(admin, f"{cams}/curves", cam=jump, samples=2)
+    found = [(one["severity"], one["x"], one["text"]) for one in drawn["findings"]]
+    assert (
+        "warning",
+        360,
+        "The cam is periodic, and the velocity jumps from 0 at its end to 1 at its start",
+    ) in found
+    assert [severity for severity, *_ in found].count("error") == 1
+    chinese = admin.post(f"{cams}/curves", json={"cam": jump}, headers={"Accept-Language": "zh"}).json()[
+        "findings"
+    ]
+    assert [one["x"] for one in chinese] == [one["x"] for one in drawn["findings"]]
+    assert any("速度从终点的 0 跳变到起点的 1" in one["text"] for one in chinese)
+
+
+@pytest.mark.parametrize(
+    ("change", "where", "words"),
+    [
+        ({"samples": 1}, "body.samples", "greater than or equal to 2"),
+        ({"samples": 20_001}, "body.samples", "20000"),
+        ({"samples": 2.5}, "body.samples", "integer"),
+        ({"at": [0.0] * 1001}, "body.at", "1000"),
+        ({"at": ["x"]}, "body.at.0", "number"),
+        ({"cam": {**DEFAULT, "segments": []}}, "body.cam", "3 segments"),
+        ({"cam": {**DEFAULT, "points": [{"x": 1, "y": 0}, {"x": 1, "y": 0}]}}, "body.cam", "points.1.x"),
+        ({"cam": {**DEFAULT, "table_size": True}}, "body.cam.table_size", "integer"),
+        ({"colour": "red"}, "body.colour", "Extra inputs"),
+    ],
+)
+def test_wrong_questions_say_where(
+    admin: TestClient, cams: str, change: dict[str, Any], where: str, words: str
+) -> None:
+    answer = admin.post(f"{cams}/curves", json={"cam": DEFAULT, **change})
+    assert answer.status_code == 422
+    (error,) = answer.json()["errors"]
+    assert (error["location"], words in error["message"]) == (where, True), error
+
+
+def test_cams_of_no_project(admin: TestClient) -> None:
+    assert admin.post(f"{PROJECTS}/none/cams/curves", json={"cam": DEFAULT}).status_code == 404
+
+
+def test_a_process_that_dies_is_started_anew(admin: TestClient, cams: str) -> None:
+    before = _ask(admin, f"{cams}/curves", cam=DEFAULT, samples=9)
+    children = subprocess.run(
+        ["pgrep", "-f", "-P", str(os.getpid()), "cams.worker"], capture_output=True, text=True
+    )
+    for child in children.stdout.split():
+        os.kill(int(child), signal.SIGKILL)
+    assert children.stdout
+    answers = [admin.post(f"{cams}/curves", json={"cam": DEFAULT, "samples": 9}) for _ in range(2)]
+    assert answers[1].json() == before
+    assert answers[0].status_code in (200, 500)
