@@ -20,6 +20,8 @@ BEYOND = {
     *("SMC_CAM_TYPE", "SMC_CAM_SEGMENT_TYPE", "SMC_CAM_SEGMENT"),
     *("SMC_CAMEvaluate", "SMC_CAMValues"),
     *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
+    *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
+    *("DriveIn", "DriveOut"),
 }
 """What the library has beyond the catalogs."""
 PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
