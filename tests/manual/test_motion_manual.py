@@ -14,6 +14,7 @@ from tappet.libraries import load
 from tappet.libraries.catalog import items
 from tappet.manual.examples import Example, read_examples
 from tappet.manual.library_errors import errors_of
+from tappet.manual.pages import group_of
 from tappet.manual.recording import ExampleError, Recording, record
 from tappet.manual.simplified import simplified
 from tappet.manual.written import made, stored, write
@@ -46,6 +47,12 @@ def test_every_item_has_a_page_in_both_languages() -> None:
         assert [name for name in names if f"{folder}/{name}.md" not in written()] == []
         index = written()[f"{folder}/README.md"]
         assert [name for name in names if f"[{name}]({name}.md)" not in index] == []
+
+
+def test_every_block_has_a_group() -> None:
+    """In `blocks.csv`, with what it does to the state of its axis."""
+    known = {item.name: group_of(item) for item in items(load("SM3_Basic"))}
+    assert [name for name, group in known.items() if group == "other"] == []
 
 
 def test_pins_are_those_of_the_library() -> None:

@@ -241,6 +241,7 @@ def _item(symbol: symbols.Symbol, rank: int, order: int = 0) -> Completion:
         rank=rank,
         order=order,
         deprecated=attribute(pragmas, "obsolete") is not None,
+        library=describe.library_of(symbol),
     )
 
 
@@ -312,7 +313,10 @@ def _enum(view: View, type_: t.Enum, rank: int) -> Iterator[Completion]:
         bare = isinstance(plain, symbols.EnumValueSymbol) and plain.type is type_
         label = value.name if bare else f"{path}.{value.name}"
         detail = f"{type_.name} = {value.number}"
-        yield Completion(label, ItemKind.ENUM_VALUE, detail, value.comment, rank=rank, order=order)
+        library = describe.library_of(named) if named is not None else ""
+        yield Completion(
+            label, ItemKind.ENUM_VALUE, detail, value.comment, rank=rank, order=order, library=library
+        )
 
 
 # -- calls

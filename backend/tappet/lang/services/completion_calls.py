@@ -48,6 +48,7 @@ def _named(variable: VarSymbol, arrow: str, section: str, rank: int, order: int)
         insert=f"{variable.name} {arrow} ",
         rank=rank,
         order=order,
+        library=describe.library_of(variable),
     )
 
 
@@ -75,6 +76,7 @@ def whole_call(symbol: Symbol, name: str, rank: int, statement: bool) -> Complet
         snippet=True,
         rank=rank,
         order=1,
+        library=describe.library_of(symbol),
     )
 
 

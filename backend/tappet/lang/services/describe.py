@@ -61,6 +61,11 @@ def comment_of(symbol: symbols.Symbol) -> str:
     return node.comment if node is not None and node.comment else symbol.comment
 
 
+def library_of(symbol: symbols.Symbol) -> str:
+    """The library that declares a symbol; empty for what the project declares."""
+    return (symbol.source.library or "") if symbol.source is not None else ""
+
+
 def short(symbol: symbols.Symbol) -> str:
     """Type or head of a symbol on one line."""
     if isinstance(symbol, symbols.VarSymbol):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tappet.iec import literals
+from tappet.lang import ast
 from tappet.lang import types as t
 from tappet.lang.analysis.scope import QualifiedSymbol
 from tappet.lang.lexer import ID, INT, NUMBER, STRING
@@ -16,16 +17,23 @@ from tappet.lang.services.results import Hover
 from tappet.lang.services.workspace import Snapshot, View
 from tappet.lang.source import Span
 from tappet.lang.symbols import EnumValueSymbol, Symbol, TypeSymbol, VarSymbol
+from tappet.translation.language import Language
+from tappet.translation.library_comments import comment
 
 
-def hover(snapshot: Snapshot, document: str, position: Position) -> Hover | None:
-    """The explanation of what stands at a position of a document; None where there is nothing to say."""
+def hover(snapshot: Snapshot, document: str, position: Position, language: Language = "en") -> Hover | None:
+    """The explanation of what stands at a position of a document; None where there is nothing to say.
+
+    Comments of libraries come in the language, where there are words for them.
+    """
     view = snapshot.view(document, position)
     found = occurrence_at(snapshot, view.index, view.position)
     if found is not None:
         symbol = found.symbol or _declared_symbol(snapshot, found)
         if symbol is not None:
-            return Hover(view.place(found.span).span, describe.code_of(snapshot, symbol), _prose(symbol))
+            return Hover(
+                view.place(found.span).span, describe.code_of(snapshot, symbol), _prose(symbol, language)
+            )
         if found.type is not None:
             return Hover(view.place(found.span).span, str(found.type))
     return _token_hover(view)
@@ -40,24 +48,33 @@ def _declared_symbol(snapshot: Snapshot, found: Occurrence) -> Symbol | None:
     return None
 
 
-def _prose(symbol: Symbol) -> str:
-    comment = describe.comment_of(symbol)
+def _prose(symbol: Symbol, language: Language) -> str:
+    text = describe.comment_of(symbol)
+    library = describe.library_of(symbol)
     if isinstance(symbol, EnumValueSymbol) and isinstance(symbol.type, t.Enum):
         value = enum_values(symbol.type).get(symbol.name.upper())
-        comment = value.comment if value is not None else comment
-    facts = [comment, describe.value_facts(symbol)]
+        text = value.comment if value is not None else text
+    if library:
+        text = comment(text, library, language)
+    facts = [text, describe.value_facts(symbol)]
     if isinstance(symbol, VarSymbol):
         block = symbol.type
         if isinstance(block, t.FunctionBlock) and block.pou is not None and block.pou.comment:
-            facts.append(f"{block.name}: {block.pou.comment}")
+            facts.append(f"{block.name}: {_said(block.pou, language)}")
         elif isinstance(block, (t.Struct, t.Enum)) and block.decl is not None and block.decl.comment:
-            facts.append(f"{block.name}: {block.decl.comment}")
+            facts.append(f"{block.name}: {_said(block.decl, language)}")
     if isinstance(symbol, TypeSymbol) and isinstance(symbol.type, t.Struct):
         facts.append(f"{symbol.type.size} bytes")
     home = describe.home_of(symbol)
     if home:
         facts.append(f"in {home}")
     return "\n\n".join(fact for fact in facts if fact)
+
+
+def _said(node: ast.Pou | ast.TypeDecl, language: Language) -> str:
+    """The comment of a type."""
+    library = node.source.library if node.source is not None else None
+    return comment(node.comment, library, language) if library else node.comment
 
 
 def _token_hover(view: View) -> Hover | None:

@@ -56,6 +56,8 @@ class Completion:
     deprecated: bool = False
     over: int = 0
     """Characters before the word that the proposal replaces as well."""
+    library: str = ""
+    """Whose comment it is; empty for one of the project."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +116,8 @@ class Parameter:
     start: int
     end: int
     comment: str
+    library: str = ""
+    """Whose comment it is; empty for one of the project."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +128,8 @@ class Signature:
     comment: str
     parameters: list[Parameter]
     active: int | None
+    library: str = ""
+    """Whose comment it is; empty for one of the project."""
 
 
 @dataclass(frozen=True, slots=True)

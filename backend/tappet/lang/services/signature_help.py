@@ -53,9 +53,9 @@ def _of_pou(view: View, pou: PouSymbol, count: int, named: str) -> Signature:
             if inputs == count:
                 active = len(parameters)
             inputs += 1
-        parameters.append(Parameter(start, len(label), variable.comment))
+        parameters.append(Parameter(start, len(label), variable.comment, describe.library_of(variable)))
     result = f" : {pou.return_type}" if pou.return_type is not None else ""
-    return Signature(f"{label}){result}", pou.comment, parameters, active)
+    return Signature(f"{label}){result}", pou.comment, parameters, active, describe.library_of(pou))
 
 
 def _of_head(label: str, comment: str, count: int) -> Signature:

@@ -38,6 +38,7 @@ from tappet.server.lsp.protocol.structures import Position as LspPosition
 from tappet.server.lsp.shown import OtherTextError, ShownDocument
 from tappet.server.lsp.utf16 import units
 from tappet.translation.language import Language
+from tappet.translation.library_comments import comment
 
 LANGUAGE_ID: Final = "iec-st"
 Shown = Callable[[str], ShownDocument]
@@ -112,19 +113,23 @@ def location(place: Place, shown: Shown) -> Location | None:
     return None if found is None else Location(document.spelled, found)
 
 
-def completion_list(items: Sequence[Completion], line: str, position: Position) -> lsp.CompletionList:
-    """Proposals at a position; `line` is the text of its line."""
+def completion_list(
+    items: Sequence[Completion], line: str, position: Position, language: Language = "en"
+) -> lsp.CompletionList:
+    """Proposals at a position; `line` is the text of its line. Comments of libraries are in the language."""
     word = position.column
     while word > 0 and (line[word - 1].isalnum() or line[word - 1] == "_"):
         word -= 1
     return lsp.CompletionList(
         is_incomplete=False,
-        items=[_completion(item, number, line, position, word) for number, item in enumerate(items)],
+        items=[
+            _completion(item, number, line, position, word, language) for number, item in enumerate(items)
+        ],
     )
 
 
 def _completion(
-    item: Completion, number: int, line: str, position: Position, word: int
+    item: Completion, number: int, line: str, position: Position, word: int, language: Language
 ) -> lsp.CompletionItem:
     text = item.insert if item.insert is not None else item.label
     start = units(line, max(word - item.over, 0))
@@ -137,13 +142,20 @@ def _completion(
         label=item.label,
         kind=_COMPLETION_KINDS.get(item.kind, lsp.CompletionItemKind.TEXT),
         detail=item.detail or None,
-        documentation=MarkupContent("markdown", escaped(item.comment)) if item.comment else None,
+        documentation=_documentation(item.comment, item.library, language),
         sort_text=f"{item.rank}{number:05}",
         filter_text=line[max(word - item.over, 0) : word] + name if item.over else name,
         insert_text_format=lsp.InsertTextFormat.SNIPPET if item.snippet else None,
         tags=[lsp.CompletionItemTag.DEPRECATED] if item.deprecated else None,
         text_edit=edit,
     )
+
+
+def _documentation(text: str, library: str, language: Language) -> MarkupContent | None:
+    """A comment; one of a library in the language, where there are words for it."""
+    if library:
+        text = comment(text, library, language)
+    return MarkupContent("markdown", escaped(text)) if text else None
 
 
 def escaped(text: str) -> str:
@@ -166,17 +178,17 @@ def _prose(piece: str) -> str:
     return "`".join(part if index % 2 else escaped(part) for index, part in enumerate(piece.split("`")))
 
 
-def signature_help(found: Signature) -> lsp.SignatureHelp:
-    """The call being written."""
+def signature_help(found: Signature, language: Language = "en") -> lsp.SignatureHelp:
+    """The call being written; comments of libraries are in the language."""
     parameters = [
         lsp.ParameterInformation(
             (units(found.label, item.start), units(found.label, item.end)),
-            MarkupContent("markdown", escaped(item.comment)) if item.comment else None,
+            _documentation(item.comment, item.library, language),
         )
         for item in found.parameters
     ]
-    comment = MarkupContent("markdown", escaped(found.comment)) if found.comment else None
-    information = lsp.SignatureInformation(found.label, parameters, found.active, comment)
+    documentation = _documentation(found.comment, found.library, language)
+    information = lsp.SignatureInformation(found.label, parameters, found.active, documentation)
     return lsp.SignatureHelp([information], 0, found.active)
 
 

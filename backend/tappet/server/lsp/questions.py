@@ -57,7 +57,9 @@ def completion(session: Client, params: TextDocumentPositionParams) -> lsp.Compl
     uri, position = session.at(params)
     found = completions.complete(session.workspace, uri, position)
     shown = session.shown(uri)
-    return convert.completion_list(found, shown.line(position.line), shown.own_position(params.position))
+    return convert.completion_list(
+        found, shown.line(position.line), shown.own_position(params.position), session.language
+    )
 
 
 def completion_in(session: Client, params: product.CompletionInParams) -> lsp.CompletionList:
@@ -65,7 +67,9 @@ def completion_in(session: Client, params: product.CompletionInParams) -> lsp.Co
     lines = lines_of(params.text)
     position = to_position(lines, params.position)
     view = session.workspace.trial_view(session.canonical(params.text_document.uri), position, params.text)
-    return convert.completion_list(completions.proposals(view), lines(position.line), position)
+    return convert.completion_list(
+        completions.proposals(view), lines(position.line), position, session.language
+    )
 
 
 def operand_facts(session: Client, params: product.OperandFactsParams) -> list[operands.OperandFacts | None]:
@@ -78,7 +82,7 @@ def operand_facts(session: Client, params: product.OperandFactsParams) -> list[o
 def hover(session: Client, params: TextDocumentPositionParams) -> lsp.Hover | None:
     """What this is."""
     uri, position = session.at(params)
-    found = hovers.hover(session.snapshot(uri), uri, position)
+    found = hovers.hover(session.snapshot(uri), uri, position, session.language)
     return convert.hover(found, session.shown(uri)) if found is not None else None
 
 
@@ -86,7 +90,7 @@ def signature_help(session: Client, params: TextDocumentPositionParams) -> lsp.S
     """The parameters of the call."""
     uri, position = session.at(params)
     found = signatures.signature(session.workspace, uri, position)
-    return convert.signature_help(found) if found is not None else None
+    return convert.signature_help(found, session.language) if found is not None else None
 
 
 def definition(session: Client, params: TextDocumentPositionParams) -> Location | None:
