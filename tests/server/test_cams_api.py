@@ -100,3 +100,47 @@ def test_a_process_that_dies_is_started_anew(admin: TestClient, cams: str) -> No
     answers = [admin.post(f"{cams}/curves", json={"cam": DEFAULT, "samples": 9}) for _ in range(2)]
     assert answers[1].json() == before
     assert answers[0].status_code in (200, 500)
+
+
+def test_texts_go_out_and_come_in(admin: TestClient, cams: str) -> None:
+    """cam EX-08, and back."""
+    order = {"cam": DEFAULT, "format": "ascii", "count": 4, "points_only": False}
+    text = _ask(admin, f"{cams}/text", **order)["text"]
+    assert text == "0 0\n120 120\n240 240\n360 360\n"
+    for form in ("csv", "cam"):
+        text = _ask(admin, f"{cams}/text", **{**order, "format": form, "points_only": True})["text"]
+        back = _ask(
+            admin,
+            f"{cams}/from-text",
+            cam={**DEFAULT, "points": [{"x": 0, "y": 1}, {"x": 9, "y": 1}], "segments": [{}], "tracks": []},
+            text=text,
+        )
+        assert (back["cam"]["points"], back["removed_tappets"]) == (DEFAULT["points"], 0)
+        assert len(back["cam"]["tracks"]) == (1 if form == "cam" else 0)
+    short = _ask(admin, f"{cams}/from-text", cam=DEFAULT, text="0 0\n100 100\n")
+    assert (len(short["cam"]["points"]), short["removed_tappets"]) == (2, 1)
+
+
+def test_wrong_texts_name_the_line(admin: TestClient, cams: str) -> None:
+    body = {"cam": DEFAULT, "text": "0 0\n5 x\n"}
+    answer = admin.post(f"{cams}/from-text", json=body)
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:tappet:problem:cam-text")
+    assert (answer.json()["line"], answer.json()["detail"]) == (2, "Line 2 of the text: 'x' is no number.")
+    chinese = admin.post(f"{cams}/from-text", json=body, headers={"Accept-Language": "zh"}).json()
+    assert chinese["detail"] == "文本第 2 行：“x”不是数字。"
+
+
+def test_a_cam_file_has_no_sines(admin: TestClient, cams: str) -> None:
+    sine = {**DEFAULT, "segments": [{"law": "sine"}, {}, {}]}
+    answer = admin.post(f"{cams}/text", json={"cam": sine, "format": "cam"})
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:tappet:problem:no-cam-file")
+
+
+def test_the_generated_code_is_shown_of_good_cams_alone(admin: TestClient, cams: str) -> None:
+    text = _ask(admin, f"{cams}/code", name="Feeder", cam=DEFAULT)["text"]
+    assert "Feeder : MC_CAM_REF := (byType:=3, nElements:=4" in text
+    sine = {**DEFAULT, "segments": [{"law": "sine"}, {}, {}]}
+    answer = admin.post(f"{cams}/code", json={"name": "Feeder", "cam": sine})
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:tappet:problem:faulty-cam")
+    assert "is of the type Sine" in answer.json()["detail"]
+    assert admin.post(f"{cams}/code", json={"name": "two words", "cam": DEFAULT}).status_code == 422

@@ -20,7 +20,7 @@ from tappet.translation.templates import FIELD, Templates, filled
 from .said_in_code import PLACE, templates, texts
 
 PARTS = (
-    "project", "server", "runtime", "documentation", "libraries",
+    "project", "motion", "server", "runtime", "documentation", "libraries",
     "codegen/faults.py", "codegen/generate.py", "codegen/literals.py", "codegen/online.py",
     "codegen/symbol_map.py", "codegen/values.py", "disk_full.py", "iec/listing.py",
 )  # fmt: skip
@@ -31,6 +31,7 @@ FILES_FOR_OTHERS = {
     "documentation/words.py": "has its own Chinese words",
     "libraries/missing.py": "messages of the compiler: phrases_zh.csv",
     "libraries/parameters.py": "messages of the compiler: phrases_zh.csv",
+    "motion/cam_program.py": "our own mistakes",
     "project/exchange/plcopen_type_xml.py": "markup",
     "project/exchange/plcopen_write.py": "markup",
     "project/exchange/xml_lines.py": "markup",

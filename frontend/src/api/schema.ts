@@ -906,6 +906,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/cams/code": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Show Cam Code
+         * @description The declarations that a cam is compiled into (CAM-83, CAM-90); one with errors is refused.
+         */
+        post: operations["show_cam_code"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/cams/curves": {
         parameters: {
             query?: never;
@@ -920,6 +940,51 @@ export interface paths {
          * @description The curves of a cam by the compiled library SM3_Basic, its extremes and what is wrong with it.
          */
         post: operations["draw_cam"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cams/from-text": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Cam Text
+         * @description The cam with the points of a text (CAM-80, CAM-82); nothing is stored.
+         *
+         *     A text that is no cam is the problem `cam-text`, with the number of the wrong line. Points without
+         *     derivatives get those of the cubic spline through them.
+         */
+        post: operations["read_cam_text"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cams/text": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Write Cam Text
+         * @description A cam as ASCII table, CSV or cam file (CAM-81, CAM-82).
+         *
+         *     Sines and other laws have no place in a cam file: the problem `no-cam-file` names the segment.
+         */
+        post: operations["write_cam_text"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2801,6 +2866,15 @@ export interface components {
             uri: string | null;
         };
         /**
+         * CamCodeOrder
+         * @description A cam and its name.
+         */
+        CamCodeOrder: {
+            cam: components["schemas"]["CamTable-Input"];
+            /** Name */
+            name: string;
+        };
+        /**
          * CamDrawing
          * @description The curves of a cam by the compiled library, and what is wrong with it.
          */
@@ -2829,6 +2903,15 @@ export interface components {
              * @description Position of the master that it is about.
              */
             x: number;
+        };
+        /**
+         * CamImport
+         * @description A text that a cam gets its points from: pairs of positions, CSV, or a cam file.
+         */
+        CamImport: {
+            cam: components["schemas"]["CamTable-Input"];
+            /** Text */
+            text: string;
         };
         /**
          * CamObject
@@ -3338,6 +3421,45 @@ export interface components {
              * @description Position of the master.
              */
             x: number;
+        };
+        /**
+         * CamText
+         * @description A cam as text.
+         */
+        CamText: {
+            /** Text */
+            text: string;
+        };
+        /**
+         * CamTextOrder
+         * @description How to write a cam as text.
+         */
+        CamTextOrder: {
+            cam: components["schemas"]["CamTable-Input"];
+            /**
+             * Count
+             * @description Of points at equal distances of the master.
+             * @default 256
+             */
+            count?: number;
+            /**
+             * Format
+             * @description Pairs of positions; columns with derivatives and laws; the file of SMC_ReadCAM.
+             * @enum {string}
+             */
+            format: "ascii" | "csv" | "cam";
+            /**
+             * Name
+             * @description Name in a cam file.
+             * @default Cam
+             */
+            name?: string;
+            /**
+             * Points Only
+             * @description The points of the cam itself instead.
+             * @default false
+             */
+            points_only?: boolean;
         };
         /**
          * CamTrack
@@ -4557,6 +4679,18 @@ export interface components {
         ImportResult: {
             project: components["schemas"]["ProjectSummary"];
             report: components["schemas"]["ImportReport"];
+        };
+        /**
+         * ImportedCam
+         * @description The cam with what was in the text.
+         */
+        ImportedCam: {
+            cam: components["schemas"]["CamTable-Output"];
+            /**
+             * Removed Tappets
+             * @description They lay outside the new range of the master.
+             */
+            removed_tappets: number;
         };
         /**
          * InterfaceData
@@ -9718,6 +9852,50 @@ export interface operations {
             };
         };
     };
+    show_cam_code: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CamCodeOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CamText"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     draw_cam: {
         parameters: {
             query?: never;
@@ -9740,6 +9918,94 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CamDrawing"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_cam_text: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CamImport"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportedCam"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    write_cam_text: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CamTextOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CamText"];
                 };
             };
             /** @description The request was refused */

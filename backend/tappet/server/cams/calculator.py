@@ -26,7 +26,10 @@ class CamCalculator:
         self._worker = WorkerProcess(command)
 
     async def ask(self, do: str, cam: CamTable, **facts: Any) -> bytes:
-        """The JSON of an answer. Raises problems: 500 when the process died, 503 when it takes too long."""
+        """The JSON of an answer.
+
+        Raises problems: 422 for what is no cam, 500 when the process died, 503 when it takes too long.
+        """
         order = {"do": do, "cam": cam.model_dump_json(), "cache": self._cache, **facts}
         try:
             async with asyncio.timeout(PATIENCE_S):
@@ -36,6 +39,9 @@ class CamCalculator:
             raise Problem(503, "cam-too-large", detail) from None
         except WorkerCrashedError as error:
             raise Problem(500, "cam-failed", f"The cam could not be computed: {error}.") from error
+        if (refusal := outcome.get("refusal")) is not None:
+            fields = {} if refusal["line"] is None else {"line": refusal["line"]}
+            raise Problem(422, refusal["kind"].replace("_", "-"), refusal["detail"], **fields)
         body: bytes = outcome["body"]
         return body
 

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictInt
 
-from tappet.project.cams.table import CamTable, Coordinate
-from tappet.server.shapes import Reply, Request
+from tappet.project.cams.table import LARGEST_TABLE, CamTable, Coordinate
+from tappet.project.naming import MAX_NAME
+from tappet.server.shapes import Line, Reply, Request
 
 MOST_SAMPLES = 20_000
 MOST_SINGLE = 1000
@@ -65,3 +66,44 @@ class CamDrawing(Reply):
     segments: list[CamSegmentCurve]
     at: list[CamValues]
     findings: list[CamFinding]
+
+
+class CamTextOrder(Request):
+    """How to write a cam as text."""
+
+    cam: CamTable
+    format: Literal["ascii", "csv", "cam"] = Field(
+        description="Pairs of positions; columns with derivatives and laws; the file of SMC_ReadCAM."
+    )
+    count: Annotated[StrictInt, Field(ge=2, le=LARGEST_TABLE)] = Field(
+        default=256, description="Of points at equal distances of the master."
+    )
+    points_only: bool = Field(default=False, description="The points of the cam itself instead.")
+    name: Line = Field(default="Cam", max_length=80, description="Name in a cam file.")
+
+
+class CamText(Reply):
+    """A cam as text."""
+
+    text: str
+
+
+class CamImport(Request):
+    """A text that a cam gets its points from: pairs of positions, CSV, or a cam file."""
+
+    text: str
+    cam: CamTable
+
+
+class ImportedCam(Reply):
+    """The cam with what was in the text."""
+
+    cam: CamTable
+    removed_tappets: int = Field(description="They lay outside the new range of the master.")
+
+
+class CamCodeOrder(Request):
+    """A cam and its name."""
+
+    name: Annotated[str, Field(pattern="^[A-Za-z_][A-Za-z0-9_]*$", max_length=MAX_NAME)]
+    cam: CamTable

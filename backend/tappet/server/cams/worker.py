@@ -17,15 +17,26 @@ from typing import Any
 import msgspec
 
 from tappet.motion.cam_curves import SegmentCurve, cam_curves
+from tappet.motion.cam_import import imported_cam
 from tappet.motion.cam_program import CamProgram, Numbers
+from tappet.project.cams.cam_file import written_file
 from tappet.project.cams.checks import findings
+from tappet.project.cams.code import generated_code
+from tappet.project.cams.point_lists import written_points
 from tappet.project.cams.table import CamTable
+from tappet.project.errors import ProjectError
 from tappet.server.frames import pack_frame, read_frame
 from tappet.translation.sentences import sentence
 
 BEHIND_TYPING = 5
 """Niceness."""
 COLUMNS = ("x", "y", "v", "a", "j")
+
+
+class FaultyCamError(ProjectError):
+    """There is no code of a cam with errors."""
+
+    code = "faulty_cam"
 
 
 class CamWorker:
@@ -38,6 +49,10 @@ class CamWorker:
         """What is sent back."""
         try:
             answer = _ANSWERS[order["do"]](self, CamTable.model_validate_json(order["cam"]), order)
+        except ProjectError as error:
+            return {
+                "refusal": {"kind": error.code, "detail": str(error), "line": getattr(error, "line", None)}
+            }
         except Exception as error:
             traceback.print_exc()
             return {"crash": f"{type(error).__name__}: {error}"}
@@ -61,8 +76,32 @@ class CamWorker:
             ],
         }
 
+    def text(self, cam: CamTable, order: dict[str, Any]) -> dict[str, Any]:
+        """The shape CamText."""
+        if order["format"] == "cam":
+            return {"text": written_file(order["name"], cam)}
+        count, points_only = order["count"], order["points_only"]
+        return {"text": written_points(cam, order["format"], count, points_only=points_only)}
 
-_ANSWERS: dict[str, Callable[[CamWorker, CamTable, dict[str, Any]], Any]] = {"curves": CamWorker.curves}
+    def from_text(self, cam: CamTable, order: dict[str, Any]) -> dict[str, Any]:
+        """The shape ImportedCam."""
+        found = imported_cam(order["text"], cam)
+        return {"cam": found.cam.model_dump(), "removed_tappets": found.removed_tappets}
+
+    def code(self, cam: CamTable, order: dict[str, Any]) -> dict[str, Any]:
+        """The shape CamText."""
+        for one in findings(cam):
+            if one.severity == "error":
+                raise FaultyCamError(one.text)
+        return {"text": generated_code(order["name"], cam)}
+
+
+_ANSWERS: dict[str, Callable[[CamWorker, CamTable, dict[str, Any]], Any]] = {
+    "curves": CamWorker.curves,
+    "text": CamWorker.text,
+    "from-text": CamWorker.from_text,
+    "code": CamWorker.code,
+}
 
 
 def _curve(curve: SegmentCurve) -> dict[str, Any]:
