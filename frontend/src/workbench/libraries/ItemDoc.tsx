@@ -7,10 +7,12 @@ import { Empty } from '@/ui/Empty';
 import { BlockPicture } from './BlockPicture';
 import styles from './Libraries.module.css';
 import { groupOf } from './model';
+import { useItemOfNow } from './useLibraries';
 
-/** Documentation of a library item: comment, picture, pins, members, values. */
-export function ItemDoc({ library, item }: { library: string | null; item: LibraryItem | null }) {
+/** Documentation of a library item: comment, picture, pins, members, values. `library` may have a version: `Util, 1.0`. */
+export function ItemDoc({ library, item: chosen }: { library: string | null; item: LibraryItem | null }) {
   const t = useText();
+  const item = useItemOfNow(library, chosen);
   if (!item) return <Empty icon={BookOpenText} title={t('libraryDoc.none')} text={t('libraryDoc.noneText')} />;
   const { kind, subkind } = kindOfSubkind(item.kind);
   const drawn = groupOf(item.kind) === 'function_block' || item.kind === 'function';
