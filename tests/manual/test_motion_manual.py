@@ -14,7 +14,7 @@ from tappet.libraries import load
 from tappet.libraries.catalog import items
 from tappet.manual.examples import Example, read_examples
 from tappet.manual.library_errors import errors_of
-from tappet.manual.pages import group_of
+from tappet.manual.pages import group_of, state_of
 from tappet.manual.recording import ExampleError, Recording, record
 from tappet.manual.simplified import simplified
 from tappet.manual.written import made, stored, write
@@ -105,6 +105,44 @@ def test_at_most_one_output_says_how_a_command_stands() -> None:
         if len(outputs) > 1 and together - {0, 1}:
             seen.add(name)
     assert seen == HOLD_THE_AXIS
+
+
+POWER_OFF, ERRORSTOP, STOPPING, STANDSTILL, DISCRETE, CONTINUOUS, SYNCHRONIZED, HOMING = range(8)
+LEADS_TO = {
+    "discrete": {DISCRETE},
+    "continuous": {CONTINUOUS},
+    "jog": {CONTINUOUS, DISCRETE},
+    "through": {DISCRETE, CONTINUOUS},
+    "synchronized": {SYNCHRONIZED},
+    "release": {SYNCHRONIZED, CONTINUOUS},
+    "halt": {DISCRETE},
+    "stop": {STOPPING},
+    "homing": {HOMING},
+    "reset": {ERRORSTOP, STANDSTILL},
+    "power": {POWER_OFF, STANDSTILL},
+    "none": set(),
+    "overlay": set(),
+    "superimposed": set(),
+}
+ALONE = {
+    *("MC_ReadParameter", "MC_WriteParameter", "MC_ReadBoolParameter", "MC_WriteBoolParameter"),
+    *("SMC3_BrakeControl", "SMC3_BrakeStatus", "SMC_CheckAxisCommunication"),
+}
+"""Blocks whose examples have no other block that could change the state of the axis."""
+
+
+def test_axes_come_into_the_states_that_pages_tell() -> None:
+    """STA-06 to STA-14: one axis of the example has been in all states that its block leads to."""
+    wrong = []
+    for one in recordings():
+        key = state_of(one.example.name)
+        leads_to = LEADS_TO[key] if key else set()
+        if leads_to and not any(leads_to <= states for states in one.states):
+            wrong.append((one.example.name, key, one.states))
+        if one.example.name in ALONE:
+            assert (key, one.states) == ("none", (frozenset({POWER_OFF}),)), one.example.name
+    within_a_cycle = ("MC_Home", "homing", (frozenset({POWER_OFF, STANDSTILL}),))
+    assert wrong == [within_a_cycle], "an axis without a drive takes its position at once"
 
 
 def test_a_wrong_expectation_is_told() -> None:

@@ -57,6 +57,11 @@ def public_methods(library: Library, item: Item) -> list[Item]:
     return [one for one in item.methods if re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{one.name}\b", text)]
 
 
+def state_of(name: str) -> str:
+    """Key of what a block does to the state of its axis; empty for what has no axis."""
+    return _rows().get(name, {}).get("state", "")
+
+
 class _Manual:
     """The pages in a language."""
 
@@ -135,7 +140,7 @@ class _Manual:
         return [f"{level} {heading}", "", *table(head, rows), ""]
 
     def _state(self, item: Item) -> list[str]:
-        key = _rows().get(item.name, {}).get("state", "")
+        key = state_of(item.name)
         if not key:
             return []
         return [f"## {self._word('state')}", "", state(key, self._language), ""]

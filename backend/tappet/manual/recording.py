@@ -56,6 +56,8 @@ class Recording:
     """By expression as the example writes it."""
     literals: tuple[str, ...]
     """What is expected as it came."""
+    states: tuple[frozenset[int], ...]
+    """Numbers of the states of its axes, one set an axis."""
 
     @property
     def wrong(self) -> list[str]:
@@ -108,7 +110,8 @@ def _counts(diagnostic: Diagnostic) -> bool:
 
 def _recorded(runtime: LocalRuntime, number: int, example: Example, block: Item) -> Recording:
     shown = example.chart or _offered(example, block)
-    wanted = dict.fromkeys([*shown, *(one.expression for one in example.expectations)])
+    states = [f"{axis}.nAxisState" for axis in example.axes]
+    wanted = dict.fromkeys([*shown, *states, *(one.expression for one in example.expectations)])
     paths = {expression: _path(runtime, example, expression) for expression in wanted}
     runtime.reset("cold")
     runtime.write("Cycle.iExample", number)
@@ -128,7 +131,12 @@ def _recorded(runtime: LocalRuntime, number: int, example: Example, block: Item)
         symbols.format_literal(symbols.resolve(paths[one.expression]), values[one.expression][one.cycle - 1])
         for one in example.expectations
     )
-    return Recording(example, {expression: values[expression] for expression in shown}, literals)
+    return Recording(
+        example,
+        {expression: values[expression] for expression in shown},
+        literals,
+        tuple(frozenset(int(str(value)) for value in values[state]) for state in states),
+    )
 
 
 def _offered(example: Example, block: Item) -> tuple[str, ...]:

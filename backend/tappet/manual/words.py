@@ -51,7 +51,7 @@ _WORDS: dict[str, tuple[str, str]] = {
     "example text": (
         "Complete program for a project with {axes} ([how to run it](../examples/README.md)); "
         "[file]({file}).",
-        "完整程序，用于含有{axes}的工程（[如何运行](../../examples/README.md)）；[文件]({file})。",
+        "完整程序，用于含有{axes}的工程（[如何运行](../../zh/examples.md)）；[文件]({file})。",
     ),
     "axis": ("the axis `{name}`", "轴 `{name}`"),
     "axes": ("the axes {names}", "轴 {names}"),
