@@ -1,4 +1,4 @@
-/** Acts on points and segments; numbers of cam.md, EX-01 to EX-05 and EX-07. */
+/** Acts on points and segments; numbers of cam EX-01, EX-02, EX-03, EX-04, EX-05 and EX-07. */
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { domainOf, LAWS, segmentAt, type CamTable } from './camTable';
@@ -20,7 +20,7 @@ const inCam = (cam: CamTable, x: number) => {
 };
 
 describe('a point', () => {
-  it('inserted on the curve leaves it as it is (EX-03)', () => {
+  it('inserted on the curve leaves it as it is (cam EX-03)', () => {
     const values = inCam(DEFAULT_CAM, 60);
     expect(values.y).toBeCloseTo(41.25, 12);
     expect(values.v).toBeCloseTo(1.4375, 12);
@@ -31,7 +31,7 @@ describe('a point', () => {
     expect(deletePoint(cam, 1)).toEqual(DEFAULT_CAM);
   });
 
-  it('deleted joins its segments (EX-04)', () => {
+  it('deleted joins its segments (cam EX-04)', () => {
     const cam = deletePoint(DEFAULT_CAM, 1);
     expect(cam.points).toHaveLength(3);
     const { y, v, a } = inCam(cam, 120);
@@ -62,11 +62,11 @@ describe('a point', () => {
 });
 
 describe('the type of a segment', () => {
-  it('changes nothing where the line fits already (EX-05)', () => {
+  it('changes nothing where the line fits already (cam EX-05)', () => {
     expect(setLaw(DEFAULT_CAM, 1, 'line').points).toEqual(DEFAULT_CAM.points);
   });
 
-  it('gives V and A of a line to neighbours that take any (CAM-47, EX-02)', () => {
+  it('gives V and A of a line to neighbours that take any (CAM-47, cam EX-02)', () => {
     const points = [
       { x: 0, y: 0 },
       { x: 140, y: 100 },
@@ -107,7 +107,7 @@ describe('the type of a segment', () => {
 describe('a periodic cam', () => {
   const start = movePoint(setPeriod(DEFAULT_CAM, { periodic: true }), 0, { v: 0.5 });
 
-  it('keeps whole periods between its ends, which share V and A (EX-07)', () => {
+  it('keeps whole periods between its ends, which share V and A (cam EX-07)', () => {
     expect(start.points[3]).toMatchObject({ y: 360, v: 0.5, a: 0 });
     expect(movePoint(start, 3, { y: 720 }).points[3]).toMatchObject({ y: 720, v: 0.5, a: 0 });
     expect(movePoint(start, 3, { y: 100 }).points[3]!.y).toBe(0);
