@@ -68,6 +68,8 @@ async def test_a_hover_says_what_a_block_and_its_pins_are(language: str, block: 
     assert block in found
     assert "The axis" in found, "a comment of the project"
     assert pin in (await _asked(language, "hover", "Move.Posi|tion := 1;"))["contents"]["value"]
+    declared = (await _asked(language, "hover", "Move : MC_Move|Absolute;"))["contents"]["value"]
+    assert declared.count(pin.replace("\\", "")) == 1, "behind the pin"
     assert ("运动的方向。" in (await _asked(language, "hover", "e|Way := 0;"))["contents"]["value"]) == (
         language == "zh-CN"
     )

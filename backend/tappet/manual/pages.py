@@ -170,7 +170,12 @@ class _Manual:
         lines = []
         if example.charted:
             chart = f"{'../' if self._language == 'zh' else ''}charts/{item.name}.svg"
-            lines += [f"## {self._word('timing')}", "", f"![{item.name}]({chart})", ""]
+            lines += [
+                f"## {self._word('timing')}",
+                "",
+                f"![{self._word('timing')}: {item.name}]({chart})",
+                "",
+            ]
             lines += [self._word("chart", cycles=example.cycles, cycle=CYCLE_MS), ""]
         lines += [f"## {self._word('example')}", "", self._say(example.comment, EXAMPLES), ""]
         lines += [

@@ -10,6 +10,8 @@ from tappet.lang.attributes import attribute
 from tappet.lang.services.results import ItemKind
 from tappet.lang.services.workspace import Snapshot
 from tappet.lang.source import Source, Span, split_lines
+from tappet.translation.language import Language
+from tappet.translation.library_comments import comment
 
 _PINS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT")
 _MAX_LINES = 40
@@ -100,14 +102,14 @@ def type_as_written(symbol: symbols.VarSymbol) -> str:
     return decl.type_ref.name if decl is not None and isinstance(decl.type_ref, ast.NamedType) else ""
 
 
-def code_of(snapshot: Snapshot, symbol: symbols.Symbol) -> str:
-    """The declaration of a symbol as ST."""
+def code_of(snapshot: Snapshot, symbol: symbols.Symbol, language: Language = "en") -> str:
+    """The declaration of a symbol as ST; comments of libraries are in the language."""
     if isinstance(symbol, symbols.VarSymbol):
         return variable_code(snapshot, symbol)
     if isinstance(symbol, symbols.EnumValueSymbol):
         return f"{symbol.type}.{symbol.name} := {symbol.number};"
     if isinstance(symbol, symbols.PouSymbol):
-        return pou_code(snapshot, symbol)
+        return pou_code(snapshot, symbol, language)
     if isinstance(symbol, symbols.PropertySymbol):
         accessors = [
             word for word, found in (("GET", symbol.getter), ("SET", symbol.setter)) if found is not None
@@ -189,7 +191,13 @@ def head_line(pou: symbols.PouSymbol) -> str:
     return text
 
 
-def pou_code(snapshot: Snapshot, pou: symbols.PouSymbol) -> str:
+def in_language(text: str, symbol: symbols.Symbol, language: Language) -> str:
+    """A comment of a symbol; that of a library in the language, where there are words for it."""
+    library = library_of(symbol)
+    return comment(text, library, language) if library else text
+
+
+def pou_code(snapshot: Snapshot, pou: symbols.PouSymbol, language: Language = "en") -> str:
     """Head and pins with their comments."""
     lines = [head_line(pou)]
     section = ""
@@ -200,9 +208,10 @@ def pou_code(snapshot: Snapshot, pou: symbols.PouSymbol) -> str:
             section = variable.section
             lines.append(section)
         initial = initial_text(variable)
-        comment = f"  // {variable.comment.splitlines()[0]}" if variable.comment else ""
+        said = in_language(variable.comment, variable, language)
+        remark = f"  // {said.splitlines()[0]}" if said else ""
         value = f" := {initial}" if initial else ""
-        lines.append(f"    {variable.name} : {type_as_written(variable)}{value};{comment}")
+        lines.append(f"    {variable.name} : {type_as_written(variable)}{value};{remark}")
     if section:
         lines.append("END_VAR")
     return "\n".join(lines)

@@ -32,7 +32,9 @@ def hover(snapshot: Snapshot, document: str, position: Position, language: Langu
         symbol = found.symbol or _declared_symbol(snapshot, found)
         if symbol is not None:
             return Hover(
-                view.place(found.span).span, describe.code_of(snapshot, symbol), _prose(symbol, language)
+                view.place(found.span).span,
+                describe.code_of(snapshot, symbol, language),
+                _prose(symbol, language),
             )
         if found.type is not None:
             return Hover(view.place(found.span).span, str(found.type))
@@ -50,13 +52,10 @@ def _declared_symbol(snapshot: Snapshot, found: Occurrence) -> Symbol | None:
 
 def _prose(symbol: Symbol, language: Language) -> str:
     text = describe.comment_of(symbol)
-    library = describe.library_of(symbol)
     if isinstance(symbol, EnumValueSymbol) and isinstance(symbol.type, t.Enum):
         value = enum_values(symbol.type).get(symbol.name.upper())
         text = value.comment if value is not None else text
-    if library:
-        text = comment(text, library, language)
-    facts = [text, describe.value_facts(symbol)]
+    facts = [describe.in_language(text, symbol, language), describe.value_facts(symbol)]
     if isinstance(symbol, VarSymbol):
         block = symbol.type
         if isinstance(block, t.FunctionBlock) and block.pou is not None and block.pou.comment:
