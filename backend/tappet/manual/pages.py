@@ -24,6 +24,7 @@ EXAMPLES = "SM3_Basic_examples"
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
 _SECTIONS = (("in_out", "in_out"), ("inputs", "inputs"), ("outputs", "outputs"))
 _POUS = ("function_block", "function", "program")
+_EXTENDS = re.compile(r"^FUNCTION_BLOCK\s+\w+\s+EXTENDS\s+(\w+)", re.MULTILINE)
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -51,9 +52,13 @@ def group_of(item: Item) -> str:
     return _rows().get(item.name, {}).get("group", "other")
 
 
+def _text_of(library: Library, item: Item) -> str:
+    return next((source.text for source in library.sources if source.name == item.name), "")
+
+
 def public_methods(library: Library, item: Item) -> list[Item]:
     """The methods that programs may call."""
-    text = next((source.text for source in library.sources if source.name == item.name), "")
+    text = _text_of(library, item)
     return [one for one in item.methods if re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{one.name}\b", text)]
 
 
@@ -106,6 +111,9 @@ class _Manual:
 
     def _form(self, item: Item) -> list[str]:
         lines: list[str] = []
+        extended = _EXTENDS.search(_text_of(self._library, item)) if item.kind == "function_block" else None
+        if extended is not None and extended[1] in self.items:
+            lines += [self._word("extends", type=f"[{extended[1]}]({extended[1]}.md)"), ""]
         if item.returns and item.kind in ("function", "alias"):
             lines += [
                 self._word("returns" if item.kind == "function" else "stands for", type=item.returns),
@@ -123,6 +131,8 @@ class _Manual:
             ]
             lines += [f"## {self._word('values')}", "", *table(head, rows), ""]
         for method in public_methods(self._library, item):
+            if not (method.summary or method.inputs or method.outputs or method.in_out):
+                continue  # that of the block it extends, in another way
             lines += [f"## {self._word('methods')}: {method.name}", ""]
             lines += [self._say(method.summary), ""]
             for section, heading in _SECTIONS:

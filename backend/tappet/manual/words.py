@@ -26,6 +26,10 @@ _WORDS: dict[str, tuple[str, str]] = {
     "index": ("All blocks and types", "全部功能块和类型"),
     "source": ("Source", "源代码"),
     "returns": ("Returns `{type}`.", "返回 `{type}`。"),
+    "extends": (
+        "Extends {type}: what that has is here as well.",
+        "扩展自 {type}：其全部成员在此同样可用。",
+    ),
     "stands for": ("Stands for `{type}`.", "等同于 `{type}`。"),
     "in_out": ("Inputs and outputs (VAR_IN_OUT)", "输入输出（VAR_IN_OUT）"),
     "inputs": ("Inputs (VAR_INPUT)", "输入（VAR_INPUT）"),
