@@ -49,6 +49,12 @@ def test_every_item_has_a_page_in_both_languages() -> None:
         assert [name for name in names if f"[{name}]({name}.md)" not in index] == []
 
 
+def test_every_function_block_with_an_example_has_a_chart() -> None:
+    blocks = {item.name for item in items(load("SM3_Basic")) if item.kind == "function_block"}
+    names = {one.example.name for one in recordings()} & blocks
+    assert [name for name in sorted(names) if f"blocks/charts/{name}.svg" not in written()] == []
+
+
 def test_every_block_has_a_group() -> None:
     """In `blocks.csv`, with what it does to the state of its axis."""
     known = {item.name: group_of(item) for item in items(load("SM3_Basic"))}
