@@ -25,6 +25,13 @@ VAR
     Ratio   : SM3_Basic.SMC_ChangeGearingRatio;
     Reinit  : SM3_Basic.SMC3_ReinitDrive;
     Freeze  : SM3_Basic.MC_ImmediateStop;
+    Mode    : SM3_Basic.SMC_SetControllerMode;
+    Torque  : SM3_Basic.MC_TorqueControl;
+    Direct  : SM3_Basic.SMC_SetTorque;
+    Stop    : SM3_Basic.MC_Stop := (Deceleration := 1000.0);
+    xFixed  : BOOL; (* The drive does not change its mode *)
+    xFollow : BOOL; (* MC_MoveVelocity takes over when the mode is there *)
+    fSpeed  : LREAL; (* Of the motor [increments/s] *)
     Place   : SM3_Basic.MC_SetPosition;
     Reset   : SM3_Basic.MC_Reset;
     Status  : SM3_Basic.MC_ReadStatus;
@@ -55,12 +62,21 @@ Place(Axis := Axis);
 Ratio(Axis := Axis);
 Reinit(Axis := Axis);
 Freeze(Axis := Axis);
+Mode(Axis := Axis);
+IF xFollow AND Mode.bDone THEN
+    Turn(Axis := Axis, Execute := TRUE);
+END_IF
+Torque(Axis := Axis);
+Direct(Axis := Axis);
+Stop(Axis := Axis);
 Reset(Axis := Axis);
 Probe(Axis := Axis, TriggerInput := Trigger);
 Status(Axis := Axis, Enable := TRUE);
 Axis.EndCycle();
 Drive(wControlWord := Axis.out.wControlWord, bFault := xFault, bVoltage := xVolts);
-byMode := Axis.out.byModesOfOperation;
+IF NOT xFixed THEN
+    byMode := Axis.out.byModesOfOperation;
+END_IF
 Axis.in.diActVelocity := 0;
 IF Drive.bFollows AND NOT xStuck THEN
     IF Axis.out.wTouchProbeFunction.8 THEN
@@ -76,6 +92,15 @@ IF Drive.bFollows AND NOT xStuck THEN
         diSteps := MAX(diSteps, ABS(Axis.out.diSetPosition - LINT_TO_DINT(liPlace)));
         Axis.in.diActVelocity := REAL_TO_DINT((Axis.out.diSetPosition - LINT_TO_DINT(liPlace)) / 0.002);
         liPlace := liPlace + (Axis.out.diSetPosition - LINT_TO_DINT(liPlace));
+        fSpeed := Axis.in.diActVelocity;
+    ELSIF byMode = 9 OR byMode = 10 THEN
+        IF byMode = 9 THEN
+            fSpeed := Axis.out.diSetVelocity;
+        ELSE (* 1 Nm accelerates by 2000 increments/s2 *)
+            fSpeed := fSpeed + Axis.out.wSetTorque * 0.001 * 2.5 * 2000.0 * 0.002;
+        END_IF
+        Axis.in.diActVelocity := LREAL_TO_DINT(fSpeed);
+        liPlace := liPlace + LREAL_TO_LINT(fSpeed * 0.002);
     ELSIF Axis.out.wControlWord.4 THEN
         iHoming := iHoming + 1;
         liPlace := liPlace + 3;

@@ -49,6 +49,7 @@ VALUES = {
     "fVelocityFast": "2.0",
     "fAcceleration": "5.0",
     "fDeceleration": "5.0",
+    "TorqueRamp": "5.0",
 }
 WRONG_TASK = "SMC_FB_CALLED_FROM_WRONG_TASK"
 LIBRARY = {item.name: item for item in items(load("SM3_Basic"))}
