@@ -103,7 +103,7 @@ IF Drive.bFollows AND NOT xStuck THEN
         liPlace := liPlace + LREAL_TO_LINT(fSpeed * 0.002);
     ELSIF Axis.out.wControlWord.4 THEN
         iHoming := iHoming + 1;
-        liPlace := liPlace + 3;
+        liPlace := SEL(iHoming = 20, liPlace + 3, 0); (* There is its home *)
     END_IF
 END_IF
 END_PROGRAM

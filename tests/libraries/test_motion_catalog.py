@@ -21,7 +21,7 @@ BEYOND = {
     *("SMC_CAMEvaluate", "SMC_CAMValues"),
     *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
     *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
-    *("DriveIn", "DriveOut", "SMC3_CaptureDescription"),
+    *("DriveIn", "DriveOut", "SMC3_CaptureDescription", "SimulatedDrive", "SimulatedDriveSettings"),
 }
 """What the library has beyond the catalogs."""
 PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
