@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import replace
 from itertools import pairwise
@@ -218,3 +219,19 @@ def test_axes_brake_in_real_time_as_well() -> None:
         assert runtime.state == "exception"
         assert runtime.read("Second.fSetVelocity") == 0.0
         assert runtime.read("Drive.fSetVelocity") == 0.0
+
+
+def test_an_axis_moves_by_its_simulated_drive() -> None:
+    """The motor follows the set values, and the axis ends where it was told to."""
+    project = moving(with_axes("Drive", drive="SM_Drive_Simulated", axis_type="finite", position_lag=5.0))
+    with LocalRuntime(package(project)) as runtime:
+        lags = []
+        for _ in range(40):
+            runtime.run(cycles=5)
+            lags.append(abs(runtime.read("Drive.fSetPosition") - runtime.read("Drive.fActPosition")))
+        assert runtime.literal("PLC_PRG.fbMove.Done") == "FALSE"
+        assert 0.0 < max(lags) < 2.0
+        runtime.run(cycles=300)
+        assert runtime.literal("PLC_PRG.fbMove.Done") == "TRUE"
+        assert runtime.read("Drive.fActPosition") == pytest.approx(50.0, abs=0.05)
+        assert runtime.read("Drive_Drive.fAngle") == pytest.approx(math.radians(50.0), abs=1e-3)

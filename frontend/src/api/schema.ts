@@ -2636,9 +2636,9 @@ export interface components {
              * Drive
              * @description The device that the axis moves.
              * @default SM_Drive_Virtual
-             * @constant
+             * @enum {string}
              */
-            drive: "SM_Drive_Virtual";
+            drive: "SM_Drive_Virtual" | "SM_Drive_Simulated";
             /**
              * @default {
              *       "acceleration": 1000000,
@@ -2669,6 +2669,12 @@ export interface components {
              * @default 360
              */
             modulo: number;
+            /**
+             * Position Lag
+             * @description Largest difference between set and actual position, in units; 0: it is not watched.
+             * @default 0
+             */
+            position_lag: number;
             /**
              * Ramp Type
              * @description Shape of velocity ramps (AXIS-15).
@@ -2703,6 +2709,12 @@ export interface components {
              * @default 0
              */
             stopping_distance: number;
+            /**
+             * Virtual Mode
+             * @description The axis moves without its drive (AXIS-10); a virtual drive always does.
+             * @default false
+             */
+            virtual_mode: boolean;
         };
         /**
          * BodyLanguage

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 from tappet.iec.task import Task
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import LIBRARY, NOT_WRITTEN_BY_HAND, real
+from tappet.project.axes.variables import LIBRARY, NOT_WRITTEN_BY_HAND, SIMULATED, real
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.source_text import SourceWriter
@@ -33,6 +33,10 @@ IF xStop THEN
     xMoves := xMoves OR ABS({{axis}}.fSetVelocity) > 0.0;
 END_IF
 {{axis}}.EndCycle();"""
+_TAKE = f"""{{axis}}.in := {SIMULATED}.stIn;
+"""
+_TELL = """
+{drive}(stOut := {{axis}}.out, fCycle := {cycle});"""
 _BEGIN_VARIABLES = """VAR_OUTPUT
     udiBegun : UDINT;
 END_VAR
@@ -137,18 +141,34 @@ def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter)
         return task
     cycle = real(task.interval_ns / _NS_PER_S)
     before, behind = f"SM3_Begin_{task.name}", f"SM3_End_{task.name}"
-    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", axes, _BEGIN.format(cycle=cycle))
-    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", axes, _END, _END_LAST.format(before=before))
+    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", axes, (_TAKE, _BEGIN.format(cycle=cycle), ""))
+    tell = _TELL.format(drive=SIMULATED, cycle=cycle)
+    _program(
+        writer,
+        f"PROGRAM {behind}\n{_END_VARIABLES}",
+        axes,
+        ("", _END, tell),
+        _END_LAST.format(before=before),
+    )
     writer.keyword(_BRAKE.format(task=task.name, before=before, behind=behind))
     return replace(task, programs=(before, *task.programs, behind))
 
 
 def _program(
-    writer: SourceWriter, head: str, axes: Sequence[ProjectObject], call: str, last: str = ""
+    writer: SourceWriter,
+    head: str,
+    axes: Sequence[ProjectObject],
+    parts: tuple[str, str, str],
+    last: str = "",
 ) -> None:
+    """`parts` is what stands in front of the call of an axis with a simulated drive, the call, and what
+    stands behind it."""
+    first, call, behind = parts
     writer.keyword(f"{{attribute 'hide'}}\n{head}")
     for axis in axes:
-        writer.part(axis.id, "declaration", call.format(axis=axis.name))
+        simulated = axis.data_as(AxisSettings).drive == "SM_Drive_Simulated"
+        text = f"{first}{call}{behind}" if simulated else call
+        writer.part(axis.id, "declaration", text.format(axis=axis.name))
     writer.keyword(last or None)
     writer.keyword("END_PROGRAM")
 

@@ -14,7 +14,7 @@ Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Count = Annotated[StrictInt, Field(ge=1, le=2**31 - 1)]
 RampType = Literal["trapez", "sin2", "quadratic", "quadratic_smooth"]
-DriveType = Literal["SM_Drive_Virtual"]
+DriveType = Literal["SM_Drive_Virtual", "SM_Drive_Simulated"]
 
 LARGEST_DENOMINATOR = 2**32 - 1
 """Of `dwRatioTechUnitsDenom`, a DWORD."""
@@ -112,11 +112,23 @@ class AxisSettings(CodeData):
         default=0.0,
         description="Units within which the axis comes to standstill after an error, 0: by its deceleration.",
     )
+    virtual_mode: StrictBool = Field(
+        default=False, description="The axis moves without its drive (AXIS-10); a virtual drive always does."
+    )
+    position_lag: NotNegative = Field(
+        default=0.0,
+        description="Largest difference between set and actual position, in units; 0: it is not watched.",
+    )
     scaling: Scaling = Scaling()
     bus_task: Line = Field(
         default="",
         description="Task that moves the axis; empty: that of the pool, else the fastest cyclic one.",
     )
+
+    @property
+    def has_drive(self) -> bool:
+        """Whether there is something behind the axis that has increments."""
+        return self.drive != "SM_Drive_Virtual"
 
     @property
     def subkind(self) -> str | None:

@@ -17,13 +17,24 @@ NOT_WRITTEN_BY_HAND = (
 VARIABLES = "IoConfig_Globals"
 """The list of global variables that the axes are in."""
 
-_TYPES = {"SM_Drive_Virtual": "AXIS_REF_VIRTUAL_SM3"}
+_TYPES = {"SM_Drive_Virtual": "AXIS_REF_VIRTUAL_SM3", "SM_Drive_Simulated": "AXIS_REF_MAPPING_SM3"}
+SIMULATED_ENDING = "_Drive"
+SIMULATED = f"{{axis}}{SIMULATED_ENDING}"
+"""The variable that the simulated drive of an axis is."""
 
 
 def declaration(name: str, settings: AxisSettings) -> str:
-    """One variable, ready for VAR_GLOBAL."""
+    """The variable of an axis, ready for VAR_GLOBAL, and that of its simulated drive."""
     values = ",\n".join(f"        {member} := {value}" for member, value in initial_values(settings).items())
-    return f"    {name} : {LIBRARY}.{_TYPES[settings.drive]} := (\n{values});"
+    found = f"    {name} : {LIBRARY}.{_TYPES[settings.drive]} := (\n{values});"
+    if settings.drive == "SM_Drive_Simulated":
+        scaling = settings.scaling
+        increments = max(1, round(scaling.increments / scaling.motor_turns))
+        found += (
+            f"\n    {SIMULATED.format(axis=name)} : {LIBRARY}.SimulatedDrive"
+            f" := (stSettings := (diIncrements := {increments}, diMaxLag := {increments}));"
+        )
+    return found
 
 
 def initial_values(settings: AxisSettings) -> dict[str, str]:
@@ -32,7 +43,7 @@ def initial_values(settings: AxisSettings) -> dict[str, str]:
     ratio = settings.scaling.ratio
     finite = settings.axis_type == "finite"
     return {
-        "bVirtual": _flag(settings.drive == "SM_Drive_Virtual"),
+        "bVirtual": _flag(settings.virtual_mode or not settings.has_drive),
         "iMovementType": "1" if finite else "0",
         "fPositionPeriod": real(settings.modulo),
         "bSWLimitEnable": _flag(finite and limits.enabled),
@@ -52,6 +63,7 @@ def initial_values(settings: AxisSettings) -> dict[str, str]:
         "iRatioTechUnitsNum": str(ratio.numerator),
         "dwRatioTechUnitsDenom": str(ratio.denominator),
         "fScalefactor": real(float(1 / _signed(settings))),
+        **({"fMaxPositionLag": real(settings.position_lag)} if settings.has_drive else {}),
     }
 
 

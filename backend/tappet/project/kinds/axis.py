@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tappet.project.axes.cyclic_calls import PANELS
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import VARIABLES
+from tappet.project.axes.variables import SIMULATED_ENDING, VARIABLES
 from tappet.project.naming import name_key
 from tappet.project.object_kind import Compiled, Naming, ObjectKind, Placement, Renaming
 
@@ -23,8 +23,13 @@ AXIS = ObjectKind(
     placement=Placement(parents=("axis_pool",), in_folders=False),
     naming=Naming(proposal="Axis"),
     order=156,
-    templates={"SM_Drive_Virtual": lambda name: AxisSettings()},
-    compiled=Compiled(in_parent=True, variable_in=(VARIABLES, PANELS)),
+    templates={
+        "SM_Drive_Virtual": lambda name: AxisSettings(),
+        "SM_Drive_Simulated": lambda name: AxisSettings(drive="SM_Drive_Simulated"),
+    },
+    compiled=Compiled(
+        in_parent=True, variable_in=(VARIABLES, PANELS), variable_endings=("", SIMULATED_ENDING)
+    ),
     follow=_bus_task_renamed,
     reported=True,
 )

@@ -4,7 +4,7 @@ import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { BusTaskField } from './BusTaskField';
-import { axisFaults, beyondDrive, LIMIT_NAMES, type AxisSettings, type FieldName } from './model';
+import { axisFaults, beyondDrive, hasDrive, LIMIT_NAMES, type AxisSettings, type FieldName } from './model';
 import { NumberCell, NumberField } from './NumberField';
 
 export interface AxisPageProps {
@@ -38,7 +38,11 @@ export function BasicPage({ projectId, objectId, axis, disabled, change }: AxisP
     <>
       <Section title={t('axis.type')}>
         <div className={form.fields}>
-          <Checkbox checked disabled onChecked={() => undefined}>
+          <Checkbox
+            checked={axis.virtual_mode || !hasDrive(axis)}
+            disabled={disabled || !hasDrive(axis)}
+            onChecked={(virtual_mode) => change({ virtual_mode })}
+          >
             {t('axis.virtualMode')}
           </Checkbox>
           <Field row label={t('axis.axisType')}>
@@ -162,6 +166,17 @@ export function BasicPage({ projectId, objectId, axis, disabled, change }: AxisP
             disabled={disabled}
             onValue={(stopping_distance) => change({ stopping_distance })}
           />
+          {hasDrive(axis) && (
+            <NumberField
+              label={t('axis.positionLag')}
+              hint={t('axis.positionLagHint')}
+              unit="u"
+              value={axis.position_lag}
+              error={fault('position_lag')}
+              disabled={disabled}
+              onValue={(position_lag) => change({ position_lag })}
+            />
+          )}
           <BusTaskField
             projectId={projectId}
             objectId={objectId}

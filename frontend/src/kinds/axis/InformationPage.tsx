@@ -7,6 +7,7 @@ import type { AxisSettings } from './model';
 /** Name, vendor and kind of the device (STA-02). */
 export function InformationPage({ name, drive }: { name: string; drive: AxisSettings['drive'] | undefined }) {
   const t = useText();
+  const simulated = drive === 'SM_Drive_Simulated';
   return (
     <div className={form.page} tabIndex={0}>
       <div className={form.inner}>
@@ -23,9 +24,9 @@ export function InformationPage({ name, drive }: { name: string; drive: AxisSett
             <dt>{t('axis.info.library')}</dt>
             <dd>SM3_Basic</dd>
             <dt>{t('axis.info.variable')}</dt>
-            <dd className="code">{`IoConfig_Globals.${name} : AXIS_REF_VIRTUAL_SM3`}</dd>
+            <dd className="code">{`IoConfig_Globals.${name} : ${simulated ? 'AXIS_REF_MAPPING_SM3' : 'AXIS_REF_VIRTUAL_SM3'}`}</dd>
             <dt>{t('axis.info.description')}</dt>
-            <dd>{t('axis.info.virtualText')}</dd>
+            <dd>{t(simulated ? 'axis.info.simulatedText' : 'axis.info.virtualText')}</dd>
           </Facts>
         </Section>
       </div>

@@ -4,7 +4,7 @@ import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import type { AxisPageProps } from './BasicPage';
-import { axisFaults, COUNT_NAMES, numberText, unitsPerIncrement, type CountName, type Scaling } from './model';
+import { axisFaults, COUNT_NAMES, hasDrive, numberText, unitsPerIncrement, type CountName, type Scaling } from './model';
 import { NumberCell } from './NumberField';
 
 /** From increments of the encoder to units of the application, with the arithmetic shown (devices.md, 14.3). */
@@ -69,7 +69,7 @@ export function ScalingPage({ axis, disabled, change }: AxisPageProps) {
           <span>{`1000 inc = ${numberText(1000 * ratio)} u`}</span>
         </div>
       )}
-      <p className={form.note}>{t('axis.scalingText')}</p>
+      <p className={form.note}>{t(hasDrive(axis) ? 'axis.scalingDriveText' : 'axis.scalingText')}</p>
     </Section>
   );
 }

@@ -21,6 +21,8 @@ function axis(changes: Partial<AxisSettings> = {}): AxisSettings {
     drive_limits: { velocity: 1e4, acceleration: 1e6, deceleration: 1e6, jerk: 1e8 },
     ramp_type: 'trapez',
     stopping_distance: 0,
+    virtual_mode: false,
+    position_lag: 0,
     scaling: {
       increments: 65536,
       motor_turns: 1,

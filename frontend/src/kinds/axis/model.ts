@@ -24,6 +24,7 @@ export type FieldName =
   | 'positive'
   | 'limit_deceleration'
   | 'stopping_distance'
+  | 'position_lag'
   | 'units'
   | CountName
   | `dynamic.${LimitName}`
@@ -50,6 +51,7 @@ export function axisFaults(axis: AxisSettings): Faults {
   else if (enabled && !faults.negative && negative >= upper) faults.positive = 'axis.fault.range';
   notNegative('limit_deceleration', deceleration);
   notNegative('stopping_distance', axis.stopping_distance);
+  notNegative('position_lag', axis.position_lag);
   for (const name of LIMIT_NAMES) {
     positive(`dynamic.${name}`, axis.dynamic_limits[name]);
     positive(`drive.${name}`, axis.drive_limits[name]);
@@ -60,6 +62,11 @@ export function axisFaults(axis: AxisSettings): Faults {
   }
   positive('units', axis.scaling.units);
   return faults;
+}
+
+/** Whether there is something behind the axis that has increments. */
+export function hasDrive(axis: AxisSettings): boolean {
+  return axis.drive !== 'SM_Drive_Virtual';
 }
 
 export function canStore(axis: AxisSettings): boolean {
