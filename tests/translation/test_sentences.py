@@ -109,6 +109,7 @@ CODE = (
     "{{attribute '",
     "    {attribute '",
     "IF xStop",
+    f"\n{PLACE}(stOut",
     "PROGRAM PLC_PRG",
     "// ",
 )
