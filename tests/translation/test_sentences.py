@@ -109,7 +109,7 @@ CODE = (
     "{{attribute '",
     "    {attribute '",
     "IF xStop",
-    f"\n{PLACE}(stOut",
+    "\n{drive}(",
     "PROGRAM PLC_PRG",
     "// ",
 )
