@@ -30,6 +30,7 @@ VAR
     Brake      : SM3_Basic.SMC3_BrakeControl;
     BrakeState : SM3_Basic.SMC3_BrakeStatus;
     Motion     : SM3_Basic.MC_ReadMotionState;
+    Place      : SM3_Basic.MC_SetPosition;
     dwCycle    : DWORD;
     fAhead     : LREAL; (* The actual position is ahead of the set position by this *)
     xWithoutBus : BOOL;
@@ -49,6 +50,7 @@ Lag(Axis := Axis, dwTimeStamp := dwCycle);
 InPosition(Axis := Axis);
 Distance(Axis := Axis);
 Motion(Axis := Axis);
+Place(Axis := Axis);
 SetLimits(Axis := Axis);
 Bus(Axis := Axis);
 Brake(Axis := Axis);
@@ -222,6 +224,20 @@ def test_lag_is_against_the_set_position_of_then(rotary: Watched, dead_time: int
     rotary.set("Lag", bResetMax=True)
     rotary.cycle()
     assert rotary.number("Lag.fMaxTrackingError") == 0.0
+
+
+def test_another_position_for_the_same_place_is_no_lag(rotary: Watched) -> None:
+    run_at(rotary, 100.0)
+    rotary.cycle(500)
+    rotary.set("Lag", bEnable=True, byDeadTimeCycles=1)
+    rotary.cycle(20)
+    for position in (200.0, -50.0):
+        rotary.set("Place", Execute=True, Position=position)
+        rotary.cycle(5)
+        rotary.set("Place", Execute=False)
+        rotary.cycle()
+    in_a_cycle = 100.0 * CYCLE_MS / 1000
+    assert rotary.number("Lag.fMaxTrackingError") == pytest.approx(in_a_cycle, abs=1e-9)
 
 
 def test_in_position_after_some_time_in_the_window(axis: Watched) -> None:

@@ -138,8 +138,9 @@ def test_a_limit_switch_stops_motion_towards_it(velocity: float, bit: int, stops
             assert program.literal("Main.Turn.ErrorID") == "SMC_DI_HWLIMITS_EXCEEDED"
 
 
-def test_the_drive_homes_by_itself() -> None:
-    with axis(place=700) as program:
+@pytest.mark.parametrize("lag", ["", ", fMaxPositionLag := 1.0"])
+def test_the_drive_homes_by_itself(lag: str) -> None:
+    with axis(f"{DEGREES}{lag}", place=700) as program:
         switch_on(program)
         program.set("Main.Home", Execute=True, Position=-20.0)
         cycles(program, 8)
