@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from tappet.project.cams.cam_file import FIRST_WORD, read_file
+from tappet.project.cams.checks import TOLERANCE
 from tappet.project.cams.point_lists import PointList, read_points
 from tappet.project.cams.table import FARTHEST, CamPoint, CamTable, number_text
 from tappet.project.cams.texts import CamTextError
-
-_TOLERANCE = 1e-6
-"""Part of a period by which the ends of a periodic cam may differ; as its check has it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +54,7 @@ def _smooth(found: PointList, cam: CamTable) -> tuple[CamPoint, ...]:
     y = np.array([point.y for point in found.points])
     rise = y[-1] - y[0]
     turns = rise / cam.slave_period
-    if cam.periodic and len(x) > 2 and abs(turns - round(turns)) <= _TOLERANCE:
+    if cam.periodic and len(x) > 2 and abs(turns - round(turns)) <= TOLERANCE:
         slope = rise / (x[-1] - x[0])
         flat = y - slope * (x - x[0])
         flat[-1] = flat[0]

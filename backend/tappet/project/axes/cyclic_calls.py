@@ -14,8 +14,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from tappet.iec.task import Task
+from tappet.project.axes.drives import LIBRARY, drive_name, drive_of
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import LIBRARY, NOT_WRITTEN_BY_HAND, SIMULATED, real
+from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND, real
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.source_text import SourceWriter
@@ -23,8 +24,8 @@ from tappet.project.source_text import SourceWriter
 PANELS = "IoConfig_AxisPanels"
 """The list of the panels, each with the name of its axis."""
 _NS_PER_S = 1_000_000_000
-_BEGIN = """{{axis}}.fTaskCycle := {cycle};
-{{axis}}.BeginCycle();"""
+_BEGIN = """{axis}.fTaskCycle := {cycle};
+{axis}.BeginCycle();"""
 _END = f"""IF {PANELS}.{{axis}}.xUsed THEN
     {PANELS}.{{axis}}(Axis := {{axis}});
 END_IF
@@ -33,10 +34,6 @@ IF xStop THEN
     xMoves := xMoves OR ABS({{axis}}.fSetVelocity) > 0.0;
 END_IF
 {{axis}}.EndCycle();"""
-_TAKE = f"""{{axis}}.in := {SIMULATED}.stIn;
-"""
-_TELL = """
-{drive}(stOut := {{axis}}.out, fCycle := {cycle});"""
 _BEGIN_VARIABLES = """VAR_OUTPUT
     udiBegun : UDINT;
 END_VAR
@@ -141,15 +138,10 @@ def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter)
         return task
     cycle = real(task.interval_ns / _NS_PER_S)
     before, behind = f"SM3_Begin_{task.name}", f"SM3_End_{task.name}"
-    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", axes, (_TAKE, _BEGIN.format(cycle=cycle), ""))
-    tell = _TELL.format(drive=SIMULATED, cycle=cycle)
-    _program(
-        writer,
-        f"PROGRAM {behind}\n{_END_VARIABLES}",
-        axes,
-        ("", _END, tell),
-        _END_LAST.format(before=before),
-    )
+    begin = [(axis, drive_of(axis.data_as(AxisSettings)).before + _BEGIN) for axis in axes]
+    end = [(axis, _END + drive_of(axis.data_as(AxisSettings)).behind) for axis in axes]
+    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", begin, cycle)
+    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", end, cycle, _END_LAST.format(before=before))
     writer.keyword(_BRAKE.format(task=task.name, before=before, behind=behind))
     return replace(task, programs=(before, *task.programs, behind))
 
@@ -157,18 +149,15 @@ def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter)
 def _program(
     writer: SourceWriter,
     head: str,
-    axes: Sequence[ProjectObject],
-    parts: tuple[str, str, str],
+    calls: Sequence[tuple[ProjectObject, str]],
+    cycle: str,
     last: str = "",
 ) -> None:
-    """`parts` is what stands in front of the call of an axis with a simulated drive, the call, and what
-    stands behind it."""
-    first, call, behind = parts
+    """A program with the statements of each axis."""
     writer.keyword(f"{{attribute 'hide'}}\n{head}")
-    for axis in axes:
-        simulated = axis.data_as(AxisSettings).drive == "SM_Drive_Simulated"
-        text = f"{first}{call}{behind}" if simulated else call
-        writer.part(axis.id, "declaration", text.format(axis=axis.name))
+    for axis, text in calls:
+        statements = text.format(axis=axis.name, drive=drive_name(axis.name), cycle=cycle)
+        writer.part(axis.id, "declaration", statements)
     writer.keyword(last or None)
     writer.keyword("END_PROGRAM")
 

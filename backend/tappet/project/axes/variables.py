@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from tappet.project.axes.drives import LIBRARY, drive_name, drive_of
 from tappet.project.axes.settings import AxisSettings
 
-LIBRARY = "SM3_Basic"
-"""The library of all axes (AXIS-03, CAL-08)."""
 NOT_WRITTEN_BY_HAND = (
     "{analysis -S1001, -S1002, -S1003, -S1004, -S1101, -S1102, -S1211, -S1242, -S1408, -S1414, -S1416, "
     "-S1418, -S1609, -S1610}"
@@ -17,23 +16,14 @@ NOT_WRITTEN_BY_HAND = (
 VARIABLES = "IoConfig_Globals"
 """The list of global variables that the axes are in."""
 
-_TYPES = {"SM_Drive_Virtual": "AXIS_REF_VIRTUAL_SM3", "SM_Drive_Simulated": "AXIS_REF_MAPPING_SM3"}
-SIMULATED_ENDING = "_Drive"
-SIMULATED = f"{{axis}}{SIMULATED_ENDING}"
-"""The variable that the simulated drive of an axis is."""
-
 
 def declaration(name: str, settings: AxisSettings) -> str:
-    """The variable of an axis, ready for VAR_GLOBAL, and that of its simulated drive."""
+    """The variable of an axis, ready for VAR_GLOBAL, and that of its drive."""
     values = ",\n".join(f"        {member} := {value}" for member, value in initial_values(settings).items())
-    found = f"    {name} : {LIBRARY}.{_TYPES[settings.drive]} := (\n{values});"
-    if settings.drive == "SM_Drive_Simulated":
-        scaling = settings.scaling
-        increments = max(1, round(scaling.increments / scaling.motor_turns))
-        found += (
-            f"\n    {SIMULATED.format(axis=name)} : {LIBRARY}.SimulatedDrive"
-            f" := (stSettings := (diIncrements := {increments}, diMaxLag := {increments}));"
-        )
+    drive = drive_of(settings)
+    found = f"    {name} : {LIBRARY}.{drive.axis_type} := (\n{values});"
+    if drive.declared is not None:
+        found += f"\n    {drive_name(name)} : {drive.declared(settings)};"
     return found
 
 

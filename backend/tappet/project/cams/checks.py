@@ -13,23 +13,13 @@ from tappet.project.cams.laws import Values, values_in
 from tappet.project.cams.table import CamTable, number_text
 
 Derivative = Literal["position", "velocity", "acceleration", "jerk"]
-_TOLERANCE = 1e-6
+TOLERANCE = 1e-6
 """A jump is one that is more than this part of the largest value; what people type has seven digits."""
 DERIVATIVES: tuple[Derivative, ...] = ("position", "velocity", "acceleration", "jerk")
 POLYNOMIAL_LAWS = frozenset(("line", "poly3", "poly5"))
 """Those that a polynomial of fifth degree between two points can be."""
 LIBRARY_TABLES = (128, 256)
 """Sizes of the types of tables of SM3_Basic."""
-_LAW_NAMES = {
-    "line": "Line",
-    "poly3": "Poly3",
-    "poly5": "Poly5",
-    "poly7": "Poly7",
-    "sine": "Sine",
-    "inclined_sine": "InclinedSine",
-    "modified_sine": "ModifiedSine",
-    "harmonic": "Harmonic",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +67,7 @@ class Finding:
 
 def law_name(law: str) -> str:
     """The law as SMC_CAM_SEGMENT_TYPE calls it."""
-    return _LAW_NAMES[law]
+    return "".join(word.capitalize() for word in law.split("_"))
 
 
 def findings(cam: CamTable) -> list[Finding]:
@@ -114,7 +104,7 @@ def _jumps(cam: CamTable, ends: list[tuple[Values, Values]]) -> list[Finding]:
         found += [
             Finding("jump", at, name, before[order], behind[order])
             for order, name in _checked(cam)
-            if abs(before[order] - behind[order]) > _TOLERANCE * sizes[order]
+            if abs(before[order] - behind[order]) > TOLERANCE * sizes[order]
         ]
     return found
 
@@ -127,12 +117,12 @@ def _period(cam: CamTable, ends: list[tuple[Values, Values]]) -> list[Finding]:
     first, last = ends[0][0], ends[-1][1]
     found = []
     turns = (last.y - first.y) / cam.slave_period
-    if abs(turns - round(turns)) * cam.slave_period > _TOLERANCE * max(sizes[0], cam.slave_period):
+    if abs(turns - round(turns)) * cam.slave_period > TOLERANCE * max(sizes[0], cam.slave_period):
         found.append(Finding("end", at, "position", last.y, first.y, period=cam.slave_period))
     found += [
         Finding("period", at, name, last[order], first[order])
         for order, name in _checked(cam)
-        if order > 0 and abs(first[order] - last[order]) > _TOLERANCE * sizes[order]
+        if order > 0 and abs(first[order] - last[order]) > TOLERANCE * sizes[order]
     ]
     return found
 

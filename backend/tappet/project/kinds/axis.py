@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from tappet.project.axes.cyclic_calls import PANELS
+from tappet.project.axes.drives import DRIVE_ENDING
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import SIMULATED_ENDING, VARIABLES
+from tappet.project.axes.variables import VARIABLES
 from tappet.project.naming import name_key
 from tappet.project.object_kind import Compiled, Naming, ObjectKind, Placement, Renaming
 
@@ -27,9 +28,7 @@ AXIS = ObjectKind(
         "SM_Drive_Virtual": lambda name: AxisSettings(),
         "SM_Drive_Simulated": lambda name: AxisSettings(drive="SM_Drive_Simulated"),
     },
-    compiled=Compiled(
-        in_parent=True, variable_in=(VARIABLES, PANELS), variable_endings=("", SIMULATED_ENDING)
-    ),
+    compiled=Compiled(in_parent=True, variable_in=(VARIABLES, PANELS), variable_endings=("", DRIVE_ENDING)),
     follow=_bus_task_renamed,
     reported=True,
 )

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pydantic import Field
 
 from tappet.project.axes.cyclic_calls import around_tasks
+from tappet.project.axes.drives import LIBRARY
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import LIBRARY, NOT_WRITTEN_BY_HAND, VARIABLES, declaration
+from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND, VARIABLES, declaration
 from tappet.project.data import CodeData, Line
 from tappet.project.library_reference import LibraryReference
 from tappet.project.model import Project, ProjectObject

@@ -1,0 +1,59 @@
+"""The kinds of drives that an axis can have: types, declarations, and calls of the bus task.
+
+`{axis}` in a text is the name of the axis, `{drive}` that of its drive, `{cycle}` the cycle time in seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tappet.project.axes.settings import AxisSettings, DriveType
+
+LIBRARY = "SM3_Basic"
+"""The library of all axes (AXIS-03, CAL-08)."""
+DRIVE_ENDING = "_Drive"
+"""Behind the name of an axis: the variable that its drive is, where the drive is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What the texts that are made of an axis have for its drive."""
+
+    axis_type: str
+    """Of SM3_Basic."""
+    declared: Callable[[AxisSettings], str] | None = None
+    """Type and initial values of the variable of the drive; None: it has none."""
+    before: str = ""
+    """Statements in front of BeginCycle."""
+    behind: str = ""
+    """Statements behind EndCycle."""
+
+
+def drive_of(settings: AxisSettings) -> Drive:
+    """The drive of an axis."""
+    return _DRIVES[settings.drive]
+
+
+def drive_name(axis: str) -> str:
+    """The variable of the drive of an axis."""
+    return f"{axis}{DRIVE_ENDING}"
+
+
+def _simulated(settings: AxisSettings) -> str:
+    increments = max(1, round(settings.scaling.increments / settings.scaling.motor_turns))
+    return (
+        f"{LIBRARY}.SimulatedDrive := "
+        f"(stSettings := (diIncrements := {increments}, diMaxLag := {increments}))"
+    )
+
+
+_DRIVES: dict[DriveType, Drive] = {
+    "SM_Drive_Virtual": Drive("AXIS_REF_VIRTUAL_SM3"),
+    "SM_Drive_Simulated": Drive(
+        "AXIS_REF_MAPPING_SM3",
+        declared=_simulated,
+        before="{axis}.in := {drive}.stIn;\n",
+        behind="\n{drive}(stOut := {axis}.out, fCycle := {cycle});",
+    ),
+}
