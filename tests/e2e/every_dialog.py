@@ -384,6 +384,31 @@ def online(ui: Ui, server: Server) -> Iterator[str]:
         yield title
 
 
+@tour("cam.import", "cam.export", "cam.code", "cam.rangeTitle")
+def cams(ui: Ui, server: Server) -> Iterator[str]:
+    """Texts of a cam, and what is asked before points are removed."""
+    page = ui.page
+    project = example(page, server)
+    objects = fetch(page, server, "GET", f"{project}/objects")
+    application = next(one for one in objects if one["kind"] == "application")
+    cam = {"kind": "cam", "name": "CamTour", "parent_id": application["id"]}
+    made = fetch(page, server, "POST", f"{project}/objects", data=cam)
+    try:
+        open_object(page, "CamTour")
+        for key in ("cam.import", "cam.export", "cam.code"):
+            ui.button("cam.menu", ui.panel()).click()
+            page.get_by_role("menuitem", name=ui.name(key)).click()
+            yield key
+            page.keyboard.press("Escape")
+        ui.panel().get_by_role("tab", name=ui.text("cam.tab.settings")).click()
+        end = ui.panel().get_by_label(ui.text("cam.masterEnd"))
+        end.fill("100")
+        end.press("Enter")
+        yield "cam.rangeTitle"
+    finally:
+        fetch(page, server, "DELETE", f"{project}/objects/{made['id']}")
+
+
 @tour("axis.forceTitle")
 def axes(ui: Ui, server: Server) -> Iterator[str]:
     """What is asked before an axis is taken from its program."""

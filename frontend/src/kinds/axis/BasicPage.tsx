@@ -5,7 +5,7 @@ import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { BusTaskField } from './BusTaskField';
 import { axisFaults, beyondDrive, hasDrive, LIMIT_NAMES, type AxisSettings, type FieldName } from './model';
-import { NumberCell, NumberField } from './NumberField';
+import { NumberCell, NumberField } from '@/editors/form/NumberField';
 
 export interface AxisPageProps {
   projectId: string;

@@ -24,7 +24,7 @@ import { useAxisControl, type Motion, type SteerAction } from './control';
 import { ErrorBox } from './ErrorBox';
 import { panelPath, useShown } from './live';
 import type { AxisSettings } from './model';
-import { NumberField } from './NumberField';
+import { NumberField } from '@/editors/form/NumberField';
 
 interface ControlProps {
   session: OnlineSession;

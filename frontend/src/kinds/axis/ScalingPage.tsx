@@ -4,8 +4,9 @@ import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import type { AxisPageProps } from './BasicPage';
-import { axisFaults, COUNT_NAMES, hasDrive, numberText, unitsPerIncrement, type CountName, type Scaling } from './model';
-import { NumberCell } from './NumberField';
+import { numberText } from '@/editors/form/numbers';
+import { axisFaults, COUNT_NAMES, hasDrive, unitsPerIncrement, type CountName, type Scaling } from './model';
+import { NumberCell } from '@/editors/form/NumberField';
 
 /** From increments of the encoder to units of the application, with the arithmetic shown (devices.md, 14.3). */
 export function ScalingPage({ axis, disabled, change }: AxisPageProps) {

@@ -1,13 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import {
-  axisFaults,
-  beyondDrive,
-  canStore,
-  numberText,
-  typedNumber,
-  unitsPerIncrement,
-  type AxisSettings,
-} from './model';
+import { axisFaults, beyondDrive, canStore, unitsPerIncrement, type AxisSettings } from './model';
 
 const LIMITS = { velocity: 100, acceleration: 100, deceleration: 100, jerk: 1e5 };
 
@@ -87,24 +79,5 @@ describe('scaling', () => {
         scaled({ increments: 1000, gear_motor_turns: 10, gear_output_turns: 3, output_turns: 2, units: 5 }),
       ),
     ).toBeCloseTo(0.00075, 12);
-  });
-});
-
-describe('numbers', () => {
-  it('are read as they are typed', () => {
-    expect([' 12 ', '1,5', '-1e3', '.5', '5.'].map(typedNumber)).toEqual([12, 1.5, -1000, 0.5, 5]);
-    expect(['', 'abc', '1 2', '1,2,3', 'Infinity', '0x10'].map(typedNumber).every(Number.isNaN)).toBe(true);
-  });
-
-  it('are shown with the digits that they need', () => {
-    expect([360, 0.1 + 0.2, 1e-9, 2.5e12, 0, -1.5].map(numberText)).toEqual([
-      '360',
-      '0.3',
-      '1e-9',
-      '2.5e+12',
-      '0',
-      '-1.5',
-    ]);
-    expect(numberText(Number.NaN)).toBe('');
   });
 });

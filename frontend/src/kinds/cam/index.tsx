@@ -1,5 +1,6 @@
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
+import { onDemand } from '@/ui/onDemand';
 import type en from './en.json';
 
 declare module '@/i18n' {
@@ -18,6 +19,7 @@ const descriptor: ObjectKindDescriptor = {
     </>,
   ),
   compiled: true,
+  editor: onDemand(() => import('./CamEditor')),
   online: { valuesOf: () => 'global' },
 };
 

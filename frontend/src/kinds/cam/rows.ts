@@ -2,7 +2,7 @@
 import type { CamTable } from './camTable';
 import type { TappetPlace } from './tappets';
 
-export type CamRow = { kind: 'point' | 'segment'; index: number };
+export type CamRow = { kind: 'point'; index: number } | { kind: 'segment'; index: number };
 export type Selected = CamRow | ({ kind: 'tappet' } & TappetPlace);
 
 /** Start point, then segments and points in turn: one row fewer than twice the points. */

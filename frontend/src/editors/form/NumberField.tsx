@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import { Field, TextInput } from '@/ui/Field';
-import styles from './Axis.module.css';
-import { numberText, typedNumber } from './model';
+import styles from './NumberField.module.css';
+import { numberText, typedNumber } from './numbers';
 
 interface NumberFieldProps {
   label: string;

@@ -1,0 +1,121 @@
+import { useCallback, useMemo, useState, type ReactNode } from 'react';
+import { ofKind } from '@/api/objects';
+import { useText } from '@/i18n';
+import type { EditorProps } from '@/project/editorProps';
+import { useDraft } from '@/editors/form/useDraft';
+import { Failed, Loading } from '@/ui/Empty';
+import { Tabs } from '@/ui/Tabs';
+import { CamGrid } from './CamGrid';
+import { CamToolbar } from './CamToolbar';
+import type { CamTable } from './camTable';
+import styles from './Cam.module.css';
+import { useCurves } from './curves';
+import { WHOLE, type CamEdit, type Tool } from './edit';
+import { ElementProperties } from './ElementProperties';
+import { Findings } from './Findings';
+import { GraphsTab } from './GraphsTab';
+import { PreviewTab } from './PreviewTab';
+import { stillThere, type Selected } from './rows';
+import { SettingsTab } from './SettingsTab';
+import { TappetGrid } from './TappetGrid';
+import { TappetsTab } from './TappetsTab';
+
+const always = () => true;
+
+/** A cam: its four curves, its tappets, tables of both, and its properties (cam.md, sections 2 to 9). */
+export default function CamEditor({ panelId, projectId, objectId }: EditorProps) {
+  const t = useText();
+  const draft = useDraft(panelId, projectId, objectId, ofKind('cam'), always);
+  const [shown, setShown] = useState<CamTable | null>(null);
+  const [chosen, setChosen] = useState<Selected | null>(null);
+  const [tool, setTool] = useState<Tool>('select');
+  const [layout, setLayout] = useState(WHOLE);
+  const cam = shown ?? draft.data;
+  const curves = useCurves(projectId, cam);
+  const { change: store, readOnly } = draft;
+  const { valuesAt } = curves;
+  const selected = cam === undefined ? null : stillThere(cam, chosen);
+  const change = useCallback(
+    (next: CamTable, select?: Selected | null) => {
+      setShown(null);
+      if (select !== undefined) setChosen(select);
+      store(next);
+    },
+    [store],
+  );
+  const edit = useMemo(
+    (): CamEdit | null =>
+      cam === undefined
+        ? null
+        : {
+            cam,
+            drawing: curves.drawing,
+            locked: readOnly !== null,
+            selected,
+            select: setChosen,
+            change,
+            preview: (next, select) => {
+              setShown(next);
+              if (select !== undefined) setChosen(select);
+            },
+            valuesAt: (x) => valuesAt(cam, x),
+          },
+    [cam, curves.drawing, readOnly, selected, change, valuesAt],
+  );
+  if (draft.error && !draft.object) return <Failed error={draft.error} />;
+  if (edit === null || !draft.object) return <Loading />;
+
+  const withTools = (content: ReactNode, tools: 'points' | 'tappets', drawn: boolean) => (
+    <div className={styles.page}>
+      <CamToolbar
+        projectId={projectId}
+        name={draft.object!.name}
+        edit={edit}
+        readOnly={readOnly}
+        tool={tool}
+        onTool={setTool}
+        tools={tools}
+        drawn={drawn}
+        fit={tools === 'points' && layout.window !== null ? () => setLayout({ ...layout, window: null }) : null}
+      />
+      {draft.refused && (
+        <div className={styles.refused} role="alert">
+          {draft.refused}
+        </div>
+      )}
+      {content}
+      <Findings findings={curves.drawing?.findings ?? []} error={curves.error} again={curves.again} edit={edit} />
+    </div>
+  );
+  const beside = (content: ReactNode, of: 'points' | 'tappets') => (
+    <div className={styles.beside}>
+      {content}
+      <ElementProperties edit={edit} of={of} />
+    </div>
+  );
+  const pages = [
+    {
+      id: 'graphs',
+      title: t('cam.tab.graphs'),
+      content: withTools(
+        beside(<GraphsTab edit={edit} tool={tool} onTool={setTool} layout={layout} onLayout={setLayout} />, 'points'),
+        'points',
+        true,
+      ),
+    },
+    { id: 'table', title: t('cam.tab.table'), content: withTools(<CamGrid edit={edit} />, 'points', false) },
+    {
+      id: 'tappets',
+      title: t('cam.tab.tappets'),
+      content: withTools(beside(<TappetsTab edit={edit} tool={tool} onTool={setTool} />, 'tappets'), 'tappets', true),
+    },
+    {
+      id: 'tappetTable',
+      title: t('cam.tab.tappetTable'),
+      content: withTools(<TappetGrid edit={edit} />, 'tappets', false),
+    },
+    { id: 'preview', title: t('cam.tab.preview'), content: <PreviewTab projectId={projectId} edit={edit} /> },
+    { id: 'settings', title: t('cam.tab.settings'), content: <SettingsTab draft={draft} edit={edit} /> },
+  ];
+  return <Tabs pages={pages} initial="graphs" />;
+}

@@ -1,0 +1,142 @@
+import { useRef, useState } from 'react';
+import { numberText } from '@/editors/form/numbers';
+import styles from './Cam.module.css';
+import { MARGIN_LEFT, MARGIN_RIGHT } from './Graph';
+import { niceStep, tickText, ticks, type GraphName, type Range } from './plot';
+import { useSize } from './useSize';
+
+const X_TICK_PX = 90;
+const Y_TICK_PX = 24;
+const AXIS_HEIGHT = 20;
+
+interface TimePlotProps {
+  title: string;
+  curve: GraphName;
+  time: readonly number[];
+  values: readonly number[];
+  /** Drawn at both signs; null: there is none. */
+  limit: number | null;
+  /** The lowest one carries the time. */
+  last: boolean;
+}
+
+/** A value over the time, with its limits. */
+export function TimePlot({ title, curve, time, values, limit, last }: TimePlotProps) {
+  const frame = useRef<HTMLDivElement>(null);
+  const { width, height: full } = useSize(frame);
+  const [at, setAt] = useState<number | null>(null);
+  const height = Math.max(1, full - (last ? AXIS_HEIGHT : 0));
+  const plot = Math.max(1, width - MARGIN_LEFT - MARGIN_RIGHT);
+  const shown = rangeOf(values, limit);
+  const window: Range = { min: time[0] ?? 0, max: time.at(-1) ?? 1 };
+  const px = (seconds: number) => MARGIN_LEFT + ((seconds - window.min) / (window.max - window.min)) * plot;
+  const py = (value: number) => ((shown.max - value) / (shown.max - shown.min)) * height;
+  const step = niceStep(shown, height / Y_TICK_PX);
+  const stepTime = niceStep(window, plot / X_TICK_PX);
+  const near = at === null ? null : nearest(time, at);
+  return (
+    <div
+      ref={frame}
+      className={styles.timePlot}
+      data-last={last || undefined}
+      role="img"
+      aria-label={title}
+      onPointerMove={(event) => {
+        const left = event.clientX - frame.current!.getBoundingClientRect().left - MARGIN_LEFT;
+        setAt(window.min + (left / plot) * (window.max - window.min));
+      }}
+      onPointerLeave={() => setAt(null)}
+    >
+      <svg width={width} height={full} aria-hidden>
+        {ticks(window, plot / X_TICK_PX).map((x) => (
+          <g key={x}>
+            <line className={styles.gridLine} x1={px(x)} x2={px(x)} y1={0} y2={height} />
+            {last && (
+              <text
+                className={styles.tick}
+                x={px(x)}
+                y={height + AXIS_HEIGHT / 2}
+                textAnchor="middle"
+                dominantBaseline="central"
+              >
+                {`${tickText(x, stepTime)} s`}
+              </text>
+            )}
+          </g>
+        ))}
+        {ticks(shown, height / Y_TICK_PX).map((value) => (
+          <g key={value}>
+            <line
+              className={value === 0 ? styles.zeroLine : styles.gridLine}
+              x1={MARGIN_LEFT}
+              x2={MARGIN_LEFT + plot}
+              y1={py(value)}
+              y2={py(value)}
+            />
+            {py(value) > 24 && py(value) < height - 6 && (
+              <text
+                className={styles.tick}
+                x={MARGIN_LEFT - 6}
+                y={py(value)}
+                textAnchor="end"
+                dominantBaseline="central"
+              >
+                {tickText(value, step)}
+              </text>
+            )}
+          </g>
+        ))}
+        {limit !== null &&
+          [limit, -limit].map((value) => (
+            <line
+              key={value}
+              className={styles.limit}
+              data-limit={value > 0 ? 'upper' : 'lower'}
+              x1={MARGIN_LEFT}
+              x2={MARGIN_LEFT + plot}
+              y1={py(value)}
+              y2={py(value)}
+            />
+          ))}
+        <path
+          className={styles.curve}
+          data-curve={curve}
+          d={time
+            .map((x, index) => `${index === 0 ? 'M' : 'L'}${px(x).toFixed(2)} ${py(values[index]!).toFixed(2)}`)
+            .join('')}
+        />
+        {near !== null && (
+          <line className={styles.border} x1={px(time[near]!)} x2={px(time[near]!)} y1={0} y2={height} />
+        )}
+      </svg>
+      <div className={styles.graphHead}>
+        <span data-curve={curve}>{title}</span>
+        {near !== null && (
+          <span className={`${styles.at} code`}>
+            {`${numberText(Number(time[near]!.toPrecision(5)))} s: ${numberText(Number(values[near]!.toPrecision(7)))}`}
+          </span>
+        )}
+      </div>
+    </div>
+  );
+}
+
+function rangeOf(values: readonly number[], limit: number | null): Range {
+  let [min, max] = [0, 0];
+  for (const value of values) [min, max] = [Math.min(min, value), Math.max(max, value)];
+  // A limit far away would press the curve flat: it is drawn where it comes into sight.
+  const near = limit !== null && limit < 3 * Math.max(-min, max, 1e-12);
+  if (near) [min, max] = [Math.min(min, -limit), Math.max(max, limit)];
+  if (max - min < 1e-12) return { min: -1, max: 1 };
+  const room = 0.08 * (max - min);
+  return { min: min - room, max: max + room };
+}
+
+function nearest(sorted: readonly number[], value: number): number | null {
+  if (sorted.length === 0) return null;
+  let best = 0;
+  sorted.forEach((one, index) => {
+    if (Math.abs(one - value) < Math.abs(sorted[best]! - value)) best = index;
+  });
+  return best;
+}
