@@ -23,13 +23,15 @@ READERS = {
     *("SMC_CheckAxisCommunication", "SMC_CheckLimits", "SMC_GetMaxSetAccDec", "SMC_GetMaxSetVelocity"),
     *("SMC_GetTrackingError", "SMC_InPosition", "SMC_MeasureDistance", "SMC_GetCamSlaveSetPosition"),
     *("MC_DigitalCamSwitch", "SMC_CamRegister", "MC_CamTableSelect", "SMC_AxisDiagnosticLog"),
+    "SMC_StartupDrive",
 }
-"""They change nothing of an axis, so that they may be called anywhere."""
+"""They change nothing of an axis by themselves, so that they may be called anywhere."""
 REFUSED_BEFORE = {
     *("MC_GearOut", "MC_CamOut", "MC_TouchProbe", "MC_CamIn"),
     *("MC_AccelerationProfile", "MC_PositionProfile", "MC_VelocityProfile"),
+    *("SMC3_PersistPosition", "SMC3_PersistPositionSingleturn"),
 }
-"""They say what else is wrong: the axis is no slave, a trigger is none, no cam or an empty table."""
+"""They say what else is wrong: the axis is no slave or has no encoder, a trigger, cam or table is none."""
 STARTS = ("Execute", "bExecute", "Enable", "bEnable", "JogForward", "InchForward")
 VALUES = {
     "Velocity": "10.0",

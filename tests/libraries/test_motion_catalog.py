@@ -9,11 +9,14 @@ from typing import Any
 
 import pytest
 from tests.libraries.beyond_the_catalogs import BLOCKS, ENUMERATIONS, PINS_ADDED
+from tests.libraries.st_program import run
 
 from tappet.libraries import load
 from tappet.libraries.catalog import Item, Pin, items
 
 DATA = Path(__file__).parents[1] / "spec" / "data"
+INHERITED = {"AXIS_REF_LOGICAL_SM3": ("iMovementType", "wDriveId")}
+"""Members that a catalog lists again, of the type below; the case of a name does not count in ST."""
 OPAQUE = {"SMC_CAMElement", "SMC_TAPPETDATA"}
 """Types whose members the catalogs leave open."""
 BEYOND = {
@@ -27,6 +30,7 @@ BEYOND = {
 PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
 PINS_BEYOND["MC_CAM_REF"] = {"nMaxElements"}
 PINS_BEYOND["AXIS_REF_MAPPING_SM3"] = {"byPositionBits", "fRatedTorque", "fDeadTimeCycles", "fMaxPositionLag"}
+PINS_BEYOND["AXIS_REF_LOGICAL_SM3"] = {"pMaster"}
 """Pins that a block has beyond the catalogs."""
 OURS = {item.name: item for item in items(load("SM3_Basic"))}
 STRUCTURES = {"in": "DRIVEIN", "out": "DRIVEOUT", "aCaptDesc": "ARRAY[0..1]OFSMC3_CAPTUREDESCRIPTION"}
@@ -132,6 +136,10 @@ def test_items_have_the_pins_of_both_catalogs(name: str) -> None:
         _check(name, ours.members, _expected(name, "members"), defaults=True)
         return
     inputs = _expected(name, "inputs") | _expected(name, "members")
+    for inherited in INHERITED.get(name, ()):
+        below = next(pin for pin in OURS["AXIS_REF_SM3"].inputs if pin.name == inherited)
+        listed = next(pin for pin in inputs if pin.upper() == inherited.upper())
+        assert inputs.pop(listed)["type"] == below.type
     _check(name, ours.inputs, inputs, defaults=True)
     _check(name, ours.outputs, _expected(name, "outputs"), defaults=False)
     _check(name, ours.in_out, _expected(name, "in_out"), defaults=False)
@@ -169,3 +177,13 @@ def test_every_item_and_pin_says_what_it_is(item: Item) -> None:
     assert all(
         part.comment for part in (*item.inputs, *item.outputs, *item.in_out, *item.members, *item.values)
     )
+
+
+def test_the_library_has_every_item_of_both_catalogs() -> None:
+    parameters = {member.name.upper() for item in OURS.values() for member in item.members}
+    with run(
+        "PROGRAM Main\nVAR\n    n : INT := SM3_Basic.g_SMC_NUMBER_FB_ERRORS;\nEND_VAR\nEND_PROGRAM", 1
+    ) as program:
+        assert int(program.literal("Main.n")) > 0  # the catalog leaves the number open
+    ours = {name.upper() for name in OURS} | parameters | {"G_SMC_NUMBER_FB_ERRORS"}
+    assert sorted(name for catalog in CATALOGS for name in catalog if name not in ours) == []
