@@ -89,6 +89,39 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
             "DirectionNegative": "BOOL",
         },
     },
+    "MC_ReadDigitalInput": {
+        "in_out": {"Input": "MC_INPUT_REF"},
+        "inputs": {**_ENABLE, "InputNumber": "INT"},
+        "outputs": {"Valid": "BOOL", "Busy": "BOOL", **_ERROR, "Value": "BOOL"},
+    },
+    "MC_ReadDigitalOutput": {
+        "in_out": {"Output": "MC_OUTPUT_REF"},
+        "inputs": {**_ENABLE, "OutputNumber": "INT"},
+        "outputs": {"Valid": "BOOL", "Busy": "BOOL", **_ERROR, "Value": "BOOL"},
+    },
+    "MC_WriteDigitalOutput": {
+        "in_out": {"Output": "MC_OUTPUT_REF"},
+        "inputs": {**_EXECUTE, "OutputNumber": "INT", "Value": "BOOL"},
+        "outputs": {"Done": "BOOL", "Busy": "BOOL", **_ERROR},
+    },
+    "MC_ReadAxisInfo": {
+        "in_out": _AXIS,
+        "inputs": _ENABLE,
+        "outputs": {
+            "Valid": "BOOL",
+            "Busy": "BOOL",
+            **_ERROR,
+            "HomeAbsSwitch": "BOOL",
+            "LimitSwitchPos": "BOOL",
+            "LimitSwitchNeg": "BOOL",
+            "Simulation": "BOOL",
+            "CommunicationReady": "BOOL",
+            "ReadyForPowerOn": "BOOL",
+            "PowerOn": "BOOL",
+            "IsHomed": "BOOL",
+            "AxisWarning": "BOOL",
+        },
+    },
     "MC_CombineAxes": {
         "in_out": {"Master1": "AXIS_REF_SM3", "Master2": "AXIS_REF_SM3", "Slave": "AXIS_REF_SM3"},
         "inputs": {

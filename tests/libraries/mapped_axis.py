@@ -35,6 +35,7 @@ VAR
     Place   : SM3_Basic.MC_SetPosition;
     Reset   : SM3_Basic.MC_Reset;
     Status  : SM3_Basic.MC_ReadStatus;
+    Info    : SM3_Basic.MC_ReadAxisInfo;
     liPlace : LINT := {place}; (* Of the motor [increments] *)
     xStuck  : BOOL;
     xFault  : BOOL;
@@ -72,6 +73,7 @@ Stop(Axis := Axis);
 Reset(Axis := Axis);
 Probe(Axis := Axis, TriggerInput := Trigger);
 Status(Axis := Axis, Enable := TRUE);
+Info(Axis := Axis, Enable := TRUE);
 Axis.EndCycle();
 Drive(wControlWord := Axis.out.wControlWord, bFault := xFault, bVoltage := xVolts);
 IF NOT xFixed THEN

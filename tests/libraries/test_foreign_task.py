@@ -19,7 +19,7 @@ AXIS = "AXIS_REF_SM3"
 READERS = {
     *("MC_ReadActualPosition", "MC_ReadActualVelocity", "MC_ReadActualTorque", "MC_ReadAxisError"),
     *("MC_ReadBoolParameter", "MC_ReadParameter", "MC_ReadMotionState", "MC_ReadStatus"),
-    *("SMC_ReadSetPosition", "SMC_ReadFBError", "SMC_GetOverride", "SMC3_BrakeStatus"),
+    *("MC_ReadAxisInfo", "SMC_ReadSetPosition", "SMC_ReadFBError", "SMC_GetOverride", "SMC3_BrakeStatus"),
     *("SMC_CheckAxisCommunication", "SMC_CheckLimits", "SMC_GetMaxSetAccDec", "SMC_GetMaxSetVelocity"),
     *("SMC_GetTrackingError", "SMC_InPosition", "SMC_MeasureDistance", "SMC_GetCamSlaveSetPosition"),
     *("MC_DigitalCamSwitch", "SMC_CamRegister", "MC_CamTableSelect", "SMC_AxisDiagnosticLog"),

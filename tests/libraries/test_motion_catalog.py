@@ -21,7 +21,7 @@ OPAQUE = {"SMC_CAMElement", "SMC_TAPPETDATA"}
 """Types whose members the catalogs leave open."""
 BEYOND = {
     *("SMC_CAM_TYPE", "SMC_CAM_SEGMENT_TYPE", "SMC_CAM_SEGMENT"),
-    *("SMC_CAMEvaluate", "SMC_CAMValues"),
+    *("SMC_CAMEvaluate", "SMC_CAMValues", "MC_INPUT_REF"),
     *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
     *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
     *("DriveIn", "DriveOut", "SMC3_CaptureDescription", "SimulatedDrive", "SimulatedDriveSettings"),
