@@ -384,7 +384,7 @@ def online(ui: Ui, server: Server) -> Iterator[str]:
         yield title
 
 
-@tour("cam.import", "cam.export", "cam.code", "cam.rangeTitle")
+@tour("cam.import", "cam.export", "cam.optimise", "cam.code", "cam.rangeTitle")
 def cams(ui: Ui, server: Server) -> Iterator[str]:
     """Texts of a cam, and what is asked before points are removed."""
     page = ui.page
@@ -395,7 +395,7 @@ def cams(ui: Ui, server: Server) -> Iterator[str]:
     made = fetch(page, server, "POST", f"{project}/objects", data=cam)
     try:
         open_object(page, "CamTour")
-        for key in ("cam.import", "cam.export", "cam.code"):
+        for key in ("cam.import", "cam.export", "cam.optimise", "cam.code"):
             ui.button("cam.menu", ui.panel()).click()
             page.get_by_role("menuitem", name=ui.name(key)).click()
             yield key

@@ -343,3 +343,23 @@ def test_the_preview_draws_the_limits_of_an_axis(cam: CamPage) -> None:
     expect(cam.editor.get_by_role("row", name=re.compile("^Acceleration"))).to_have_attribute(
         "data-beyond", "true"
     )
+
+
+def test_points_are_optimised_shown_and_taken(cam: CamPage) -> None:
+    page = cam.page
+    cam.editor.get_by_role("button", name="Cam", exact=True).click()
+    page.get_by_role("menuitem", name="Optimise points").click()
+    dialog = page.get_by_role("dialog")
+    dialog.get_by_label("Make least").click()
+    page.get_by_role("option", name="Jerk").click()
+    dialog.get_by_role("button", name="Optimise", exact=True).click()
+    expect(dialog.get_by_role("status")).to_contain_text("0.0025 before")
+    expect(dialog.get_by_role("img", name="The curve before")).to_be_visible()
+    with objects_stored(page):
+        dialog.get_by_role("button", name="Take").click()
+    points = cam.stored()["points"]
+    assert [point["x"] for point in points] == [0, 120, 240, 360]
+    assert points[1]["y"] < 120
+    page.keyboard.press("Control+z")
+    cam.tab("Cam table")
+    expect(cam.cell(2, 3)).to_have_text("120")

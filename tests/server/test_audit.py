@@ -39,6 +39,7 @@ EXEMPT = {
     "draw_cam": READS,
     "write_cam_text": READS,
     "read_cam_text": READS,
+    "optimise_cam": READS,
     "show_cam_code": READS,
     "cancel_build": "ends a question",
     "keep_axis": "the heartbeat of control over an axis, which was recorded when it was taken",

@@ -144,3 +144,33 @@ def test_the_generated_code_is_shown_of_good_cams_alone(admin: TestClient, cams:
     assert (answer.status_code, answer.json()["type"]) == (422, "urn:tappet:problem:faulty-cam")
     assert "is of the type Sine" in answer.json()["detail"]
     assert admin.post(f"{cams}/code", json={"name": "two words", "cam": DEFAULT}).status_code == 422
+
+
+def test_a_cam_is_optimised(admin: TestClient, cams: str) -> None:
+    found = _ask(admin, f"{cams}/optimise", cam=DEFAULT, points=[1, 2], goal="jerk")
+    assert found["before"] == pytest.approx(0.0025)
+    assert found["after"] < 0.5 * found["before"]
+    drawn = _ask(admin, f"{cams}/curves", cam=found["cam"])
+    assert max(one["jerk"] for one in drawn["segments"]) == pytest.approx(found["after"], rel=1e-3)
+    assert [point["x"] for point in found["cam"]["points"]] == [0, 120, 240, 360]
+    kept = _ask(admin, f"{cams}/optimise", cam=DEFAULT, points=[1], goal="jerk", keep_positions=True)
+    assert kept["cam"]["points"][1]["y"] == 120
+
+
+@pytest.mark.parametrize(
+    ("points", "law", "words"),
+    [
+        ([0], "poly5", "The start and the end of a cam stay where they are."),
+        ([3], "poly5", "The start and the end of a cam stay where they are."),
+        ([99], "poly5", "The start and the end of a cam stay where they are."),
+        ([1], "line", "Point 2 has a segment of the type Line beside it"),
+    ],
+)
+def test_points_that_cannot_be_moved_are_told(
+    admin: TestClient, cams: str, points: list[int], law: str, words: str
+) -> None:
+    cam = {**DEFAULT, "segments": [{"law": law}, {}, {}]}
+    answer = admin.post(f"{cams}/optimise", json={"cam": cam, "points": points, "goal": "velocity"})
+    assert answer.status_code == 422
+    assert answer.json()["type"].endswith("cam-optimisation")
+    assert words in answer.json()["detail"]

@@ -969,6 +969,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/cams/optimise": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Optimise Cam
+         * @description The cam with the chosen points moved so that a peak beside them becomes least; nothing is stored.
+         *
+         *     Points keep their X. Those that cannot be moved are the problem `cam-optimisation`.
+         */
+        post: operations["optimise_cam"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/cams/text": {
         parameters: {
             query?: never;
@@ -5623,6 +5645,44 @@ export interface components {
         };
         OnlineServerMessage: components["schemas"]["Subscribed"] | components["schemas"]["Paced"] | components["schemas"]["StateChanged"] | components["schemas"]["ForcesChanged"] | components["schemas"]["OnlineError"];
         /**
+         * OptimiseOrder
+         * @description Which points of a cam may move, and for what.
+         */
+        OptimiseOrder: {
+            cam: components["schemas"]["CamTable-Input"];
+            /**
+             * Goal
+             * @description Its largest value beside the points becomes least.
+             * @enum {string}
+             */
+            goal: "velocity" | "acceleration" | "jerk";
+            /**
+             * Keep Positions
+             * @description Positions of the slave stay; only the derivatives change.
+             * @default false
+             */
+            keep_positions?: boolean;
+            /**
+             * Points
+             * @description Numbers of points, from 0; start and end stay.
+             */
+            points: number[];
+        };
+        /**
+         * OptimisedCam
+         * @description A cam with other points.
+         */
+        OptimisedCam: {
+            /** After */
+            after: number;
+            /**
+             * Before
+             * @description The largest value beside the points.
+             */
+            before: number;
+            cam: components["schemas"]["CamTable-Output"];
+        };
+        /**
          * Paced
          * @description A subscription has another interval now, because its user watches more, or less, than before.
          */
@@ -9974,6 +10034,50 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ImportedCam"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    optimise_cam: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["OptimiseOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OptimisedCam"];
                 };
             };
             /** @description The request was refused */

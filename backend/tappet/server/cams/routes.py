@@ -13,6 +13,8 @@ from tappet.server.cams.shapes import (
     CamTextOrder,
     CurvesOrder,
     ImportedCam,
+    OptimisedCam,
+    OptimiseOrder,
 )
 from tappet.server.dependencies import Engineer, ServicesDep, StoreDep, Viewer
 from tappet.server.routing import Router
@@ -61,6 +63,19 @@ async def read_cam_text(
     """
     await run_in_threadpool(store.project, project_id)
     return Response(await services.cams.ask("from-text", body.cam, text=body.text), media_type=JSON)
+
+
+@router.post("/optimise", response_model=OptimisedCam)
+async def optimise_cam(
+    project_id: str, body: OptimiseOrder, who: Engineer, store: StoreDep, services: ServicesDep
+) -> Response:
+    """The cam with the chosen points moved so that a peak beside them becomes least; nothing is stored.
+
+    Points keep their X. Those that cannot be moved are the problem `cam-optimisation`.
+    """
+    await run_in_threadpool(store.project, project_id)
+    facts = body.model_dump(exclude={"cam"})
+    return Response(await services.cams.ask("optimise", body.cam, **facts), media_type=JSON)
 
 
 @router.post("/code", response_model=CamText)

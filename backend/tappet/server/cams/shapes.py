@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, StrictInt
+from pydantic import Field, StrictBool, StrictInt
 
+from tappet.motion.cam_optimisation import MOST_CHOSEN
 from tappet.project.cams.table import LARGEST_TABLE, CamTable, Coordinate
 from tappet.project.naming import MAX_NAME
 from tappet.server.shapes import Line, Reply, Request
@@ -100,6 +101,29 @@ class ImportedCam(Reply):
 
     cam: CamTable
     removed_tappets: int = Field(description="They lay outside the new range of the master.")
+
+
+class OptimiseOrder(Request):
+    """Which points of a cam may move, and for what."""
+
+    cam: CamTable
+    points: list[Annotated[StrictInt, Field(ge=0)]] = Field(
+        min_length=1, max_length=MOST_CHOSEN, description="Numbers of points, from 0; start and end stay."
+    )
+    goal: Literal["velocity", "acceleration", "jerk"] = Field(
+        description="Its largest value beside the points becomes least."
+    )
+    keep_positions: StrictBool = Field(
+        default=False, description="Positions of the slave stay; only the derivatives change."
+    )
+
+
+class OptimisedCam(Reply):
+    """A cam with other points."""
+
+    cam: CamTable
+    before: float = Field(description="The largest value beside the points.")
+    after: float
 
 
 class CamCodeOrder(Request):

@@ -18,6 +18,7 @@ import msgspec
 
 from tappet.motion.cam_curves import SegmentCurve, cam_curves
 from tappet.motion.cam_import import imported_cam
+from tappet.motion.cam_optimisation import optimised
 from tappet.motion.cam_program import CamProgram, Numbers
 from tappet.project.cams.cam_file import written_file
 from tappet.project.cams.checks import findings
@@ -88,6 +89,11 @@ class CamWorker:
         found = imported_cam(order["text"], cam)
         return {"cam": found.cam.model_dump(), "removed_tappets": found.removed_tappets}
 
+    def optimise(self, cam: CamTable, order: dict[str, Any]) -> dict[str, Any]:
+        """The shape OptimisedCam."""
+        found = optimised(cam, order["points"], order["goal"], order["keep_positions"])
+        return {"cam": found.cam.model_dump(), "before": found.peaks.before, "after": found.peaks.after}
+
     def code(self, cam: CamTable, order: dict[str, Any]) -> dict[str, Any]:
         """The shape CamText."""
         for one in findings(cam):
@@ -100,6 +106,7 @@ _ANSWERS: dict[str, Callable[[CamWorker, CamTable, dict[str, Any]], Any]] = {
     "curves": CamWorker.curves,
     "text": CamWorker.text,
     "from-text": CamWorker.from_text,
+    "optimise": CamWorker.optimise,
     "code": CamWorker.code,
 }
 

@@ -9,6 +9,7 @@ import type { CamEdit, Tool } from './edit';
 import { ExportDialog } from './ExportDialog';
 import { ImportDialog } from './ImportDialog';
 import { removable, removed } from './keyActs';
+import { OptimiseDialog } from './OptimiseDialog';
 import { deleteTappet } from './tappets';
 
 interface CamToolbarProps {
@@ -98,6 +99,13 @@ export function CamToolbar({ projectId, name, edit, readOnly, tool, onTool, tool
               )),
           },
           { kind: 'line', key: 'line' },
+          {
+            kind: 'item',
+            key: 'optimise',
+            text: t('cam.optimise'),
+            disabledReason: readOnly,
+            run: () => void openDialog((close) => <OptimiseDialog projectId={projectId} edit={edit} close={close} />),
+          },
           {
             kind: 'item',
             key: 'code',

@@ -7,12 +7,14 @@ import { domainOf, segmentAt } from './camTable';
 import styles from './Cam.module.css';
 import type { CamEdit, Tool } from './edit';
 import { insertAt, nudged, removed, stepped, type Nudge } from './keyActs';
-import { niceStep, snapStep, snapped, tickText, ticks, valueRange, zoomed, type GraphName, type Range } from './plot';
+import { PlotGrid } from './PlotGrid';
+import { niceStep, snapStep, snapped, ticks, valueRange, zoomed, type GraphName, type Range } from './plot';
 import { useGraphDrag, type Place } from './useGraphDrag';
 import { useSize } from './useSize';
 
 export const MARGIN_LEFT = 116;
 export const MARGIN_RIGHT = 24;
+export const TITLE_HEIGHT = 24;
 const X_TICK_PX = 90;
 const Y_TICK_PX = 24;
 /** How near the pointer must be to a point or a curve, in pixels. */
@@ -233,31 +235,16 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
         <clipPath id={`clip-${graph}`}>
           <rect x={MARGIN_LEFT} y={0} width={plot.width} height={plot.height} />
         </clipPath>
-        {ticks(window, counts.x).map((x) => (
-          <line key={x} className={styles.gridLine} x1={px(x)} x2={px(x)} y1={0} y2={plot.height} />
-        ))}
-        {ticks(values, counts.value).map((value) => (
-          <g key={value}>
-            <line
-              className={value === 0 ? styles.zeroLine : styles.gridLine}
-              x1={MARGIN_LEFT}
-              x2={MARGIN_LEFT + plot.width}
-              y1={py(value)}
-              y2={py(value)}
-            />
-            {py(value) > 24 && py(value) < plot.height - 6 && (
-              <text
-                className={styles.tick}
-                x={MARGIN_LEFT - 6}
-                y={py(value)}
-                textAnchor="end"
-                dominantBaseline="central"
-              >
-                {tickText(value, stepValue)}
-              </text>
-            )}
-          </g>
-        ))}
+        <PlotGrid
+          left={MARGIN_LEFT}
+          right={MARGIN_LEFT + plot.width}
+          height={plot.height}
+          values={values}
+          py={py}
+          count={counts.value}
+          title={TITLE_HEIGHT}
+          upright={ticks(window, counts.x).map(px)}
+        />
         <g clipPath={`url(#clip-${graph})`}>
           {cam.points.map((point, index) => (
             <line key={index} className={styles.border} x1={px(point.x)} x2={px(point.x)} y1={0} y2={plot.height} />

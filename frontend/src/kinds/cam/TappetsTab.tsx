@@ -38,16 +38,7 @@ export function TappetsTab({ edit, tool, onTool }: { edit: CamEdit; tool: Tool; 
   if (edit.cam.tracks.length === 0)
     return (
       <Empty title={t('cam.noTracks')} text={t('cam.noTracksText')}>
-        <Button
-          icon={Plus}
-          disabledReason={edit.locked ? t('cam.locked') : null}
-          onClick={() => {
-            const added = addTrack(edit.cam);
-            edit.change(added.cam, { kind: 'tappet', ...added.place });
-          }}
-        >
-          {t('cam.addTrack')}
-        </Button>
+        <AddTrack edit={edit} />
       </Empty>
     );
   return (
@@ -57,21 +48,28 @@ export function TappetsTab({ edit, tool, onTool }: { edit: CamEdit; tool: Tool; 
           <Track key={track.id} edit={edit} track={index} window={window} tool={tool} onTool={onTool} />
         ))}
         <div className={styles.addTrack}>
-          <Button
-            variant="quiet"
-            icon={Plus}
-            disabledReason={edit.locked ? t('cam.locked') : null}
-            onClick={() => {
-              const added = addTrack(edit.cam);
-              edit.change(added.cam, { kind: 'tappet', ...added.place });
-            }}
-          >
-            {t('cam.addTrack')}
-          </Button>
+          <AddTrack edit={edit} quiet />
         </div>
       </div>
       <MasterAxis window={window} title={t('cam.master')} />
     </div>
+  );
+}
+
+function AddTrack({ edit, quiet }: { edit: CamEdit; quiet?: boolean }) {
+  const t = useText();
+  return (
+    <Button
+      variant={quiet ? 'quiet' : 'default'}
+      icon={Plus}
+      disabledReason={edit.locked ? t('cam.locked') : null}
+      onClick={() => {
+        const added = addTrack(edit.cam);
+        edit.change(added.cam, { kind: 'tappet', ...added.place });
+      }}
+    >
+      {t('cam.addTrack')}
+    </Button>
   );
 }
 

@@ -1,7 +1,8 @@
 import { useRef, useState } from 'react';
 import { numberText } from '@/editors/form/numbers';
 import styles from './Cam.module.css';
-import { MARGIN_LEFT, MARGIN_RIGHT } from './Graph';
+import { MARGIN_LEFT, MARGIN_RIGHT, TITLE_HEIGHT } from './Graph';
+import { PlotGrid } from './PlotGrid';
 import { niceStep, tickText, ticks, type GraphName, type Range } from './plot';
 import { useSize } from './useSize';
 
@@ -31,7 +32,7 @@ export function TimePlot({ title, curve, time, values, limit, last }: TimePlotPr
   const window: Range = { min: time[0] ?? 0, max: time.at(-1) ?? 1 };
   const px = (seconds: number) => MARGIN_LEFT + ((seconds - window.min) / (window.max - window.min)) * plot;
   const py = (value: number) => ((shown.max - value) / (shown.max - shown.min)) * height;
-  const step = niceStep(shown, height / Y_TICK_PX);
+  const seconds = ticks(window, plot / X_TICK_PX);
   const stepTime = niceStep(window, plot / X_TICK_PX);
   const near = at === null ? null : nearest(time, at);
   return (
@@ -48,44 +49,29 @@ export function TimePlot({ title, curve, time, values, limit, last }: TimePlotPr
       onPointerLeave={() => setAt(null)}
     >
       <svg width={width} height={full} aria-hidden>
-        {ticks(window, plot / X_TICK_PX).map((x) => (
-          <g key={x}>
-            <line className={styles.gridLine} x1={px(x)} x2={px(x)} y1={0} y2={height} />
-            {last && (
-              <text
-                className={styles.tick}
-                x={px(x)}
-                y={height + AXIS_HEIGHT / 2}
-                textAnchor="middle"
-                dominantBaseline="central"
-              >
-                {`${tickText(x, stepTime)} s`}
-              </text>
-            )}
-          </g>
-        ))}
-        {ticks(shown, height / Y_TICK_PX).map((value) => (
-          <g key={value}>
-            <line
-              className={value === 0 ? styles.zeroLine : styles.gridLine}
-              x1={MARGIN_LEFT}
-              x2={MARGIN_LEFT + plot}
-              y1={py(value)}
-              y2={py(value)}
-            />
-            {py(value) > 24 && py(value) < height - 6 && (
-              <text
-                className={styles.tick}
-                x={MARGIN_LEFT - 6}
-                y={py(value)}
-                textAnchor="end"
-                dominantBaseline="central"
-              >
-                {tickText(value, step)}
-              </text>
-            )}
-          </g>
-        ))}
+        <PlotGrid
+          left={MARGIN_LEFT}
+          right={MARGIN_LEFT + plot}
+          height={height}
+          values={shown}
+          py={py}
+          count={height / Y_TICK_PX}
+          title={TITLE_HEIGHT}
+          upright={seconds.map(px)}
+        />
+        {last &&
+          seconds.map((x) => (
+            <text
+              key={x}
+              className={styles.tick}
+              x={px(x)}
+              y={height + AXIS_HEIGHT / 2}
+              textAnchor="middle"
+              dominantBaseline="central"
+            >
+              {`${tickText(x, stepTime)} s`}
+            </text>
+          ))}
         {limit !== null &&
           [limit, -limit].map((value) => (
             <line
