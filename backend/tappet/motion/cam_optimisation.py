@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from tappet.project.cams.checks import law_name
 from tappet.project.cams.laws import values_in
-from tappet.project.cams.table import CamPoint, CamTable
+from tappet.project.cams.table import MOST_CHOSEN, CamPoint, CamTable
 from tappet.project.errors import ProjectError
 
 Goal = Literal["velocity", "acceleration", "jerk"]
@@ -27,7 +27,6 @@ LAWS = ("poly5", "poly7")
 """Segments that take any position and derivatives at their ends."""
 SAMPLES = 129
 """Of a segment, ends included."""
-MOST_CHOSEN = 100
 _SLACK = 1e-7
 """Part by which the first peak may grow while the second one is made least."""
 

@@ -19,6 +19,8 @@ MOST_POINTS = 10_000
 MOST_TAPPETS = 10_000
 LAST_TRACK = 32_767
 """iGroupID is an INT."""
+MOST_CHOSEN = 100
+"""Points that are optimised at once."""
 LARGEST_TABLE = 10_000
 """Elements of a table of positions."""
 

@@ -6,8 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt
 
-from tappet.motion.cam_optimisation import MOST_CHOSEN
-from tappet.project.cams.table import LARGEST_TABLE, CamTable, Coordinate
+from tappet.project.cams.table import LARGEST_TABLE, MOST_CHOSEN, MOST_POINTS, CamTable, Coordinate
 from tappet.project.naming import MAX_NAME
 from tappet.server.shapes import Line, Reply, Request
 
@@ -107,7 +106,7 @@ class OptimiseOrder(Request):
     """Which points of a cam may move, and for what."""
 
     cam: CamTable
-    points: list[Annotated[StrictInt, Field(ge=0)]] = Field(
+    points: list[Annotated[StrictInt, Field(ge=0, le=MOST_POINTS)]] = Field(
         min_length=1, max_length=MOST_CHOSEN, description="Numbers of points, from 0; start and end stay."
     )
     goal: Literal["velocity", "acceleration", "jerk"] = Field(
