@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -197,11 +198,36 @@ def test_nothing_else_may_change_it() -> None:
         assert number(program, "Logical.fSetPosition") == 0.0
 
 
-def test_a_filter_depth_out_of_range_is_an_error() -> None:
-    with logical(f"{LINEAR}, usiFilterDepthPosition := 10") as program:
+@pytest.mark.parametrize(
+    ("setting", "value", "error", "code"),
+    [
+        ("usiFilterDepthPosition", 10, "SMC_ENC_FILTER_DEPTH_INVALID", 5002),
+        ("usiFilterDepthVelocity", 255, "SMC_ENC_FILTER_DEPTH_INVALID", 5002),
+        ("fDeadTimeCycles", math.nan, "SMC_INVALID_SET_VALUES", 10018),
+        ("fDeadTimeCycles", 1e300, "SMC_INVALID_SET_VALUES", 10018),
+        ("fManualShiftDistance", -math.inf, "SMC_INVALID_SET_VALUES", 10018),
+    ],
+)
+def test_a_wrong_setting_is_an_error_as_long_as_it_is_there(
+    setting: str, value: float, error: str, code: int
+) -> None:
+    with logical() as program:
+        program.set("Main.Turn", Execute=True)
+        cycles(program, 100)
+        program.set("Main.Logical", bManualShiftMode=True, **{setting: value})
+        cycles(program, 5)
+        stays = number(program, "Logical.fSetPosition")
+        assert math.isfinite(stays)
         assert program.literal("Main.Logical.bError") == "TRUE"
-        assert number(program, "Logical.uiDriveInterfaceError") == 5002
-        assert program.literal("Main.Logical.fbeFBError[0].eErrorID") == "SMC_ENC_FILTER_DEPTH_INVALID"
+        assert number(program, "Logical.uiDriveInterfaceError") == code
+        assert program.literal("Main.Logical.fbeFBError[0].eErrorID") == error
+        assert program.literal("Main.Logical.fbeFBError[1].eErrorID") == "SMC_NO_ERROR", "told once"
+        program.set("Main.Logical", **{setting: 0})
+        cycles(program, 5)
+        assert program.literal("Main.Logical.bError") == "FALSE"
+        assert number(program, "Logical.fSetPosition") == pytest.approx(
+            number(program, "Master.fSetPosition")
+        )
 
 
 def test_its_distance_from_the_master_outlasts_the_controller() -> None:

@@ -7,7 +7,8 @@ from plc_programs import build
 
 from tappet.runtime.boot import FILE
 from tappet.runtime.errors import PlcError
-from tappet.runtime.plc import Event, SoftPlc
+from tappet.runtime.plc import SoftPlc
+from tappet.runtime.state import Event
 
 TEXT = """
 PROGRAM PLC_PRG

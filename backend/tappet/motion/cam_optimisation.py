@@ -124,30 +124,31 @@ class _System:
             if one.name == "y":
                 self._least[number] = min(cam.slave_start, self.now[number]) / rise
                 self._greatest[number] = max(cam.slave_end, self.now[number]) / rise
-        self._fixed = {order: self._samples(cam.points, order) for order in _ORDERS.values()}
-        self._factors = {order: self._slopes(order) for order in _ORDERS.values()}
+        self._fixed = self._samples(cam.points)
+        """Rows of values and their derivatives, by order."""
+        self._factors = np.stack(
+            [self._slopes(one, size) for one, size in zip(variables, self._sizes.tolist(), strict=True)],
+            axis=2,
+        )
 
-    def _samples(self, points: Sequence[CamPoint], order: int, only: int | None = None) -> Numbers:
-        """A derivative at the samples; `only`: of the segments beside one point, 0 elsewhere."""
-        found = np.zeros((len(self._segments), SAMPLES))
+    def _samples(self, points: Sequence[CamPoint], only: int | None = None) -> Numbers:
+        """Values and derivatives at the samples; `only`: of the segments beside one point, 0 elsewhere."""
+        found = np.zeros((4, len(self._segments), SAMPLES))
         for row, segment in enumerate(self._segments):
             if only is not None and segment not in (only - 1, only):
                 continue
             left, right = points[segment], points[segment + 1]
             law = self._cam.segments[segment]
             for at, x in enumerate(np.linspace(left.x, right.x, SAMPLES).tolist()):
-                found[row, at] = values_in(left, law, right, min(max(x, left.x), right.x))[order]
-        return found.ravel()
+                found[:, row, at] = values_in(left, law, right, min(max(x, left.x), right.x))
+        return found.reshape(4, -1)
 
-    def _slopes(self, order: int) -> Numbers:
-        columns = []
-        for one, size in zip(self._variables, self._sizes.tolist(), strict=True):
-            points = [
-                CamPoint.model_construct(x=point.x, y=0.0, v=0.0, a=0.0, j=0.0) for point in self._cam.points
-            ]
-            points[one.point] = points[one.point].model_copy(update={one.name: size})
-            columns.append(self._samples(points, order, one.point))
-        return np.column_stack(columns)
+    def _slopes(self, variable: _Variable, size: float) -> Numbers:
+        points = [
+            CamPoint.model_construct(x=point.x, y=0.0, v=0.0, a=0.0, j=0.0) for point in self._cam.points
+        ]
+        points[variable.point] = points[variable.point].model_copy(update={variable.name: size})
+        return self._samples(points, variable.point)
 
     def _constant(self, order: int) -> Numbers:
         constant: Numbers = self._fixed[order] - self._factors[order] @ (self.now / self._sizes)

@@ -9,7 +9,6 @@ import contextlib
 import time
 import uuid
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import get_args
 
@@ -42,21 +41,13 @@ from tappet.runtime.retain import Kept, load_retain, matching, persistent_of, re
 from tappet.runtime.retain_groups import check_room
 from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
 from tappet.runtime.standstill import stop_axes
-from tappet.runtime.state import ResetKind, RuntimeInfo, State
+from tappet.runtime.state import Event, ResetKind, RuntimeInfo, State
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.threads import NORMAL, Scheduling
 
 _STATES: dict[int, State] = {STOPPED: "stop", RUNNING: "run", FAULTED: "exception"}
 MOST_TASKS = 64
 """Tasks of an application."""
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """An event that clients get at once: kind `state`, `exception`, `application` or `forces`."""
-
-    kind: str
-    state: State
 
 
 class SoftPlc(ApplicationAccess):

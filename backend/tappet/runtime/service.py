@@ -22,8 +22,9 @@ from tappet.runtime.errors import DiskFullError, NoApplicationError, PlcError
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import OperationError
 from tappet.runtime.operations.life_cycle import Hello
-from tappet.runtime.plc import Event, SoftPlc
+from tappet.runtime.plc import SoftPlc
 from tappet.runtime.protocol import ProtocolError
+from tappet.runtime.state import Event
 from tappet.runtime.subscriptions import Subscriptions
 from tappet.runtime.task_group import TaskError
 

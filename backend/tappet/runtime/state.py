@@ -23,3 +23,11 @@ class RuntimeInfo:
     """What has to be known about real-time behaviour on this host, one sentence each."""
     cycle_ns: int = 0
     """Interval of the bus cycle task."""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """An event that clients get at once: kind `state`, `exception`, `application` or `forces`."""
+
+    kind: str
+    state: State

@@ -7,13 +7,25 @@ import { domainOf, segmentAt } from './camTable';
 import styles from './Cam.module.css';
 import type { CamEdit, Tool } from './edit';
 import { insertAt, nudged, removed, stepped, type Nudge } from './keyActs';
+import { GraphCurves } from './GraphCurves';
 import { PlotGrid } from './PlotGrid';
-import { niceStep, snapStep, snapped, ticks, valueRange, zoomed, type GraphName, type Range } from './plot';
+import {
+  acrossOf,
+  downOf,
+  type GraphName,
+  MARGIN_LEFT,
+  MARGIN_RIGHT,
+  niceStep,
+  type Range,
+  snapped,
+  snapStep,
+  ticks,
+  valueRange,
+  zoomed,
+} from './plot';
 import { useGraphDrag, type Place } from './useGraphDrag';
 import { useSize } from './useSize';
 
-export const MARGIN_LEFT = 116;
-export const MARGIN_RIGHT = 24;
 export const TITLE_HEIGHT = 24;
 const X_TICK_PX = 90;
 const Y_TICK_PX = 24;
@@ -45,8 +57,8 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
   const found = useMemo(() => valueRange(cam, drawing, graph), [cam, drawing, graph]);
   const [held, setHeld] = useState<Range | null>(null);
   const values = held ?? found;
-  const px = (x: number) => MARGIN_LEFT + ((x - window.min) / (window.max - window.min)) * plot.width;
-  const py = (value: number) => ((values.max - value) / (values.max - values.min)) * plot.height;
+  const px = (x: number) => MARGIN_LEFT + acrossOf(x, window, plot.width);
+  const py = (value: number) => downOf(value, values, plot.height);
   const counts = { x: plot.width / X_TICK_PX, value: plot.height / Y_TICK_PX };
   const steps = { x: snapStep(window, counts.x), value: snapStep(values, counts.value) };
   const placeAt = (event: { clientX: number; clientY: number }, by: Range): Place => {
@@ -249,17 +261,17 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
           {cam.points.map((point, index) => (
             <line key={index} className={styles.border} x1={px(point.x)} x2={px(point.x)} y1={0} y2={plot.height} />
           ))}
-          {drawing?.segments.map((segment, index) => (
-            <path
-              key={index}
-              className={styles.curve}
-              data-curve={graph}
-              data-selected={(selected?.kind === 'segment' && selected.index === index) || undefined}
-              d={segment.x
-                .map((x, at) => `${at === 0 ? 'M' : 'L'}${px(x).toFixed(2)} ${py(segment[graph][at]!).toFixed(2)}`)
-                .join('')}
+          {drawing && (
+            <GraphCurves
+              drawing={drawing}
+              graph={graph}
+              selected={selected?.kind === 'segment' ? selected.index : null}
+              window={window}
+              values={values}
+              width={plot.width}
+              height={plot.height}
             />
-          ))}
+          )}
         </g>
         {graph !== 'j' &&
           cam.points.map((point, index) => {

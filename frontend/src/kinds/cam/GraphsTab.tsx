@@ -4,8 +4,8 @@ import { useText } from '@/i18n';
 import { domainOf } from './camTable';
 import styles from './Cam.module.css';
 import type { CamEdit, GraphLayout, Tool } from './edit';
-import { Graph, MARGIN_LEFT, MARGIN_RIGHT } from './Graph';
-import { GRAPHS, niceStep, tickText, ticks, type GraphName, type Range } from './plot';
+import { Graph } from './Graph';
+import { type GraphName, GRAPHS, MARGIN_LEFT, MARGIN_RIGHT, niceStep, type Range, ticks, tickText } from './plot';
 import { useSize } from './useSize';
 
 const LEAST_SHARE = 0.15;

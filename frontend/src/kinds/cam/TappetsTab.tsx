@@ -7,9 +7,8 @@ import { Empty } from '@/ui/Empty';
 import { domainOf, type CamTable } from './camTable';
 import styles from './Cam.module.css';
 import type { CamEdit, Tool } from './edit';
-import { MARGIN_LEFT, MARGIN_RIGHT } from './Graph';
 import { MasterAxis } from './GraphsTab';
-import { niceStep, snapped, type Range } from './plot';
+import { MARGIN_LEFT, MARGIN_RIGHT, niceStep, type Range, snapped } from './plot';
 import {
   addTappet,
   addTrack,

@@ -1,9 +1,20 @@
-import { useRef, useState } from 'react';
+import { useMemo, useRef, useState } from 'react';
 import { numberText } from '@/editors/form/numbers';
 import styles from './Cam.module.css';
-import { MARGIN_LEFT, MARGIN_RIGHT, TITLE_HEIGHT } from './Graph';
+import { TITLE_HEIGHT } from './Graph';
 import { PlotGrid } from './PlotGrid';
-import { niceStep, tickText, ticks, type GraphName, type Range } from './plot';
+import {
+  acrossOf,
+  downOf,
+  type GraphName,
+  MARGIN_LEFT,
+  MARGIN_RIGHT,
+  niceStep,
+  pathOf,
+  type Range,
+  ticks,
+  tickText,
+} from './plot';
 import { useSize } from './useSize';
 
 const X_TICK_PX = 90;
@@ -28,12 +39,16 @@ export function TimePlot({ title, curve, time, values, limit, last }: TimePlotPr
   const [at, setAt] = useState<number | null>(null);
   const height = Math.max(1, full - (last ? AXIS_HEIGHT : 0));
   const plot = Math.max(1, width - MARGIN_LEFT - MARGIN_RIGHT);
-  const shown = rangeOf(values, limit);
-  const window: Range = { min: time[0] ?? 0, max: time.at(-1) ?? 1 };
-  const px = (seconds: number) => MARGIN_LEFT + ((seconds - window.min) / (window.max - window.min)) * plot;
-  const py = (value: number) => ((shown.max - value) / (shown.max - shown.min)) * height;
+  const shown = useMemo(() => rangeOf(values, limit), [values, limit]);
+  const window = useMemo((): Range => ({ min: time[0] ?? 0, max: time.at(-1) ?? 1 }), [time]);
+  const px = (seconds: number) => MARGIN_LEFT + acrossOf(seconds, window, plot);
+  const py = (value: number) => downOf(value, shown, height);
   const seconds = ticks(window, plot / X_TICK_PX);
   const stepTime = niceStep(window, plot / X_TICK_PX);
+  const path = useMemo(
+    () => pathOf(time, values, window, shown, plot, height),
+    [time, values, window, shown, plot, height],
+  );
   const near = at === null ? null : nearest(time, at);
   return (
     <div
@@ -84,13 +99,7 @@ export function TimePlot({ title, curve, time, values, limit, last }: TimePlotPr
               y2={py(value)}
             />
           ))}
-        <path
-          className={styles.curve}
-          data-curve={curve}
-          d={time
-            .map((x, index) => `${index === 0 ? 'M' : 'L'}${px(x).toFixed(2)} ${py(values[index]!).toFixed(2)}`)
-            .join('')}
-        />
+        <path className={styles.curve} data-curve={curve} d={path} />
         {near !== null && (
           <line className={styles.border} x1={px(time[near]!)} x2={px(time[near]!)} y1={0} y2={height} />
         )}

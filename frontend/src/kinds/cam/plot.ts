@@ -93,3 +93,34 @@ export function valueRange(cam: CamTable, drawing: CamDrawing | null, graph: Gra
   const room = MARGIN * (max - min);
   return { min: min - room, max: max + room };
 }
+
+/** Pixels between the left edge of a plot and a place. */
+export function acrossOf(x: number, window: Range, width: number): number {
+  return ((x - window.min) / (window.max - window.min)) * width;
+}
+
+/** Pixels between the upper edge of a plot and a value. */
+export function downOf(value: number, values: Range, height: number): number {
+  return ((values.max - value) / (values.max - values.min)) * height;
+}
+
+/** Pixels left of a plot, for the names of graphs and the numbers of values, and right of it. */
+export const MARGIN_LEFT = 116;
+export const MARGIN_RIGHT = 24;
+
+/** A curve in a plot with the margin at its left, as the path of an SVG. */
+export function pathOf(
+  xs: readonly number[],
+  curve: readonly number[],
+  window: Range,
+  values: Range,
+  width: number,
+  height: number,
+): string {
+  return xs
+    .map((x, at) => {
+      const [left, top] = [MARGIN_LEFT + acrossOf(x, window, width), downOf(curve[at]!, values, height)];
+      return `${at === 0 ? 'M' : 'L'}${left.toFixed(2)} ${top.toFixed(2)}`;
+    })
+    .join('');
+}
