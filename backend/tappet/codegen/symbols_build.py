@@ -17,7 +17,7 @@ from tappet.codegen.symbol_export import right_of
 from tappet.codegen.symbol_map import Root, SymbolMap
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 from tappet.core.lower import DataObject as ProgramData
-from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value
+from tappet.core.program import AREA_PREFIX, DATA_PREFIX, attribute_value, path_of
 from tappet.core.templates import VFTABLE
 from tappet.core.watched_properties import is_watchable
 from tappet.lang import ast
@@ -225,7 +225,7 @@ def build_symbol_map(
     symbols.areas.update(areas)
     for item in data:
         name = item.symbol.removeprefix(DATA_PREFIX)
-        shown = item.owner.name if "." not in name else f"{name.rpartition('.')[0].title()}.{item.owner.name}"
+        shown = path_of(item.owner)
         offset = objects[item.symbol].offset
         fresh = known is None or item.symbol in filled
         if isinstance(item.owner, PouSymbol):

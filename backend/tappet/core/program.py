@@ -259,13 +259,17 @@ def qualified_name(pou: PouSymbol) -> str:
     return name
 
 
+def path_of(owner: GvlSymbol | PouSymbol) -> str:
+    """What paths of variables begin with: the name of a list or program, behind that of its library."""
+    source = owner.source
+    if source is None or source.scope is not Scope.LIBRARY or not source.library or "." in owner.name:
+        return owner.name
+    return f"{source.library}.{owner.name}"
+
+
 def data_symbol(owner: GvlSymbol | PouSymbol) -> str:
     """External symbol of a list or program."""
-    source = owner.source
-    name = owner.name.upper()
-    if source is not None and source.scope is Scope.LIBRARY and source.library:
-        name = f"{source.library.upper()}.{name}"
-    return DATA_PREFIX + name
+    return DATA_PREFIX + path_of(owner).upper()
 
 
 def export_name(pou: PouSymbol) -> str | None:

@@ -170,10 +170,12 @@ def _make_unique(found: Collected, named_outside: frozenset[str]) -> None:
     entries.sort(key=lambda s: order[s.source.scope] if s.source is not None else 0)
     for symbol in entries:
         key = symbol.name.upper()
+        source = symbol.source
         if key not in seen:
             seen.add(key)
+            if source is not None and source.library:
+                seen.add(f"{source.library}.{symbol.name}".upper())
             continue
-        source = symbol.source
         prefix = (source.namespace or source.library or "POUS") if source is not None else "POUS"
         unique = f"{prefix}.{symbol.name}"
         number = 2
