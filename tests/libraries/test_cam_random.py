@@ -122,7 +122,13 @@ class CamMachine(RuleBasedStateMachine):
 
     @rule(cam=st.sampled_from((1, 2)), number=st.sampled_from((1, 2)))
     def another_cam_from_the_next_cycle_on(self, cam: int, number: int) -> None:
+        """A cam that is not periodic has ended: the next one begins where the master is by now, without ramp_in
+        by a step."""
         self.pair.write(f"nCam{number}", cam)
+        ended = self.pair.true(f"CamIn{number}.EndOfProfile")
+        if ended and self.pair.text(f"CamIn{number}.fbCoupling.stStart.eMode") == "relative":
+            self.pair.cycle()
+            self.before = (self.pair.slave, self.pair.velocity)
         self.step()
 
     @rule(velocity=st.floats(-200.0, 200.0), up=ramps, cycles=st.sampled_from((30, 300, 2000)))

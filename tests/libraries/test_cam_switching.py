@@ -2,8 +2,20 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
-from tests.libraries.cam_pair import CYCLE, DEFAULT, FIRST, RELATIVE, SECOND, CamPair, Point, cam_pair
+from tests.libraries.cam_pair import (
+    CYCLE,
+    DEFAULT,
+    FIRST,
+    RAMP_IN,
+    RELATIVE,
+    SECOND,
+    CamPair,
+    Point,
+    cam_pair,
+)
 
 STEEP: tuple[Point, ...] = ((0, 0, 1, 0), (180, 180, 1, 0), (360, 360, 1, 0))
 BEHIND: tuple[Point, ...] = ((1000, 0, 1, 0), (1180, 180, 1, 0), (1360, 360, 0, 0))
@@ -110,6 +122,28 @@ def test_a_cam_that_has_ended_hands_over_what_lies_beyond() -> None:
         pair.write("nCam1", 2)
         pair.cycle(2)
         assert pair.slave == pytest.approx(380.0, abs=1e-9)
+
+
+def test_with_ramp_in_the_slave_makes_up_for_what_lies_beyond() -> None:
+    """CAM-110: the master has gone on while the slave stood at the end of the first cam."""
+    with cam_pair(FIRST) as pair:
+        pair.give(2, SECOND)
+        pair.select(1, periodic=False, slave_absolute=False)
+        pair.select(2, periodic=False, slave_absolute=False)
+        pair.couple(StartMode=RAMP_IN, VelocityDiff=50.0, Acceleration=500.0, Deceleration=500.0)
+        pair.step(380.0)
+        pair.cycle(10)
+        pair.write("nCam1", 2)
+        places = [pair.slave]
+        for _ in range(1000):
+            pair.cycle()
+            places.append(pair.slave)
+        assert places[0] == pytest.approx(360.0, abs=1e-9)
+        assert places[-1] == pytest.approx(380.0, abs=1e-9)
+        steps = [right - left for left, right in pairwise(places)]
+        assert max(steps) == pytest.approx(50.0 * CYCLE, rel=1e-6)
+        assert min(steps) >= -1e-9
+        assert pair.says("CamIn1") == {"Busy", "Active", "InSync"}
 
 
 def test_scaling_and_offset_change_where_a_cycle_ends() -> None:
