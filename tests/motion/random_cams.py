@@ -6,8 +6,7 @@ from itertools import accumulate
 
 from hypothesis import strategies as st
 
-from tappet.motion.cam_program import LAWS
-from tappet.project.cams.table import CamPoint, CamSegment, CamTable
+from tappet.project.cams.table import LAWS, CamPoint, CamSegment, CamTable
 
 NUMBERS = st.floats(-5, 5).map(lambda number: round(number, 2))
 

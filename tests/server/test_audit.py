@@ -41,6 +41,7 @@ EXEMPT = {
     "read_cam_text": READS,
     "optimise_cam": READS,
     "show_cam_code": READS,
+    "read_running_cam": READS,
     "cancel_build": "ends a question",
     "keep_axis": "the heartbeat of control over an axis, which was recorded when it was taken",
     "cancel_tests": "ends a question",

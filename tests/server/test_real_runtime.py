@@ -15,6 +15,7 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from server_clients import PASSWORD, SOCKETS, browser, serving
 
+from tappet.project.cams.table import CamTable
 from tappet.server.app import create_app
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 
@@ -216,3 +217,59 @@ def test_an_axis_is_moved_by_hand_and_let_go_when_nobody_is_there(app: FastAPI, 
     assert all("alive" not in str(entry["new_value"]) for entry in acts)
     assert engineer.post(f"{RUNTIME}/stop").status_code == 200
     assert _value(engineer, "Drive.fSetVelocity") == 0.0
+
+
+def test_a_cam_of_the_application_is_read_and_written(app: FastAPI, engineer: TestClient) -> None:
+    """CAM-94: the curve that runs is that of the variables, not that of the project."""
+    store = app.state.services.store
+    info = store.create_project("Cams", "ann")
+    application = store.load(info.id).applications()[0]
+    objects = f"/api/v1/projects/{info.id}/objects"
+    for kind, name in (("axis_pool", None), ("cam", "Lift")):
+        body = {"parent_id": application.id, "kind": kind, "name": name}
+        made = engineer.post(objects, json=body)
+        assert made.status_code == 201, made.text
+    declaration = """PROGRAM PLC_PRG
+VAR
+    stValues : SMC_CAMValues;
+    nElement : INT;
+    fX : LREAL := 60;
+END_VAR"""
+    _save(app, info.id, "stValues := SMC_CAMEvaluate(Lift, fX, nElement);", declaration)
+    url = f"/api/v1/projects/{info.id}/applications/{application.id}"
+    order = {"runtime_id": LOCAL_RUNTIME, "mode": "download", "start": True}
+    done = engineer.post(f"{url}/download", json=order)
+    assert done.status_code == 200, done.text
+    _until(lambda: _value(engineer, "PLC_PRG.stValues.dY") == 41.25)
+
+    cam = CamTable().model_dump(mode="json")
+    lift = f"{RUNTIME}/cams/Lift"
+    read = engineer.post(f"{lift}/read", json={"cam": cam})
+    assert read.status_code == 200, read.text
+    assert read.json() == {"cam": cam, "same": True}
+
+    cam["points"][1] |= {"y": 60, "v": 0.5}
+    cam["tracks"][0]["tappets"][0]["x"] = 95
+    assert engineer.post(f"{lift}/write", json={"cam": cam}).status_code == 204
+    # half way: 10/8 - 15/16 + 6/32 of the rise, 4/8 - 7/16 + 3/32 of the slope at the end less
+    _until(lambda: _value(engineer, "PLC_PRG.stValues.dY") == 60 * 0.5 - 0.5 * 120 * 0.15625)
+    read = engineer.post(f"{lift}/read", json={"cam": CamTable().model_dump(mode="json")}).json()
+    assert not read["same"]
+    assert read["cam"]["points"] == cam["points"]
+    assert read["cam"]["tracks"] == cam["tracks"][:1]
+    acts = [entry for entry in engineer.get("/api/v1/audit").json() if entry["subject"] == "Lift"]
+    assert [(one["action"], one["old_value"], one["new_value"]) for one in acts] == [
+        ("write", "4 elements, 4 tappets", "4 elements, 4 tappets")
+    ]
+
+    fifth = {**cam, "points": [*cam["points"], {"x": 400, "y": 360}], "segments": [{}] * 4}
+    refused = engineer.post(f"{lift}/write", json={"cam": fifth})
+    assert (refused.status_code, refused.json()["type"]) == (422, "urn:tappet:problem:running-cam")
+    assert "room for 4 elements of 'Lift', and the cam has 5" in refused.json()["detail"]
+    missing = engineer.post(f"{RUNTIME}/cams/Drop/read", json={"cam": cam})
+    assert missing.status_code == 404
+    assert "no cam 'Drop'" in missing.json()["detail"]
+
+    _save(app, info.id, "Lift.pce := ADR(stValues);", declaration)
+    assert engineer.post(f"{url}/download", json=order).status_code == 200
+    _until(lambda: engineer.post(f"{lift}/read", json={"cam": cam}).status_code == 409)

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from types import TracebackType
-from typing import get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -20,14 +19,12 @@ from tappet.codegen.package import CodePackage
 from tappet.iec.task import Task
 from tappet.lang.source import Source
 from tappet.project.cams.code import LIBRARY
-from tappet.project.cams.table import MOST_POINTS, CamPoint, CamSegment, Law
+from tappet.project.cams.table import LAWS, MOST_POINTS, CamPoint, CamSegment
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.local import LocalRuntime
 
 Numbers = npt.NDArray[np.float64]
 Pieces = Sequence[tuple[CamPoint, CamSegment, CamPoint]]
-LAWS: tuple[Law, ...] = get_args(Law)
-"""In the order of SMC_CAM_SEGMENT_TYPE."""
 QUESTIONS = 16_384
 """In one cycle of the program: MOST_QUESTIONS."""
 _SEGMENT = np.dtype([("numbers", "<f8", 11), ("law", "<i2"), ("padding", "V6")])

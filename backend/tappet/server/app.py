@@ -21,6 +21,7 @@ from tappet.server import openapi, problems
 from tappet.server.auth import routes as routes_auth
 from tappet.server.builds import routes as routes_build
 from tappet.server.cams import routes as routes_cams
+from tappet.server.cams import running_routes as routes_running_cams
 from tappet.server.comparisons import routes as routes_comparisons
 from tappet.server.docs import routes as routes_docs
 from tappet.server.documentation import routes as routes_documentation
@@ -81,6 +82,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_comparisons.router,
     routes_scenes.router,
     routes_cams.router,
+    routes_running_cams.router,
     routes_events.router,
 )
 """One router per resource, all below `API`; the routes of wire operations come behind them."""

@@ -1803,6 +1803,51 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/cams/{name}/read": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Running Cam
+         * @description The cam that the application runs, in the shape of the editor's; nothing is stored.
+         *
+         *     What the editor cannot show is the problem `running-cam`, with the number of the element.
+         */
+        post: operations["read_running_cam"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/cams/{name}/write": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Write Running Cam
+         * @description Give the application another cam, at the beginning of a cycle; its axes follow that one at once.
+         *
+         *     There is room for as many elements and tappets as were compiled; a cam with more is the problem
+         *     `running-cam`.
+         */
+        post: operations["write_running_cam"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/exception": {
         parameters: {
             query?: never;
@@ -6480,6 +6525,26 @@ export interface components {
              * @default
              */
             right: string;
+        };
+        /**
+         * RunningCamAnswer
+         * @description A cam as the application has it.
+         */
+        RunningCamAnswer: {
+            /** @description That of the editor with the curve and the tappets of the application. */
+            cam: components["schemas"]["CamTable-Output"];
+            /**
+             * Same
+             * @description The application has the cam of the editor.
+             */
+            same: boolean;
+        };
+        /**
+         * RunningCamOrder
+         * @description The cam of the editor.
+         */
+        RunningCamOrder: {
+            cam: components["schemas"]["CamTable-Input"];
         };
         /**
          * RuntimeException
@@ -12061,6 +12126,94 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["RuntimeState"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_running_cam: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunningCamOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunningCamAnswer"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    write_running_cam: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunningCamOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {

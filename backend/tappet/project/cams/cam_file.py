@@ -2,37 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from itertools import groupby, pairwise
+from collections.abc import Mapping, Sequence
 
 from tappet.project.cams.checks import POLYNOMIAL_LAWS, law_name
 from tappet.project.cams.elements import xyva_points
-from tappet.project.cams.laws import values_in
-from tappet.project.cams.table import (
-    LAST_TRACK,
-    MOST_POINTS,
-    MOST_TAPPETS,
-    NARROWEST,
-    CamPoint,
-    CamSegment,
-    CamTable,
-    CamTappet,
-    CamTrack,
-    Law,
-    TappetAction,
-    number_text,
-)
+from tappet.project.cams.pieces import joined, of_polynomials, points_of
+from tappet.project.cams.table import MOST_POINTS, MOST_TAPPETS, NARROWEST, CamTable, number_text
+from tappet.project.cams.tappets import entries, tracks_of
 from tappet.project.cams.texts import CamTextError, lines_of, number_in
 from tappet.project.data import Data
 from tappet.project.errors import ProjectError
 
 FIRST_WORD = "CAM"
-_ACTIONS: tuple[TappetAction, ...] = ("on", "off", "invert")
 _XYVA, _POLYNOMIALS = 3, 0
 _COLUMNS = {_XYVA: 4, _POLYNOMIALS: 7}
-_EQUAL = 1e-9
-"""States of a point on both sides that differ by less than this part are the same."""
 _LONGEST_NAME = 80
 
 
@@ -40,31 +23,6 @@ class NoCamFileError(ProjectError):
     """A cam that its file cannot hold."""
 
     code = "no_cam_file"
-
-
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """A polynomial of fifth degree between two points."""
-
-    left: CamPoint
-    right: CamPoint
-    line: int
-    """Where it stands in the text."""
-    law: Law = "poly5"
-
-    @property
-    def width(self) -> float:
-        return self.right.x - self.left.x
-
-    def is_(self, law: Law) -> bool:
-        """Whether a simpler law gives the same curve."""
-        simple = CamSegment(law=law)
-        ends = [values_in(self.left, simple, self.right, at.x) for at in (self.left, self.right)]
-        states = (self.left, self.right)
-        return all(
-            _same_v(found.v, state.v, self) and _same_a(found.a, state.a, self)
-            for found, state in zip(ends, states, strict=True)
-        )
 
 
 def written_file(name: str, cam: CamTable) -> str:
@@ -76,7 +34,12 @@ def written_file(name: str, cam: CamTable) -> str:
                 "file has polynomials up to the fifth degree. Choose another type, or write points."
             )
     points = xyva_points(cam)
-    tappets = list(_tappet_rows(cam))
+    tappets = [
+        f"{id} {number_text(x)} {direction} {action} 0 0"
+        for track in cam.tracks
+        for tappet in track.tappets
+        for id, x, direction, action in entries(track.id, tappet)
+    ]
     first, last = cam.domain
     rows = [
         f"{FIRST_WORD} 1",
@@ -90,17 +53,6 @@ def written_file(name: str, cam: CamTable) -> str:
         "END",
     ]
     return "\n".join(rows) + "\n"
-
-
-def _tappet_rows(cam: CamTable) -> Iterator[str]:
-    for track in cam.tracks:
-        for one in track.tappets:
-            passes = [(0, one.positive), (2, one.negative)]
-            if one.positive == one.negative:
-                passes = [(1, one.positive)]
-            for direction, action in passes:
-                if action != "none":
-                    yield f"{track.id} {number_text(one.x)} {direction} {_ACTIONS.index(action)} 0 0"
 
 
 def read_file(text: str, cam: CamTable) -> CamTable:
@@ -120,8 +72,9 @@ def read_file(text: str, cam: CamTable) -> CamTable:
     reader.rest("NAME")
     count = reader.whole("ELEMENTS", 2 * MOST_POINTS)
     rows = [reader.numbers(_COLUMNS[kind]) for _ in range(count)]
-    states = _joined(rows) if kind == _XYVA else _of_polynomials(rows, last)
-    tracks = _tracks(reader, first, last)
+    states = joined(rows) if kind == _XYVA else of_polynomials(rows, last)
+    tappets = [reader.numbers(6) for _ in range(reader.whole("TAPPETS", 2 * MOST_TAPPETS))]
+    tracks = tracks_of(tappets, first, last)
     reader.words("END", 0)
     if not states:
         raise CamTextError(reader.line, "a cam has at least two points")
@@ -132,7 +85,7 @@ def read_file(text: str, cam: CamTable) -> CamTable:
             f"the elements go from {number_text(ends[0])} to {number_text(ends[1])}, not over the range from "
             f"{number_text(first)} to {number_text(last)}",
         )
-    points, segments = _points(states)
+    points, segments = points_of(states)
     if len(points) > MOST_POINTS:
         raise CamTextError(states[MOST_POINTS].line, f"a cam has at most {MOST_POINTS} points")
     fields = {"points": points, "segments": segments, "tracks": tracks}
@@ -195,129 +148,3 @@ class _Reader:
         self._next += 1
         self.line = self._next
         return self._lines[self._next - 1]
-
-
-def _joined(rows: list[tuple[int, list[float]]]) -> list[_Piece]:
-    """Pieces between points; a point may stand twice, where the curve bends."""
-    points = [(line, CamPoint(**dict(zip("xyva", row, strict=True)))) for line, row in rows]
-    found = []
-    for (start, left), (line, right) in pairwise(points):
-        if right.x == left.x:
-            if abs(right.y - left.y) > _EQUAL * max(abs(right.y), abs(left.y)):
-                raise CamTextError(line, f"the position jumps at X = {number_text(right.x)}")
-        elif not right.x - left.x >= NARROWEST:
-            raise CamTextError(line, f"{number_text(right.x)} does not lie behind {number_text(left.x)}")
-        else:
-            found.append(_Piece(left, right, start))
-    return found
-
-
-def _of_polynomials(rows: list[tuple[int, list[float]]], last: float) -> list[_Piece]:
-    """Pieces with the states at the ends of polynomials by the distance from where they start."""
-    found: list[_Piece] = []
-    ends = [row[0] for _, row in rows[1:]] + [last]
-    for (line, (start, *powers)), end in zip(rows, ends, strict=True):
-        if not end - start >= NARROWEST:
-            raise CamTextError(line, f"{number_text(end)} does not lie behind {number_text(start)}")
-        left, right = (_state(line, powers, start, x) for x in (start, end))
-        if found and abs(found[-1].right.y - left.y) > _EQUAL * max(
-            abs(left.y), abs(right.y), abs(found[-1].left.y)
-        ):
-            raise CamTextError(line, f"the position jumps at X = {number_text(start)}")
-        found.append(_Piece(left, right, line))
-    return found
-
-
-def _state(line: int, powers: list[float], start: float, x: float) -> CamPoint:
-    values = []
-    for _ in range(3):
-        value = 0.0
-        for factor in reversed(powers):
-            value = value * (x - start) + factor
-        values.append(number_in(repr(value), line))
-        powers = [n * factor for n, factor in enumerate(powers)][1:]
-    return CamPoint(x=x, y=values[0], v=values[1], a=values[2])
-
-
-def _same_v(one: float, other: float, *pieces: _Piece) -> bool:
-    return abs(one - other) <= _EQUAL * max(_velocity(piece) for piece in pieces)
-
-
-def _same_a(one: float, other: float, *pieces: _Piece) -> bool:
-    """Rounding of positions and velocities shows in it, too."""
-    sizes = [max(abs(p.left.a), abs(p.right.a), _velocity(p) / p.width) for p in pieces]
-    return abs(one - other) <= _EQUAL * max(sizes)
-
-
-def _velocity(piece: _Piece) -> float:
-    rise = max(abs(piece.left.y), abs(piece.right.y)) / piece.width
-    return max(abs(piece.left.v), abs(piece.right.v), rise)
-
-
-def _points(pieces: list[_Piece]) -> tuple[tuple[CamPoint, ...], tuple[CamSegment, ...]]:
-    """Points with one state each: where the curve bends, a simpler law beside it needs none."""
-    points = [pieces[0].left]
-    for number in range(1, len(pieces)):
-        before, behind = pieces[number - 1], pieces[number]
-        left, right = before.right, behind.left
-        slope = _same_v(left.v, right.v, before, behind)
-        if slope and _same_a(left.a, right.a, before, behind):
-            points.append(right)
-            continue
-        if before.law == "line" or before.is_("line"):
-            pieces[number - 1] = replace(before, law="line")
-            points.append(right)
-        elif behind.is_("line"):
-            pieces[number] = replace(behind, law="line")
-            points.append(left)
-        elif slope and (before.law == "poly3" or before.is_("poly3")):
-            pieces[number - 1] = replace(before, law="poly3")
-            points.append(right)
-        elif slope and behind.is_("poly3"):
-            pieces[number] = replace(behind, law="poly3")
-            points.append(left)
-        else:
-            what = "acceleration" if slope else "velocity"
-            raise CamTextError(
-                behind.line,
-                f"the {what} jumps at X = {number_text(right.x)} between two polynomials; a point of the "
-                "editor has one value of it",
-            )
-    points.append(pieces[-1].right)
-    return tuple(points), tuple(CamSegment(law=piece.law) for piece in pieces)
-
-
-def _tracks(reader: _Reader, first: float, last: float) -> tuple[CamTrack, ...]:
-    """Both directions of a tappet stand in two rows, one behind the other."""
-    found: list[tuple[int, CamTappet]] = []
-    for _ in range(reader.whole("TAPPETS", 2 * MOST_TAPPETS)):
-        group, x, direction, action, *times = reader.numbers(6)[1]
-        if group != int(group) or not 1 <= group <= LAST_TRACK:
-            raise reader.wrong(f"a track is a whole number from 1 to {LAST_TRACK}")
-        if not first <= x <= last:
-            raise reader.wrong(f"the tappet at {number_text(x)} lies outside the range")
-        if direction not in (0, 1, 2):
-            raise reader.wrong("the direction of a tappet is 0, 1 or 2")
-        if action not in (0, 1, 2) or any(times):
-            raise reader.wrong("tappets of the editor switch on, off or invert (0, 1 or 2), without times")
-        switch = _ACTIONS[int(action)]
-        track = int(group)
-        if direction == 2 and found and _misses_negative(found[-1], track, x):
-            found[-1] = track, found[-1][1].model_copy(update={"negative": switch})
-        else:
-            positive = switch if direction < 2 else "none"
-            negative = switch if direction > 0 else "none"
-            found.append((track, CamTappet(x=x, positive=positive, negative=negative)))
-    ordered = sorted(found, key=lambda one: one[0])
-    for track, rows in groupby(ordered, key=lambda one: one[0]):
-        if sum(1 for _ in rows) > MOST_TAPPETS:
-            raise reader.wrong(f"track {track} has more than {MOST_TAPPETS} tappets")
-    return tuple(
-        CamTrack(id=track, tappets=tuple(tappet for _, tappet in rows))
-        for track, rows in groupby(ordered, key=lambda one: one[0])
-    )
-
-
-def _misses_negative(one: tuple[int, CamTappet], track: int, x: float) -> bool:
-    tappet = one[1]
-    return one[0] == track and tappet.x == x and tappet.positive != "none" and tappet.negative == "none"

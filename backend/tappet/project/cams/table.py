@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
@@ -26,6 +26,8 @@ LARGEST_TABLE = 10_000
 
 Coordinate = Annotated[float, Field(strict=True, ge=-FARTHEST, le=FARTHEST, allow_inf_nan=False)]
 Law = Literal["line", "poly3", "poly5", "poly7", "sine", "inclined_sine", "modified_sine", "harmonic"]
+LAWS: tuple[Law, ...] = get_args(Law)
+"""In the order of SMC_CAM_SEGMENT_TYPE."""
 TappetAction = Literal["none", "on", "off", "invert"]
 CompileFormat = Literal["polynomial", "segments", "one_dimensional", "two_dimensional"]
 

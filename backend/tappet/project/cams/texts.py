@@ -18,6 +18,7 @@ class CamTextError(ProjectError):
     def __init__(self, line: int, reason: str) -> None:
         super().__init__(f"Line {line} of the text: {reason}.")
         self.line = line
+        self.reason = reason
 
 
 def number_in(word: str, line: int) -> float:

@@ -13,6 +13,8 @@ from tappet.server.shapes import Line, Reply, Request
 MOST_SAMPLES = 20_000
 MOST_SINGLE = 1000
 
+CamName = Annotated[str, Field(pattern="^[A-Za-z_][A-Za-z0-9_]*$", max_length=MAX_NAME)]
+
 
 class CurvesOrder(Request):
     """What to draw."""
@@ -128,5 +130,18 @@ class OptimisedCam(Reply):
 class CamCodeOrder(Request):
     """A cam and its name."""
 
-    name: Annotated[str, Field(pattern="^[A-Za-z_][A-Za-z0-9_]*$", max_length=MAX_NAME)]
+    name: CamName
     cam: CamTable
+
+
+class RunningCamOrder(Request):
+    """The cam of the editor."""
+
+    cam: CamTable
+
+
+class RunningCamAnswer(Reply):
+    """A cam as the application has it."""
+
+    cam: CamTable = Field(description="That of the editor with the curve and the tappets of the application.")
+    same: bool = Field(description="The application has the cam of the editor.")
