@@ -256,7 +256,7 @@ def test_tappets_are_added_moved_switched_and_deleted(cam: CamPage) -> None:
 def test_a_text_replaces_the_points_and_one_that_is_none_does_not(cam: CamPage) -> None:
     page = cam.page
     cam.editor.get_by_role("button", name="Cam", exact=True).click()
-    page.get_by_role("menuitem", name="Read points from a text").click()
+    page.get_by_role("menuitem", name="Read Points from a Text").click()
     dialog = page.get_by_role("dialog")
     dialog.get_by_role("textbox").fill("0 0\n100 abc\n")
     dialog.get_by_role("button", name="Replace points").click()
@@ -274,7 +274,7 @@ def test_a_cam_is_written_as_ascii_table(cam: CamPage) -> None:
     """cam EX-08."""
     page = cam.page
     cam.editor.get_by_role("button", name="Cam", exact=True).click()
-    page.get_by_role("menuitem", name="Write points to a file").click()
+    page.get_by_role("menuitem", name="Write Points to a File").click()
     dialog = page.get_by_role("dialog")
     dialog.get_by_label("Number of points").fill("7")
     with page.expect_download() as download:
@@ -288,7 +288,7 @@ def test_a_cam_is_written_as_ascii_table(cam: CamPage) -> None:
 def test_the_generated_code_is_shown(cam: CamPage) -> None:
     page = cam.page
     cam.editor.get_by_role("button", name="Cam", exact=True).click()
-    page.get_by_role("menuitem", name="Show generated code").click()
+    page.get_by_role("menuitem", name="Show Generated Code").click()
     dialog = page.get_by_role("dialog")
     expect(dialog).to_contain_text("MC_CAM_REF")
     expect(dialog).to_contain_text("Cam_A")
@@ -348,7 +348,7 @@ def test_the_preview_draws_the_limits_of_an_axis(cam: CamPage) -> None:
 def test_points_are_optimised_shown_and_taken(cam: CamPage) -> None:
     page = cam.page
     cam.editor.get_by_role("button", name="Cam", exact=True).click()
-    page.get_by_role("menuitem", name="Optimise points").click()
+    page.get_by_role("menuitem", name="Optimise Points").click()
     dialog = page.get_by_role("dialog")
     dialog.get_by_label("Make least").click()
     page.get_by_role("option", name="Jerk").click()

@@ -17,6 +17,17 @@ export function useLiveValue(runtimeId: string | null, expression: string): Live
   return useSyncExternalStore(subscribe, () => board?.get(expression) ?? null);
 }
 
+/** The latest value of a BOOL, false before the first one. Somebody must watch it. */
+export function useFlag(runtimeId: string | null, expression: string): boolean {
+  return useLiveValue(runtimeId, expression)?.value === true;
+}
+
+/** The latest value of a number of up to 32 bits or a REAL, null before the first one. Somebody must watch it. */
+export function useLiveNumber(runtimeId: string | null, expression: string): number | null {
+  const value = useLiveValue(runtimeId, expression)?.value;
+  return typeof value === 'number' ? value : null;
+}
+
 /** What the server says about one expression; values do not draw again. Somebody must watch it. */
 export function useLiveItem(runtimeId: string | null, expression: string): SubscribedItem | null {
   const board = channelOf(runtimeId)?.board ?? null;

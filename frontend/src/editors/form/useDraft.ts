@@ -4,7 +4,8 @@ import type { Check } from '@/api/objects';
 import type { ObjectSummary, ProjectObject } from '@/api/types';
 import { t } from '@/i18n';
 import { displayName } from '@/project/objectName';
-import type { Handlers } from '@/workbench/commands';
+import type { Enablement, Handlers } from '@/workbench/commands';
+import type { CommandContext } from '@/workbench/context';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { confirm } from '@/ui/dialogs';
 import { explain, notifyError } from '@/ui/notices';
@@ -38,7 +39,8 @@ export interface Draft<Data> {
 /**
  * The data of an object being edited in a form; `check` demands their shape. Changes are saved by themselves a moment later, and at once by
  * Save; data that the form marks as faulty (`valid` false) wait. Undo and redo go through
- * one's own changes, also after a reload. `others` are further acts of the view, always the same object.
+ * one's own changes, also after a reload. `others` are further acts of the view, always the same object; `mayChange` says
+ * who may change the data, by default an engineer who is logged out.
  */
 export function useDraft<Data extends ProjectObject['data']>(
   panelId: string,
@@ -47,12 +49,13 @@ export function useDraft<Data extends ProjectObject['data']>(
   check: Check<Data>,
   valid: (data: Data) => boolean,
   others: Handlers = NO_OTHERS,
+  mayChange: (context: CommandContext) => Enablement = mayEdit,
 ): Draft<Data> {
   const { data: object, error } = useObject(projectId, objectId, check);
   const [draft, setDraft] = useState<Unsaved<Data> | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
   const [history, setHistory] = useState<Steps<Data>>({ past: [], future: [] });
-  const allowed = mayEdit(useCommandContext());
+  const allowed = mayChange(useCommandContext());
   const readOnly = allowed === true ? null : reasonText(allowed);
   const data = draft?.data ?? object?.data;
   useKeptSteps(projectId, objectId, data, history, setHistory);

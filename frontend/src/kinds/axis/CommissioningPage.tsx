@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import { useText } from '@/i18n';
 import { LostBar } from '@/online/LostBar';
-import { useWatched } from '@/online/useLive';
+import { useWatched, useFlag } from '@/online/useLive';
 import { Empty } from '@/ui/Empty';
 import { Facts } from '@/ui/Facts';
 import type { OnlineSession } from '@/workbench/onlineSession';
@@ -10,7 +10,7 @@ import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { ControlSection } from './ControlSection';
 import { ErrorBox } from './ErrorBox';
-import { axisPath, panelPath, useExists, useFlag, useShown } from './live';
+import { axisPath, panelPath, useExists, useShown } from './live';
 import type { AxisSettings } from './model';
 import { NotLoggedIn } from './NotLoggedIn';
 import { StateDiagram } from './StateDiagram';

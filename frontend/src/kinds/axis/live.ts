@@ -11,10 +11,6 @@ export function useShown(runtimeId: string, expression: string): string | null {
   return live === null || live.value === null ? null : formatShort(live.value, live.item);
 }
 
-export function useFlag(runtimeId: string, expression: string): boolean {
-  return useLiveValue(runtimeId, expression)?.value === true;
-}
-
 /** Whether the application that runs has the variable; true as long as nobody has said otherwise. */
 export function useExists(runtimeId: string, expression: string): boolean {
   return !useLiveItem(runtimeId, expression)?.error;

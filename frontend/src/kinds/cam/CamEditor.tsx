@@ -1,10 +1,15 @@
-import { useCallback, useMemo, useState, type ReactNode } from 'react';
+import { useCallback, useEffect, useMemo, useRef, useState, type ReactNode } from 'react';
 import { ofKind } from '@/api/objects';
+import { useObject } from '@/api/queries';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/project/editorProps';
 import { useDraft } from '@/editors/form/useDraft';
+import { useObjectSession } from '@/online/useObjectSession';
 import { Failed, Loading } from '@/ui/Empty';
 import { Tabs } from '@/ui/Tabs';
+import { mayChangeText, mayEdit } from '@/workbench/rights';
+import { reasonText } from '@/workbench/run';
+import { useCommandContext } from '@/workbench/useCommandContext';
 import { CamGrid } from './CamGrid';
 import { CamToolbar } from './CamToolbar';
 import type { CamTable } from './camTable';
@@ -15,17 +20,31 @@ import { ElementProperties } from './ElementProperties';
 import { Findings } from './Findings';
 import { GraphsTab } from './GraphsTab';
 import { PreviewTab } from './PreviewTab';
+import { RunningBar } from './RunningBar';
+import { useFollowers } from './runningCam';
 import { stillThere, type Selected } from './rows';
 import { SettingsTab } from './SettingsTab';
 import { TappetGrid } from './TappetGrid';
 import { TappetsTab } from './TappetsTab';
+import { useCamActs, type CamScene } from './useCamActs';
 
 const always = () => true;
 
 /** A cam: its four curves, its tappets, tables of both, and its properties (cam.md, sections 2 to 9). */
 export default function CamEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
-  const draft = useDraft(panelId, projectId, objectId, ofKind('cam'), always);
+  const [unlocked, setUnlocked] = useState(false);
+  const { data: object } = useObject(projectId, objectId, ofKind('cam'));
+  const session = useObjectSession(projectId, object);
+  // While logged in one agrees to change the project beside the application, as with texts.
+  const mayChange = session !== null && unlocked ? mayChangeText : mayEdit;
+  const scene = useRef<CamScene | null>(null);
+  const context = useCommandContext();
+  const allowed = mayChange(context);
+  const acts = useCamActs(scene, session !== null, allowed);
+  const draft = useDraft(panelId, projectId, objectId, ofKind('cam'), always, acts, mayChange);
+  const runtimeId = session?.runtimeId ?? null;
+  const followers = useFollowers(session, object?.name ?? '');
   const [shown, setShown] = useState<CamTable | null>(null);
   const [chosen, setChosen] = useState<Selected | null>(null);
   const [tool, setTool] = useState<Tool>('select');
@@ -59,17 +78,23 @@ export default function CamEditor({ panelId, projectId, objectId }: EditorProps)
               if (select !== undefined) setChosen(select);
             },
             valuesAt: (x) => valuesAt(cam, x),
+            running: runtimeId === null ? null : { runtimeId, followers },
           },
-    [cam, curves.drawing, readOnly, selected, change, valuesAt],
+    [cam, curves.drawing, readOnly, selected, change, valuesAt, runtimeId, followers],
   );
+  const name = draft.object?.name ?? '';
+  useEffect(() => {
+    scene.current = edit && { projectId, name, edit, session };
+  });
+  const may = mayChangeText(context);
+  const forbidden = may === true ? null : reasonText(may);
   if (draft.error && !draft.object) return <Failed error={draft.error} />;
   if (edit === null || !draft.object) return <Loading />;
 
   const withTools = (content: ReactNode, tools: 'points' | 'tappets', drawn: boolean) => (
     <div className={styles.page}>
       <CamToolbar
-        projectId={projectId}
-        name={draft.object!.name}
+        acts={acts}
         edit={edit}
         readOnly={readOnly}
         tool={tool}
@@ -78,6 +103,17 @@ export default function CamEditor({ panelId, projectId, objectId }: EditorProps)
         drawn={drawn}
         fit={tools === 'points' && layout.window !== null ? () => setLayout({ ...layout, window: null }) : null}
       />
+      {session && (
+        <RunningBar
+          session={session}
+          name={name}
+          cam={edit.cam}
+          followers={followers}
+          editing={unlocked}
+          onEdit={() => setUnlocked(!unlocked)}
+          forbidden={forbidden}
+        />
+      )}
       {draft.refused && (
         <div className={styles.refused} role="alert">
           {draft.refused}

@@ -2,19 +2,18 @@ import { Maximize2, MousePointer2, Plus, SquareMenu, Trash2 } from 'lucide-react
 import { useText } from '@/i18n';
 import { Button, IconButton } from '@/ui/Button';
 import { DropdownMenu } from '@/ui/Menu';
-import { openDialog } from '@/ui/dialogs';
+import type { Handlers } from '@/workbench/commands';
+import { reasonText } from '@/workbench/run';
+import { CAM_ACTS, type CamActId } from './acts';
 import styles from './Cam.module.css';
-import { CodeDialog } from './CodeDialog';
 import type { CamEdit, Tool } from './edit';
-import { ExportDialog } from './ExportDialog';
-import { ImportDialog } from './ImportDialog';
 import { removable, removed } from './keyActs';
-import { OptimiseDialog } from './OptimiseDialog';
 import { deleteTappet } from './tappets';
 
+const LINE_BEFORE: ReadonlySet<CamActId> = new Set(['cam.optimise', 'cam.readRunning']);
+
 interface CamToolbarProps {
-  projectId: string;
-  name: string;
+  acts: Handlers;
   edit: CamEdit;
   readOnly: string | null;
   tool: Tool;
@@ -28,7 +27,7 @@ interface CamToolbarProps {
 }
 
 /** The tools of the view in front (CAM-20 to CAM-23), and what can be done with the whole cam (CAM-80 to CAM-83). */
-export function CamToolbar({ projectId, name, edit, readOnly, tool, onTool, tools, drawn, fit }: CamToolbarProps) {
+export function CamToolbar({ acts, edit, readOnly, tool, onTool, tools, drawn, fit }: CamToolbarProps) {
   const t = useText();
   const { selected } = edit;
   const tappet = selected?.kind === 'tappet' ? selected : null;
@@ -81,39 +80,19 @@ export function CamToolbar({ projectId, name, edit, readOnly, tool, onTool, tool
             {t('cam.menu')}
           </Button>
         }
-        entries={() => [
-          {
-            kind: 'item',
-            key: 'import',
-            text: t('cam.import'),
-            disabledReason: readOnly,
-            run: () => void openDialog((close) => <ImportDialog projectId={projectId} edit={edit} close={close} />),
-          },
-          {
-            kind: 'item',
-            key: 'export',
-            text: t('cam.export'),
-            run: () =>
-              void openDialog((close) => (
-                <ExportDialog projectId={projectId} name={name} cam={edit.cam} close={close} />
-              )),
-          },
-          { kind: 'line', key: 'line' },
-          {
-            kind: 'item',
-            key: 'optimise',
-            text: t('cam.optimise'),
-            disabledReason: readOnly,
-            run: () => void openDialog((close) => <OptimiseDialog projectId={projectId} edit={edit} close={close} />),
-          },
-          {
-            kind: 'item',
-            key: 'code',
-            text: t('cam.code'),
-            run: () =>
-              void openDialog((close) => <CodeDialog projectId={projectId} name={name} cam={edit.cam} close={close} />),
-          },
-        ]}
+        entries={() =>
+          CAM_ACTS.flatMap(({ id }) => {
+            const { run, enabled } = acts[id]!;
+            const entry = {
+              kind: 'item' as const,
+              key: id,
+              text: t(id),
+              disabledReason: enabled === undefined || enabled === true ? null : reasonText(enabled),
+              run: () => void run(),
+            };
+            return LINE_BEFORE.has(id) ? [{ kind: 'line' as const, key: `line ${id}` }, entry] : [entry];
+          })
+        }
       />
     </div>
   );

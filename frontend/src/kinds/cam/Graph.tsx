@@ -9,6 +9,7 @@ import type { CamEdit, Tool } from './edit';
 import { insertAt, nudged, removed, stepped, type Nudge } from './keyActs';
 import { GraphCurves } from './GraphCurves';
 import { PlotGrid } from './PlotGrid';
+import { RunMarks } from './RunMarks';
 import {
   acrossOf,
   downOf,
@@ -266,6 +267,17 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
               drawing={drawing}
               graph={graph}
               selected={selected?.kind === 'segment' ? selected.index : null}
+              window={window}
+              values={values}
+              width={plot.width}
+              height={plot.height}
+            />
+          )}
+          {edit.running && (
+            <RunMarks
+              {...edit.running}
+              drawing={drawing}
+              graph={graph}
               window={window}
               values={values}
               width={plot.width}

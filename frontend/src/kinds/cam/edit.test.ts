@@ -17,6 +17,7 @@ function editOf(cam: CamTable, selected: Selected | null = null): CamEdit & { no
   const edit: CamEdit & { now: () => CamTable } = {
     cam,
     drawing: null,
+    running: null,
     locked: false,
     selected,
     select: (next) => {

@@ -30,4 +30,6 @@ export interface CamEdit {
   /** Shows another cam until it is taken by `change` or dropped by null: an act under way is no step. */
   preview: (cam: CamTable | null, selected?: Selected) => void;
   valuesAt: (x: number) => Promise<Values>;
+  /** The runtime in which blocks follow the cam now; null while logged out. */
+  running: { runtimeId: string; followers: readonly string[] } | null;
 }

@@ -94,6 +94,19 @@ export function valueRange(cam: CamTable, drawing: CamDrawing | null, graph: Gra
   return { min: min - room, max: max + room };
 }
 
+/** A value of the drawn curve between two of its samples; null outside of the cam. */
+export function valueOnCurve(drawing: CamDrawing, graph: GraphName, x: number): number | null {
+  const curve = drawing.segments.find((one) => x <= one.x.at(-1)!);
+  if (curve === undefined || x < curve.x[0]!) return null;
+  const right = Math.max(
+    1,
+    curve.x.findIndex((at) => at >= x),
+  );
+  const [x0, x1] = [curve.x[right - 1]!, curve.x[right]!];
+  const part = x1 > x0 ? (x - x0) / (x1 - x0) : 0;
+  return curve[graph][right - 1]! * (1 - part) + curve[graph][right]! * part;
+}
+
 /** Pixels between the left edge of a plot and a place. */
 export function acrossOf(x: number, window: Range, width: number): number {
   return ((x - window.min) / (window.max - window.min)) * width;
