@@ -122,8 +122,7 @@ class CamMachine(RuleBasedStateMachine):
 
     @rule(cam=st.sampled_from((1, 2)), number=st.sampled_from((1, 2)))
     def another_cam_from_the_next_cycle_on(self, cam: int, number: int) -> None:
-        """A cam that is not periodic has ended: the next one begins where the master is by now, without ramp_in
-        by a step."""
+        """Behind the end of a cam the next one begins where the master is: without ramp_in by a step."""
         self.pair.write(f"nCam{number}", cam)
         ended = self.pair.true(f"CamIn{number}.EndOfProfile")
         if ended and self.pair.text(f"CamIn{number}.fbCoupling.stStart.eMode") == "relative":
