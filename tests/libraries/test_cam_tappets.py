@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.libraries.cam_pair import BOTH, INVERT, NEGATIVE, OFF, ON, POSITIVE, TIME, CamPair, cam_pair
 
@@ -268,6 +268,7 @@ TAPPET = st.tuples(
 
 
 @settings(max_examples=40, deadline=None)
+@example(moves=[-5.0, 15.0], tappets=[(1, 15.0, POSITIVE, ON)])
 @given(moves=MOVES, tappets=st.lists(TAPPET, min_size=1, max_size=10, unique_by=lambda tappet: tappet[:2]))
 def test_random_moves_switch_as_a_plain_walk_does(
     moves: list[float], tappets: list[tuple[int, float, int, int]]
