@@ -24,6 +24,7 @@ BEYOND = {
     *("SMC_CAMEvaluate", "SMC_CAMValues", "MC_INPUT_REF"),
     *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
     *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
+    "AXIS_REF_POSCONTROL_SM3",
     *("DriveIn", "DriveOut", "SMC3_CaptureDescription", "SimulatedDrive", "SimulatedDriveSettings"),
 }
 """What the library has beyond the catalogs."""

@@ -24,7 +24,7 @@ EXAMPLES = "SM3_Basic_examples"
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
 _SECTIONS = (("in_out", "in_out"), ("inputs", "inputs"), ("outputs", "outputs"))
 _POUS = ("function_block", "function", "program")
-_EXTENDS = re.compile(r"^FUNCTION_BLOCK\s+\w+\s+EXTENDS\s+(\w+)", re.MULTILINE)
+_EXTENDS = re.compile(r"^FUNCTION_BLOCK\s+(?:(?:INTERNAL|ABSTRACT)\s+)*\w+\s+EXTENDS\s+(\w+)", re.MULTILINE)
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -52,13 +52,13 @@ def group_of(item: Item) -> str:
     return _rows().get(item.name, {}).get("group", "other")
 
 
-def _text_of(library: Library, item: Item) -> str:
-    return next((source.text for source in library.sources if source.name == item.name), "")
+def _text_of(library: Library, name: str) -> str:
+    return next((source.text for source in library.sources if source.name == name), "")
 
 
 def public_methods(library: Library, item: Item) -> list[Item]:
     """The methods that programs may call."""
-    text = _text_of(library, item)
+    text = _text_of(library, item.name)
     return [one for one in item.methods if re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{one.name}\b", text)]
 
 
@@ -109,11 +109,18 @@ class _Manual:
             ]
         return joined(lines)
 
+    def _extended(self, name: str) -> str | None:
+        """The next public block that a block extends, over INTERNAL ones."""
+        found = _EXTENDS.search(_text_of(self._library, name))
+        if found is None:
+            return None
+        return found[1] if found[1] in self.items else self._extended(found[1])
+
     def _form(self, item: Item) -> list[str]:
         lines: list[str] = []
-        extended = _EXTENDS.search(_text_of(self._library, item)) if item.kind == "function_block" else None
-        if extended is not None and extended[1] in self.items:
-            lines += [self._word("extends", type=f"[{extended[1]}]({extended[1]}.md)"), ""]
+        extended = self._extended(item.name) if item.kind == "function_block" else None
+        if extended is not None:
+            lines += [self._word("extends", type=f"[{extended}]({extended}.md)"), ""]
         if item.returns and item.kind in ("function", "alias"):
             lines += [
                 self._word("returns" if item.kind == "function" else "stands for", type=item.returns),
