@@ -16,11 +16,12 @@ from tappet.codegen.build import BuildResult, build_application
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import TABLE
 from tappet.project import edit
-from tappet.project.axes.settings import Scaling
-from tappet.project.axes.variables import real
+from tappet.project.axes.literals import real
+from tappet.project.axes.settings import AxisSettings, Scaling
 from tappet.project.errors import InvalidDataError, NotPlaceableError
 from tappet.project.model import Project, ProjectObject
 from tappet.project.sources import WrittenSources, application_sources, libraries, tasks
+from tappet.runtime.local import LocalRuntime
 
 
 def only(project: Project, kind: str) -> ProjectObject:
@@ -193,3 +194,118 @@ def test_numbers_are_literals(value: float) -> None:
     text = real(value)
     assert "." in text.partition("E")[0]
     assert float(text) == value
+
+
+def _values(project: Project, cycles: int, *paths: str, **written: Any) -> list[Any]:
+    result = build(project)
+    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+    assert result.package is not None
+    with LocalRuntime(result.package) as plc:
+        plc.start()
+        for path, value in written.items():
+            plc.write(path.replace("__", "."), value)
+        plc.run(cycles)
+        return [plc.read(path) for path in paths]
+
+
+def test_an_axis_of_a_drive_that_follows_a_speed() -> None:
+    """AXIS-40 to AXIS-48."""
+    control = {
+        "gain": 20.0,
+        "dead_time": 1.5,
+        "bits": 16,
+        "rated_velocity": 500.0,
+        "rated_raw": 16384,
+        "speed_from": "position",
+    }
+    project = moving(
+        with_axes(
+            "Drive",
+            drive="SM_Drive_PosControl",
+            axis_type="finite",
+            position_lag=3.0,
+            position_control=control,
+        )
+    )
+    members = (
+        "fKp",
+        "fDeadTimeCycles",
+        "byPositionBits",
+        "fRatedVelocity",
+        "diRatedRaw",
+        "bSpeedFromPosition",
+    )
+    members += ("fMaxPositionLag", "bHWLimitEnable", "bVirtual", "out.bRegulatorOn")
+    found = _values(project, 20, *(f"Drive.{member}" for member in members))
+    assert found == [20.0, 1.5, 16, 500.0, 16384, True, 3.0, True, False, True]
+    text = application_sources(project, application_id(project))[0].text
+    assert "Drive : SM3_Basic.AXIS_REF_POSCONTROL_SM3" in "".join(
+        source.text for source in application_sources(project, application_id(project))
+    ), text
+    given = {"Drive__in__bRegulatorRealState": True, "Drive__in__bDriveStartRealState": True}
+    (speed,) = _values(project, 60, "Drive.out.diSetVelocity", **given)
+    assert speed > 0
+
+
+def _with_logical(**mirroring: Any) -> Project:
+    project = with_axes(
+        "Mirror", "Drive", drive="SM_Drive_Logical", mirroring={"master": "Drive", **mirroring}
+    )
+    return moving(project)
+
+
+def test_a_logical_axis_mirrors_its_master() -> None:
+    """AXIS-30 to AXIS-36; it stands in front of its master in the tree, and its cycle behind."""
+    project = _with_logical(position_filter=0, velocity_filter=3)
+    sources = application_sources(project, application_id(project))
+    end = next(source.text for source in sources if "PROGRAM SM3_End_MainTask" in source.text)
+    assert end.index("Drive.EndCycle") < end.index("Mirror.EndCycle")
+    members = (
+        "Drive.fSetPosition",
+        "Mirror.fSetPosition",
+        "Mirror.usiFilterDepthVelocity",
+        "Mirror.nAxisState",
+    )
+    place, mirrored, depth, state = _values(project, 100, *members)
+    assert 0.0 < place < 50.0
+    assert mirrored == pytest.approx(place, abs=1e-9)
+    assert (depth, state) == (3, 6)
+
+
+def test_the_master_of_a_logical_axis_follows_its_name() -> None:
+    project = _with_logical()
+    drive = next(item for item in project.find_kind("axis") if item.name == "Drive")
+    project = edit.rename_object(project, drive.id, "Feed")
+    mirror = next(item for item in project.find_kind("axis") if item.name == "Mirror")
+    assert mirror.data_as(AxisSettings).mirroring.master == "Feed"
+    assert errors(project) == []
+
+
+@pytest.mark.parametrize(
+    ("master", "text"),
+    [
+        ("", "The logical axis Mirror has no master; choose the axis that it mirrors"),
+        ("Nobody", "The axis Nobody that Mirror mirrors does not exist; choose another master"),
+        ("mirror", "The logical axis Mirror is its own master; choose another axis"),
+    ],
+)
+def test_a_logical_axis_without_a_master_is_an_error_at_the_axis(master: str, text: str) -> None:
+    assert text in errors(_with_logical(master=master))
+
+
+def test_a_logical_axis_has_the_task_of_its_master() -> None:
+    project = _with_logical()
+    configuration = only(project, "task_configuration")
+    slow = {"interval": "T#100ms", "pous": []}
+    project, _ = edit.add_object(project, configuration.id, "task", "Slow", data=slow)
+    mirror = next(item for item in project.find_kind("axis") if item.name == "Mirror")
+    project = edit.change_data(project, mirror.id, {**mirror.data.model_dump(), "bus_task": "Slow"})
+    assert errors(project) == [
+        "The axis Mirror has another bus task than its master Drive; choose the same one"
+    ]
+
+
+@pytest.mark.parametrize("master", ["Drive)", "A.B", "1"])
+def test_a_master_is_a_name(master: str) -> None:
+    with pytest.raises(InvalidDataError):
+        _with_logical(master=master)

@@ -2705,7 +2705,7 @@ export interface components {
              * @default SM_Drive_Virtual
              * @enum {string}
              */
-            drive: "SM_Drive_Virtual" | "SM_Drive_Simulated";
+            drive: "SM_Drive_Virtual" | "SM_Drive_Simulated" | "SM_Drive_PosControl" | "SM_Drive_Logical";
             /**
              * @default {
              *       "acceleration": 1000000,
@@ -2731,11 +2731,32 @@ export interface components {
              */
             exclude_from_build?: boolean;
             /**
+             * @default {
+             *       "dead_time": 0,
+             *       "master": "",
+             *       "position_filter": 0,
+             *       "reference": "set",
+             *       "velocity_filter": 0
+             *     }
+             */
+            mirroring: components["schemas"]["Mirroring"];
+            /**
              * Modulo
              * @description Units of one period of a modulo axis (AXIS-13).
              * @default 360
              */
             modulo: number;
+            /**
+             * @default {
+             *       "bits": 32,
+             *       "dead_time": 2,
+             *       "gain": 0,
+             *       "rated_raw": 32767,
+             *       "rated_velocity": 1000,
+             *       "speed_from": "velocity"
+             *     }
+             */
+            position_control: components["schemas"]["PositionControl"];
             /**
              * Position Lag
              * @description Largest difference between set and actual position, in units; 0: it is not watched.
@@ -5355,6 +5376,43 @@ export interface components {
             subkind: string | null;
         };
         /**
+         * Mirroring
+         * @description What a logical axis mirrors (AXIS-30 to AXIS-34).
+         */
+        Mirroring: {
+            /**
+             * Dead Time
+             * @description Cycles that the master is seen ahead.
+             * @default 0
+             */
+            dead_time: number;
+            /**
+             * Master
+             * @description Name of the axis; empty: none yet.
+             * @default
+             */
+            master: string;
+            /**
+             * Position Filter
+             * @description Cycles of which position increments are averaged; 0: the newest one.
+             * @default 0
+             */
+            position_filter: number;
+            /**
+             * Reference
+             * @description Values of the master.
+             * @default set
+             * @enum {string}
+             */
+            reference: "set" | "actual";
+            /**
+             * Velocity Filter
+             * @description The same of the velocity.
+             * @default 0
+             */
+            velocity_filter: number;
+        };
+        /**
          * NamedValue
          * @description A value of an enumeration; `value` is empty where it counts on from the one before.
          */
@@ -6083,6 +6141,50 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * PositionControl
+         * @description The position loop over a drive that follows a speed alone (AXIS-40 to AXIS-45).
+         */
+        PositionControl: {
+            /**
+             * Bits
+             * @description Width of the counter of the encoder.
+             * @default 32
+             * @enum {integer}
+             */
+            bits: 16 | 24 | 32;
+            /**
+             * Dead Time
+             * @description Cycles from a set position until its actual one.
+             * @default 2
+             */
+            dead_time: number;
+            /**
+             * Gain
+             * @description fKp: velocity by the position error, in 1/s.
+             * @default 0
+             */
+            gain: number;
+            /**
+             * Rated Raw
+             * @description Set value of the drive at that velocity.
+             * @default 32767
+             */
+            rated_raw: number;
+            /**
+             * Rated Velocity
+             * @description Velocity at `rated_raw`, in units/s.
+             * @default 1000
+             */
+            rated_velocity: number;
+            /**
+             * Speed From
+             * @description What the speed is taken from: the set velocity or the set positions.
+             * @default velocity
+             * @enum {string}
+             */
+            speed_from: "velocity" | "position";
         };
         /**
          * PouData

@@ -10,13 +10,14 @@ move an axis, an error at the axis says why.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tappet.iec.task import Task
 from tappet.project.axes.drives import LIBRARY, drive_name, drive_of
+from tappet.project.axes.literals import real
 from tappet.project.axes.settings import AxisSettings
-from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND, real
+from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.source_text import SourceWriter
@@ -77,11 +78,12 @@ def around_tasks(
     project: Project, pool: ProjectObject, tasks: Sequence[Task], writer: SourceWriter
 ) -> list[Task]:
     """The tasks with the calls of the axes of a pool in them; writes the programs that are called."""
-    moved = [
-        _moved(item, pool, tasks)
+    axes = [
+        item
         for item in project.children(pool.id)
         if isinstance(item.data, AxisSettings) and not item.excluded
     ]
+    moved = _behind_their_masters([_moved(item, pool, tasks) for item in axes])
     if not moved:
         return list(tasks)
     writer.name = PANELS
@@ -118,6 +120,32 @@ def _moved(axis: ProjectObject, pool: ProjectObject, tasks: Sequence[Task]) -> _
             "fixed time, so choose a cyclic task",
         )
     return _Moved(axis, task)
+
+
+def _behind_their_masters(moved: Sequence[_Moved]) -> list[_Moved]:
+    """Logical axes behind the others, or why they cannot mirror their masters."""
+    known = {name_key(one.axis.name): one for one in moved}
+    others = [one for one in moved if not _is_logical(one.axis)]
+    return others + [_mirrored(one, known) for one in moved if _is_logical(one.axis)]
+
+
+def _is_logical(axis: ProjectObject) -> bool:
+    return axis.data_as(AxisSettings).drive == "SM_Drive_Logical"
+
+
+def _mirrored(one: _Moved, known: Mapping[str, _Moved]) -> _Moved:
+    name, chosen = one.axis.name, one.axis.data_as(AxisSettings).mirroring.master
+    master = known.get(name_key(chosen))
+    fault = ""
+    if not chosen:
+        fault = f"The logical axis {name} has no master; choose the axis that it mirrors"
+    elif master is None:
+        fault = f"The axis {chosen} that {name} mirrors does not exist; choose another master"
+    elif master is one:
+        fault = f"The logical axis {name} is its own master; choose another axis"
+    elif one.task is not None and master.task is not one.task:
+        fault = f"The axis {name} has another bus task than its master {chosen}; choose the same one"
+    return replace(one, task=None, fault=fault) if fault else one
 
 
 def _bus_task_of(pool: ProjectObject) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from tappet.project.axes.literals import flag, real
 from tappet.project.axes.settings import AxisSettings, DriveType
 
 LIBRARY = "SM3_Basic"
@@ -22,6 +23,8 @@ class Drive:
 
     axis_type: str
     """Of SM3_Basic."""
+    members: Callable[[AxisSettings], dict[str, str]] = lambda settings: {}
+    """Initial values of members that other axes do not have."""
     declared: Callable[[AxisSettings], str] | None = None
     """Type and initial values of the variable of the drive; None: it has none."""
     before: str = ""
@@ -48,12 +51,42 @@ def _simulated(settings: AxisSettings) -> str:
     )
 
 
+def _position_controlled(settings: AxisSettings) -> dict[str, str]:
+    control = settings.position_control
+    return {
+        "byPositionBits": str(control.bits),
+        "fDeadTimeCycles": real(control.dead_time),
+        "fKp": real(control.gain),
+        "fRatedVelocity": real(control.rated_velocity),
+        "diRatedRaw": str(control.rated_raw),
+        "bSpeedFromPosition": flag(control.speed_from == "position"),
+        "fMaxPositionLag": real(settings.position_lag),
+        "bHWLimitEnable": flag(settings.axis_type == "finite"),
+    }
+
+
+def _mirroring(settings: AxisSettings) -> dict[str, str]:
+    mirrored = settings.mirroring
+    reference = "SMC_SET_VALUE" if mirrored.reference == "set" else "SMC_ACT_VALUE"
+    return {
+        **({"pMaster": f"ADR({mirrored.master})"} if mirrored.master else {}),
+        "eValueReference": f"{LIBRARY}.SMC_ValueSelect.{reference}",
+        "fDeadTimeCycles": real(mirrored.dead_time),
+        "usiFilterDepthPosition": str(mirrored.position_filter),
+        "usiFilterDepthVelocity": str(mirrored.velocity_filter),
+        **({"fModulo": real(settings.modulo)} if settings.axis_type == "modulo" else {}),
+    }
+
+
 _DRIVES: dict[DriveType, Drive] = {
     "SM_Drive_Virtual": Drive("AXIS_REF_VIRTUAL_SM3"),
     "SM_Drive_Simulated": Drive(
         "AXIS_REF_MAPPING_SM3",
+        members=lambda settings: {"fMaxPositionLag": real(settings.position_lag)},
         declared=_simulated,
         before="{axis}.in := {drive}.stIn;\n",
         behind="\n{drive}(stOut := {axis}.out, fCycle := {cycle});",
     ),
+    "SM_Drive_PosControl": Drive("AXIS_REF_POSCONTROL_SM3", members=_position_controlled),
+    "SM_Drive_Logical": Drive("AXIS_REF_LOGICAL_SM3", members=_mirroring),
 }

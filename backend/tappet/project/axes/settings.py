@@ -8,18 +8,23 @@ from typing import Annotated, Literal
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from tappet.project.data import CodeData, Data, Line
+from tappet.project.naming import MAX_NAME
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Count = Annotated[StrictInt, Field(ge=1, le=2**31 - 1)]
 RampType = Literal["trapez", "sin2", "quadratic", "quadratic_smooth"]
-DriveType = Literal["SM_Drive_Virtual", "SM_Drive_Simulated"]
+DriveType = Literal["SM_Drive_Virtual", "SM_Drive_Simulated", "SM_Drive_PosControl", "SM_Drive_Logical"]
+FilterDepth = Annotated[StrictInt, Field(ge=0, le=9)]
 
 LARGEST_DENOMINATOR = 2**32 - 1
 """Of `dwRatioTechUnitsDenom`, a DWORD."""
 LARGEST_NUMERATOR = 2**31 - 1
 """Of `iRatioTechUnitsNum`, a DINT."""
+
+LONGEST_DEAD_TIME = 254
+"""Cycles: HISTORY_LENGTH of SM3_Basic is two more."""
 
 
 class SoftwareLimits(Data):
@@ -96,6 +101,35 @@ class Scaling(Data):
         return -near if self.invert else near
 
 
+class PositionControl(Data):
+    """The position loop over a drive that follows a speed alone (AXIS-40 to AXIS-45)."""
+
+    dead_time: Annotated[float, Field(ge=0, le=LONGEST_DEAD_TIME, allow_inf_nan=False)] = Field(
+        default=2.0, description="Cycles from a set position until its actual one."
+    )
+    gain: NotNegative = Field(default=0.0, description="fKp: velocity by the position error, in 1/s.")
+    bits: Literal[16, 24, 32] = Field(default=32, description="Width of the counter of the encoder.")
+    speed_from: Literal["velocity", "position"] = Field(
+        default="velocity", description="What the speed is taken from: the set velocity or the set positions."
+    )
+    rated_velocity: Positive = Field(default=1000.0, description="Velocity at `rated_raw`, in units/s.")
+    rated_raw: Count = Field(default=32767, description="Set value of the drive at that velocity.")
+
+
+class Mirroring(Data):
+    """What a logical axis mirrors (AXIS-30 to AXIS-34)."""
+
+    master: Annotated[str, Field(pattern="^([A-Za-z_][A-Za-z0-9_]*)?$", max_length=MAX_NAME)] = Field(
+        default="", description="Name of the axis; empty: none yet."
+    )
+    reference: Literal["set", "actual"] = Field(default="set", description="Values of the master.")
+    dead_time: Number = Field(default=0.0, description="Cycles that the master is seen ahead.")
+    position_filter: FilterDepth = Field(
+        default=0, description="Cycles of which position increments are averaged; 0: the newest one."
+    )
+    velocity_filter: FilterDepth = Field(default=0, description="The same of the velocity.")
+
+
 class AxisSettings(CodeData):
     """An axis of the application (devices.md, 14.2 and 14.3)."""
 
@@ -120,6 +154,8 @@ class AxisSettings(CodeData):
         description="Largest difference between set and actual position, in units; 0: it is not watched.",
     )
     scaling: Scaling = Scaling()
+    position_control: PositionControl = PositionControl()
+    mirroring: Mirroring = Mirroring()
     bus_task: Line = Field(
         default="",
         description="Task that moves the axis; empty: that of the pool, else the fastest cyclic one.",
@@ -128,7 +164,7 @@ class AxisSettings(CodeData):
     @property
     def has_drive(self) -> bool:
         """Whether there is something behind the axis that has increments."""
-        return self.drive != "SM_Drive_Virtual"
+        return self.drive in ("SM_Drive_Simulated", "SM_Drive_PosControl")
 
     @property
     def subkind(self) -> str | None:

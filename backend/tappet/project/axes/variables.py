@@ -6,6 +6,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from tappet.project.axes.drives import LIBRARY, drive_name, drive_of
+from tappet.project.axes.literals import flag, real
 from tappet.project.axes.settings import AxisSettings
 
 NOT_WRITTEN_BY_HAND = (
@@ -33,10 +34,10 @@ def initial_values(settings: AxisSettings) -> dict[str, str]:
     ratio = settings.scaling.ratio
     finite = settings.axis_type == "finite"
     return {
-        "bVirtual": _flag(settings.virtual_mode or not settings.has_drive),
+        "bVirtual": flag(settings.virtual_mode or not settings.has_drive),
         "iMovementType": "1" if finite else "0",
         "fPositionPeriod": real(settings.modulo),
-        "bSWLimitEnable": _flag(finite and limits.enabled),
+        "bSWLimitEnable": flag(finite and limits.enabled),
         "fSWLimitNegative": real(limits.negative),
         "fSWLimitPositive": real(limits.positive),
         "fSWLimitDeceleration": real(limits.deceleration),
@@ -53,23 +54,10 @@ def initial_values(settings: AxisSettings) -> dict[str, str]:
         "iRatioTechUnitsNum": str(ratio.numerator),
         "dwRatioTechUnitsDenom": str(ratio.denominator),
         "fScalefactor": real(float(1 / _signed(settings))),
-        **({"fMaxPositionLag": real(settings.position_lag)} if settings.has_drive else {}),
+        **drive_of(settings).members(settings),
     }
 
 
 def _signed(settings: AxisSettings) -> Fraction:
     exact = settings.scaling.units_per_increment
     return -exact if settings.scaling.invert else exact
-
-
-def _flag(value: bool) -> str:
-    return "TRUE" if value else "FALSE"
-
-
-def real(value: float) -> str:
-    """A number as LREAL literal."""
-    text = repr(float(value)).upper()
-    mantissa, exponent, power = text.partition("E")
-    if "." not in mantissa:
-        mantissa += ".0"
-    return mantissa + exponent + power

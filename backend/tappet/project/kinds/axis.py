@@ -10,10 +10,14 @@ from tappet.project.naming import name_key
 from tappet.project.object_kind import Compiled, Naming, ObjectKind, Placement, Renaming
 
 
-def _bus_task_renamed(data: AxisSettings, renaming: Renaming) -> AxisSettings:
-    if renaming.kind != "task" or name_key(renaming.old) != name_key(data.bus_task):
-        return data
-    return data.model_copy(update={"bus_task": renaming.new})
+def _renamed(data: AxisSettings, renaming: Renaming) -> AxisSettings:
+    """The bus task and the master follow their names."""
+    if renaming.kind == "task" and name_key(renaming.old) == name_key(data.bus_task):
+        return data.model_copy(update={"bus_task": renaming.new})
+    if renaming.kind == "axis" and name_key(renaming.old) == name_key(data.mirroring.master):
+        mirroring = data.mirroring.model_copy(update={"master": renaming.new})
+        return data.model_copy(update={"mirroring": mirroring})
+    return data
 
 
 AXIS = ObjectKind(
@@ -27,8 +31,10 @@ AXIS = ObjectKind(
     templates={
         "SM_Drive_Virtual": lambda name: AxisSettings(),
         "SM_Drive_Simulated": lambda name: AxisSettings(drive="SM_Drive_Simulated"),
+        "SM_Drive_PosControl": lambda name: AxisSettings(drive="SM_Drive_PosControl"),
+        "SM_Drive_Logical": lambda name: AxisSettings(drive="SM_Drive_Logical"),
     },
     compiled=Compiled(in_parent=True, variable_in=(VARIABLES, PANELS), variable_endings=("", DRIVE_ENDING)),
-    follow=_bus_task_renamed,
+    follow=_renamed,
     reported=True,
 )
