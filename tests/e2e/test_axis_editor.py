@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from .api import fetch
 from .conftest import Server
-from .workbench import implementation, log_in, open_object, open_project, tree_item
+from .workbench import implementation, log_in, objects_stored, open_object, open_project, tree_item
 
 pytestmark = pytest.mark.e2e
 
@@ -111,6 +111,61 @@ def test_an_axis_is_added_programmed_and_seen_moving(page: Page, server: Server,
             break
         page.wait_for_timeout(100)
     assert value("IoConfig_AxisPanels.Axis.eState") in ("0", "Free")
+
+
+def _add_drive(page: Page, server: Server, project: str, name: str, drive: str) -> None:
+    objects = fetch(page, server, "GET", f"{project}/objects")
+    pool = next((item for item in objects if item["kind"] == "axis_pool"), None)
+    if pool is None:
+        application = next(item for item in objects if item["kind"] == "application")
+        data = {"kind": "axis_pool", "parent_id": application["id"]}
+        pool = fetch(page, server, "POST", f"{project}/objects", data=data)
+    data = {"kind": "axis", "name": name, "subkind": drive, "parent_id": pool["id"]}
+    fetch(page, server, "POST", f"{project}/objects", data=data)
+    page.reload()
+    expect(tree_item(page, name)).to_be_visible()
+
+
+def test_a_drive_that_follows_a_speed_has_its_position_loop(page: Page, server: Server, project: str) -> None:
+    _add_drive(page, server, project, "Spindle", "SM_Drive_PosControl")
+    open_object(page, "Spindle")
+    panel = editor(page)
+    panel.get_by_role("tab", name="Position control").click()
+    gain = panel.get_by_label("Gain Kp")
+    gain.fill("-1")
+    gain.press("Tab")
+    expect(panel.get_by_text("must be 0 or a number above")).to_be_visible()
+    gain.fill("25")
+    panel.get_by_label("Dead time").fill("1.5")
+    panel.get_by_label("Dead time").press("Tab")
+    panel.get_by_label("Counter of the encoder").click()
+    with objects_stored(page):
+        page.get_by_role("option", name="16-bit").click()
+    control = stored(page, server, project, "Spindle")["data"]["position_control"]
+    assert (control["gain"], control["dead_time"], control["bits"]) == (25, 1.5, 16)
+    panel.get_by_role("tab", name="Information").click()
+    expect(panel.get_by_text("IoConfig_Globals.Spindle : AXIS_REF_POSCONTROL_SM3")).to_be_visible()
+
+
+def test_a_logical_axis_chooses_its_master(page: Page, server: Server, project: str) -> None:
+    _add_drive(page, server, project, "Feed", "SM_Drive_Virtual")
+    _add_drive(page, server, project, "Mirror", "SM_Drive_Logical")
+    open_object(page, "Mirror")
+    panel = editor(page)
+    expect(panel.get_by_role("tab", name="Scaling")).to_have_count(0)
+    expect(panel.get_by_text("Choose the axis that is mirrored")).to_be_visible()
+    panel.get_by_label("Mirrored axis").click()
+    with objects_stored(page):
+        page.get_by_role("option", name="Feed").click()
+    expect(panel.get_by_text("Choose the axis that is mirrored")).to_have_count(0)
+    panel.get_by_label("Velocity filter").fill("10")
+    panel.get_by_label("Velocity filter").press("Tab")
+    expect(panel.get_by_text("must be a whole number from 0 to 9")).to_be_visible()
+    panel.get_by_label("Velocity filter").fill("3")
+    with objects_stored(page):
+        panel.get_by_label("Velocity filter").press("Tab")
+    mirroring = stored(page, server, project, "Mirror")["data"]["mirroring"]
+    assert (mirroring["master"], mirroring["velocity_filter"]) == ("Feed", 3)
 
 
 def test_settings_are_checked_field_by_field(page: Page, server: Server, project: str) -> None:

@@ -10,14 +10,16 @@ import { Tabs } from '@/ui/Tabs';
 import { BasicPage } from './BasicPage';
 import { CommissioningPage } from './CommissioningPage';
 import { InformationPage } from './InformationPage';
+import { LogicalPage } from './LogicalPage';
 import { canStore } from './model';
 import { ParametersPage } from './ParametersPage';
+import { PositionControlPage } from './PositionControlPage';
 import { ScalingPage } from './ScalingPage';
 import { StatusPage } from './StatusPage';
 
 const AxisIcon = objectIcon('axis');
 
-/** The pages of an axis (devices.md, 14.2 and 14.3); while logged in the ones that show and move it are in front. */
+/** The pages of an axis (devices.md, 14.2 to 14.5); while logged in the ones that show and move it are in front. */
 export default function AxisEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
   const draft = useDraft(panelId, projectId, objectId, ofKind('axis'), canStore);
@@ -42,9 +44,18 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
       )}
     </FormPage>
   );
+  const drive = draft.data?.drive;
+  const settings =
+    drive === 'SM_Drive_Logical'
+      ? [{ id: 'basic', title: t('axis.page.logical'), content: form(LogicalPage) }]
+      : [
+          { id: 'basic', title: t('axis.page.basic'), content: form(BasicPage) },
+          { id: 'scaling', title: t('axis.page.scaling'), content: form(ScalingPage) },
+        ];
+  if (drive === 'SM_Drive_PosControl')
+    settings.push({ id: 'control', title: t('axis.page.control'), content: form(PositionControlPage) });
   const pages = [
-    { id: 'basic', title: t('axis.page.basic'), content: form(BasicPage) },
-    { id: 'scaling', title: t('axis.page.scaling'), content: form(ScalingPage) },
+    ...settings,
     {
       id: 'commissioning',
       title: t('axis.page.commissioning'),
@@ -55,7 +66,7 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
     {
       id: 'information',
       title: t('axis.page.information'),
-      content: <InformationPage name={name} drive={draft.data?.drive} />,
+      content: <InformationPage name={name} drive={drive} />,
     },
   ];
   return <Tabs pages={pages} initial="basic" />;

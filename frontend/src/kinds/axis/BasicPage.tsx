@@ -1,10 +1,11 @@
 import { useText } from '@/i18n';
-import { Checkbox, Field, Select } from '@/ui/Field';
+import { Field, Select } from '@/ui/Field';
 import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
+import { AxisTypeSection } from './AxisTypeSection';
 import { BusTaskField } from './BusTaskField';
-import { axisFaults, beyondDrive, hasDrive, LIMIT_NAMES, type AxisSettings, type FieldName } from './model';
+import { axisFaults, beyondDrive, LIMIT_NAMES, type AxisSettings, type FieldName } from './model';
 import { NumberCell, NumberField } from '@/editors/form/NumberField';
 
 export interface AxisPageProps {
@@ -23,8 +24,6 @@ export function BasicPage({ projectId, objectId, axis, disabled, change }: AxisP
   const t = useText();
   const faults = axisFaults(axis);
   const fault = (field: FieldName) => (faults[field] ? t(faults[field]) : null);
-  const limits = axis.software_limits;
-  const changeLimits = (changes: Partial<typeof limits>) => change({ software_limits: { ...limits, ...changes } });
   const beyond = beyondDrive(axis);
   const faultyLimits = LIMIT_NAMES.flatMap((name) =>
     (
@@ -36,73 +35,7 @@ export function BasicPage({ projectId, objectId, axis, disabled, change }: AxisP
   );
   return (
     <>
-      <Section title={t('axis.type')}>
-        <div className={form.fields}>
-          <Checkbox
-            checked={axis.virtual_mode || !hasDrive(axis)}
-            disabled={disabled || !hasDrive(axis)}
-            onChecked={(virtual_mode) => change({ virtual_mode })}
-          >
-            {t('axis.virtualMode')}
-          </Checkbox>
-          <Field row label={t('axis.axisType')}>
-            {(attributes) => (
-              <Select<AxisSettings['axis_type']>
-                {...attributes}
-                disabled={disabled}
-                value={axis.axis_type}
-                choices={[
-                  { value: 'modulo', text: t('axis.modulo') },
-                  { value: 'finite', text: t('axis.finite') },
-                ]}
-                onValue={(axis_type) => change({ axis_type })}
-              />
-            )}
-          </Field>
-          {axis.axis_type === 'modulo' ? (
-            <NumberField
-              label={t('axis.moduloValue')}
-              hint={t('axis.moduloHint')}
-              unit="u"
-              value={axis.modulo}
-              error={fault('modulo')}
-              disabled={disabled}
-              onValue={(modulo) => change({ modulo })}
-            />
-          ) : (
-            <>
-              <Checkbox checked={limits.enabled} disabled={disabled} onChecked={(enabled) => changeLimits({ enabled })}>
-                {t('axis.softwareLimits')}
-              </Checkbox>
-              <NumberField
-                label={t('axis.negative')}
-                unit="u"
-                value={limits.negative}
-                error={fault('negative')}
-                disabled={disabled || !limits.enabled}
-                onValue={(negative) => changeLimits({ negative })}
-              />
-              <NumberField
-                label={t('axis.positive')}
-                unit="u"
-                value={limits.positive}
-                error={fault('positive')}
-                disabled={disabled || !limits.enabled}
-                onValue={(positive) => changeLimits({ positive })}
-              />
-              <NumberField
-                label={t('axis.limitDeceleration')}
-                hint={t('axis.limitDecelerationHint')}
-                unit="u/s²"
-                value={limits.deceleration}
-                error={fault('limit_deceleration')}
-                disabled={disabled || !limits.enabled}
-                onValue={(deceleration) => changeLimits({ deceleration })}
-              />
-            </>
-          )}
-        </div>
-      </Section>
+      <AxisTypeSection axis={axis} disabled={disabled} change={change} />
       <Section title={t('axis.limits')}>
         <p className={form.note}>{t('axis.limitsText')}</p>
         <div className={styles.limits}>
@@ -166,7 +99,7 @@ export function BasicPage({ projectId, objectId, axis, disabled, change }: AxisP
             disabled={disabled}
             onValue={(stopping_distance) => change({ stopping_distance })}
           />
-          {hasDrive(axis) && (
+          {axis.drive === 'SM_Drive_Simulated' && (
             <NumberField
               label={t('axis.positionLag')}
               hint={t('axis.positionLagHint')}

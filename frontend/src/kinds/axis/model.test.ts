@@ -24,12 +24,42 @@ function axis(changes: Partial<AxisSettings> = {}): AxisSettings {
       units: 360,
       invert: false,
     },
+    position_control: {
+      dead_time: 2,
+      gain: 0,
+      bits: 32,
+      speed_from: 'velocity',
+      rated_velocity: 1000,
+      rated_raw: 32767,
+    },
+    mirroring: { master: '', reference: 'set', dead_time: 0, position_filter: 0, velocity_filter: 0 },
     bus_task: '',
     ...changes,
   };
 }
 
 const scaled = (changes: Partial<AxisSettings['scaling']>) => ({ ...axis().scaling, ...changes });
+
+describe('settings of a drive', () => {
+  it('of position control are refused field by field', () => {
+    const control = (changes: Partial<AxisSettings['position_control']>) =>
+      axisFaults(axis({ position_control: { ...axis().position_control, ...changes } }));
+    expect(control({ gain: -1 })).toEqual({ 'control.gain': 'axis.fault.notNegative' });
+    expect(control({ dead_time: 255 })).toEqual({ 'control.dead_time': 'axis.fault.deadTime' });
+    expect(control({ dead_time: 1.5 })).toEqual({});
+    expect(control({ rated_velocity: 0 })).toEqual({ 'control.rated_velocity': 'axis.fault.positive' });
+    expect(control({ rated_raw: 1.5 })).toEqual({ 'control.rated_raw': 'axis.fault.count' });
+  });
+
+  it('of a logical axis are refused field by field', () => {
+    const mirroring = (changes: Partial<AxisSettings['mirroring']>) =>
+      axisFaults(axis({ mirroring: { ...axis().mirroring, ...changes } }));
+    expect(mirroring({ dead_time: Number.NaN })).toEqual({ 'mirroring.dead_time': 'axis.fault.number' });
+    expect(mirroring({ position_filter: 10 })).toEqual({ 'mirroring.position_filter': 'axis.fault.filter' });
+    expect(mirroring({ velocity_filter: 0.5 })).toEqual({ 'mirroring.velocity_filter': 'axis.fault.filter' });
+    expect(mirroring({ velocity_filter: 9 })).toEqual({});
+  });
+});
 
 describe('settings of an axis', () => {
   it('are taken as they come', () => {

@@ -26,6 +26,13 @@ export type FieldName =
   | 'stopping_distance'
   | 'position_lag'
   | 'units'
+  | 'control.gain'
+  | 'control.dead_time'
+  | 'control.rated_velocity'
+  | 'control.rated_raw'
+  | 'mirroring.dead_time'
+  | 'mirroring.position_filter'
+  | 'mirroring.velocity_filter'
   | CountName
   | `dynamic.${LimitName}`
   | `drive.${LimitName}`;
@@ -33,6 +40,13 @@ export type FieldName =
 export type Faults = Partial<Record<FieldName, TextKey>>;
 
 const LARGEST_COUNT = 2 ** 31 - 1;
+/** Cycles of which the controller keeps set positions. */
+const LONGEST_DEAD_TIME = 254;
+const DEEPEST_FILTER = 9;
+
+function isWhole(value: number, least: number, most: number): boolean {
+  return Number.isInteger(value) && value >= least && value <= most;
+}
 
 /** What is wrong with settings, by field. */
 export function axisFaults(axis: AxisSettings): Faults {
@@ -57,16 +71,31 @@ export function axisFaults(axis: AxisSettings): Faults {
     positive(`drive.${name}`, axis.drive_limits[name]);
   }
   for (const name of COUNT_NAMES) {
-    const count = axis.scaling[name];
-    if (!Number.isInteger(count) || count < 1 || count > LARGEST_COUNT) faults[name] = 'axis.fault.count';
+    if (!isWhole(axis.scaling[name], 1, LARGEST_COUNT)) faults[name] = 'axis.fault.count';
   }
   positive('units', axis.scaling.units);
+  const control = axis.position_control;
+  notNegative('control.gain', control.gain);
+  if (!(control.dead_time >= 0 && control.dead_time <= LONGEST_DEAD_TIME)) {
+    faults['control.dead_time'] = 'axis.fault.deadTime';
+  }
+  positive('control.rated_velocity', control.rated_velocity);
+  if (!isWhole(control.rated_raw, 1, LARGEST_COUNT)) faults['control.rated_raw'] = 'axis.fault.count';
+  if (!Number.isFinite(axis.mirroring.dead_time)) faults['mirroring.dead_time'] = 'axis.fault.number';
+  for (const name of ['position_filter', 'velocity_filter'] as const) {
+    if (!isWhole(axis.mirroring[name], 0, DEEPEST_FILTER)) faults[`mirroring.${name}`] = 'axis.fault.filter';
+  }
   return faults;
 }
 
 /** Whether there is something behind the axis that has increments. */
 export function hasDrive(axis: AxisSettings): boolean {
-  return axis.drive !== 'SM_Drive_Virtual';
+  return axis.drive === 'SM_Drive_Simulated' || axis.drive === 'SM_Drive_PosControl';
+}
+
+/** Whether the axis mirrors another one. */
+export function isLogical(axis: AxisSettings): boolean {
+  return axis.drive === 'SM_Drive_Logical';
 }
 
 export function canStore(axis: AxisSettings): boolean {
