@@ -3,8 +3,7 @@ import { Checkbox, Field, Select } from '@/ui/Field';
 import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import { NumberField } from '@/editors/form/NumberField';
-import type { AxisPageProps } from './BasicPage';
-import { axisFaults, hasDrive, isLogical, type AxisSettings, type FieldName } from './model';
+import { axisFaults, type AxisPageProps, type AxisSettings, type FieldName, hasDrive, isLogical } from './model';
 
 /** Whether the axis is rotary or linear, with its period or its ends (AXIS-10 to AXIS-13, AXIS-31). */
 export function AxisTypeSection({ axis, disabled, change }: Pick<AxisPageProps, 'axis' | 'disabled' | 'change'>) {

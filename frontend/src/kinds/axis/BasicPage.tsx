@@ -5,16 +5,8 @@ import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { AxisTypeSection } from './AxisTypeSection';
 import { BusTaskField } from './BusTaskField';
-import { axisFaults, beyondDrive, LIMIT_NAMES, type AxisSettings, type FieldName } from './model';
+import { axisFaults, beyondDrive, LIMIT_NAMES, type AxisPageProps, type AxisSettings, type FieldName } from './model';
 import { NumberCell, NumberField } from '@/editors/form/NumberField';
-
-export interface AxisPageProps {
-  projectId: string;
-  objectId: string;
-  axis: AxisSettings;
-  disabled: boolean;
-  change: (changes: Partial<AxisSettings>) => void;
-}
 
 const RAMPS: readonly AxisSettings['ramp_type'][] = ['trapez', 'sin2', 'quadratic', 'quadratic_smooth'];
 const UNITS = { velocity: 'u/s', acceleration: 'u/s²', deceleration: 'u/s²', jerk: 'u/s³' } as const;

@@ -5,9 +5,8 @@ import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import { NumberField } from '@/editors/form/NumberField';
 import { AxisTypeSection } from './AxisTypeSection';
-import type { AxisPageProps } from './BasicPage';
 import { BusTaskField } from './BusTaskField';
-import { axisFaults, type AxisSettings, type FieldName } from './model';
+import { axisFaults, type AxisPageProps, type AxisSettings, type FieldName } from './model';
 
 type Mirroring = AxisSettings['mirroring'];
 

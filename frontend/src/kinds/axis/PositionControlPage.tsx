@@ -3,8 +3,7 @@ import { Field, Select } from '@/ui/Field';
 import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import { NumberField } from '@/editors/form/NumberField';
-import type { AxisPageProps } from './BasicPage';
-import { axisFaults, type AxisSettings, type FieldName } from './model';
+import { axisFaults, type AxisPageProps, type AxisSettings, type FieldName } from './model';
 
 type PositionControl = AxisSettings['position_control'];
 const BITS = ['16', '24', '32'] as const;

@@ -3,9 +3,16 @@ import { Checkbox } from '@/ui/Field';
 import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
-import type { AxisPageProps } from './BasicPage';
 import { numberText } from '@/editors/form/numbers';
-import { axisFaults, COUNT_NAMES, hasDrive, unitsPerIncrement, type CountName, type Scaling } from './model';
+import {
+  axisFaults,
+  type AxisPageProps,
+  COUNT_NAMES,
+  type CountName,
+  hasDrive,
+  type Scaling,
+  unitsPerIncrement,
+} from './model';
 import { NumberCell } from '@/editors/form/NumberField';
 
 /** From increments of the encoder to units of the application, with the arithmetic shown (devices.md, 14.3). */

@@ -6,6 +6,15 @@ export type AxisSettings = Schemas['AxisSettings'];
 export type Scaling = AxisSettings['scaling'];
 export type Limits = AxisSettings['dynamic_limits'];
 
+/** What a page of settings gets. */
+export interface AxisPageProps {
+  projectId: string;
+  objectId: string;
+  axis: AxisSettings;
+  disabled: boolean;
+  change: (changes: Partial<AxisSettings>) => void;
+}
+
 export const LIMIT_NAMES = ['velocity', 'acceleration', 'deceleration', 'jerk'] as const;
 export type LimitName = (typeof LIMIT_NAMES)[number];
 export const COUNT_NAMES = [
