@@ -18,6 +18,10 @@ def test_axes_are_measured_in_motion(ramp: int) -> None:
     assert len(axes.moving(NativeLoop(), ramp, 10)) == 3
 
 
+def test_axes_are_measured_with_their_drives() -> None:
+    axes.driven(NativeLoop(), 5)  # raises where the axis is not in motion
+
+
 def test_slaves_are_measured_in_gear() -> None:
     axes.coupled(NativeLoop(), axes.GEARS, 10)  # raises where the slave is not coupled
 

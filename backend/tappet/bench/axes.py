@@ -37,7 +37,7 @@ DISCRETE_MOTION, SYNCHRONIZED_MOTION = 4, 6
 RAMP_TYPES = ("trapez", "sin2", "quadratic", "quadratic_smooth")
 _HEAD = """PROGRAM Main
 VAR
-    Axis   : ARRAY [1..{axes}] OF SM3_Basic.AXIS_REF_VIRTUAL_SM3;
+    Axis   : ARRAY [1..{axes}] OF SM3_Basic.{kind};
     Power  : ARRAY [1..{axes}] OF SM3_Basic.MC_Power;
     i      : INT;
     xGo    : BOOL;
@@ -71,10 +71,10 @@ END_PROGRAM
 """
 
 
-def program(axes: int, variables: str, calls: str) -> str:
-    """A program with axes, `{axes}` in the parts being their number."""
+def program(axes: int, variables: str, calls: str, kind: str = "AXIS_REF_VIRTUAL_SM3") -> str:
+    """A program with axes of a type, `{axes}` in the parts being their number."""
     parts = {"variables": variables.format(axes=axes), "calls": calls.format(axes=axes)}
-    return _HEAD.format(axes=axes, **parts)
+    return _HEAD.format(axes=axes, kind=kind, **parts)
 
 
 MOVES = (
@@ -84,6 +84,18 @@ MOVES = (
         Deceleration := fRamp, Jerk := fJerk);
 END_FOR""",
 )
+SERVOS = (
+    MOVES[0] + "\n    Drive : ARRAY [1..{axes}] OF SM3_Basic.SimulatedDrive;",
+    """FOR i := 1 TO {axes} DO
+    Drive[i](stOut := Axis[i].out, fCycle := 0.001);
+    Axis[i].in := Drive[i].stIn;
+    Axis[i].iRatioTechUnitsNum := 360;
+    Axis[i].dwRatioTechUnitsDenom := 65536;
+END_FOR
+"""
+    + MOVES[1],
+)
+"""Each axis with a simulated drive, which computes its loops in 64 parts of a cycle."""
 GEARS = (
     "    Lead : SM3_Basic.MC_MoveVelocity;\n    Gear : ARRAY [1..{axes}] OF SM3_Basic.MC_GearIn;",
     """Lead(Axis := Axis[1], Execute := xGo, Velocity := 100.0, Acceleration := 1.0, Deceleration := 1.0);
@@ -155,6 +167,19 @@ def moving(loop: NativeLoop, ramp: int, axes: int = AXES) -> tuple[float, float,
         in_motion = _nanoseconds(loop, cycle, axes)
         _expect(runtime, "Main.Axis[1].nAxisState", DISCRETE_MOTION)
     return standing, in_motion, command
+
+
+def driven(loop: NativeLoop, axes: int = 100) -> float:
+    """Nanoseconds of an axis in motion with its simulated drive and a cycle."""
+    with running(program(axes, *SERVOS, "AXIS_REF_MAPPING_SM3")) as (runtime, cycle):
+        for name, value in (("fTarget", 1e6), ("fSpeed", 1e3), ("fRamp", 20.0), ("fJerk", 10.0)):
+            runtime.write(f"Main.{name}", value)
+        loop.seconds(cycle, 20)
+        runtime.write("Main.xGo", True)
+        loop.seconds(cycle, 20)
+        found = _nanoseconds(loop, cycle, axes)
+        _expect(runtime, "Main.Axis[1].nAxisState", DISCRETE_MOTION)
+    return found
 
 
 FAR, NEAR = (1000.0, 1010.0), (10.0, -10.0)
@@ -235,7 +260,7 @@ def project(axes: int = 100) -> Row:
 
 
 def run(only: Sequence[str] = ()) -> Report:
-    """All rows, or those of the parts that are named: moving, count, gears, cams, replan, build."""
+    """All rows, or those of the parts that are named: moving, count, drives, gears, cams, replan, build."""
     loop = NativeLoop()
     compiler = gcc_version()
     with scratch_directory() as scratch:
@@ -248,6 +273,15 @@ def run(only: Sequence[str] = ()) -> Report:
             "count": lambda: [
                 Row(f"moving, quadratic, {axes} axes", moving(loop, 2, axes)[1], evaluated, "ns")
                 for axes in (1, 10, 100, 10_000)
+            ],
+            "drives": lambda: [
+                Row(
+                    "moving with a simulated drive",
+                    driven(loop),
+                    evaluated,
+                    "ns",
+                    "its loops 64 times a cycle",
+                )
             ],
             "gears": lambda: [Row("slave of a gear", coupled(loop, GEARS), evaluated, "ns")],
             "cams": lambda: [
