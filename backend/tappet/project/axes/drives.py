@@ -15,6 +15,8 @@ LIBRARY = "SM3_Basic"
 """The library of all axes (AXIS-03, CAL-08)."""
 DRIVE_ENDING = "_Drive"
 """Behind the name of an axis: the variable that its drive is, where the drive is one."""
+_RATED_TORQUE = 1.27
+"""Of the simulated drive, in Nm: axis and drive tell each other parts of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +49,8 @@ def _simulated(settings: AxisSettings) -> str:
     increments = max(1, round(settings.scaling.increments / settings.scaling.motor_turns))
     return (
         f"{LIBRARY}.SimulatedDrive := "
-        f"(stSettings := (diIncrements := {increments}, diMaxLag := {increments}))"
+        f"(stSettings := (diIncrements := {increments}, diMaxLag := {increments}, "
+        f"fRatedTorque := {real(_RATED_TORQUE)}))"
     )
 
 
@@ -82,7 +85,10 @@ _DRIVES: dict[DriveType, Drive] = {
     "SM_Drive_Virtual": Drive("AXIS_REF_VIRTUAL_SM3"),
     "SM_Drive_Simulated": Drive(
         "AXIS_REF_MAPPING_SM3",
-        members=lambda settings: {"fMaxPositionLag": real(settings.position_lag)},
+        members=lambda settings: {
+            "fMaxPositionLag": real(settings.position_lag),
+            "fRatedTorque": real(_RATED_TORQUE),
+        },
         declared=_simulated,
         before="{axis}.in := {drive}.stIn;\n",
         behind="\n{drive}(stOut := {axis}.out, fCycle := {cycle});",
