@@ -44,7 +44,7 @@ def problem(answer: Any, status: int, kind: str) -> dict[str, Any]:
 
 def test_projects_begin_as_examples(admin: TestClient) -> None:
     examples = {item["name"]: item for item in admin.get(f"{API}/examples").json()}
-    assert {"bottling", "flying_shear", "pick_and_place", "rotary_knife"} <= examples.keys()
+    assert {"bottling", "flying_shear", "pick_and_place", "rotary_knife", "winder"} <= examples.keys()
     assert all(item["title"] and item["description"] for item in examples.values())
     made = admin.post(f"{API}/projects", json={"name": "Mine", "example": "flying_shear"}).json()
     assert (made["name"], made["description"]) == ("Mine", examples["flying_shear"]["description"])
