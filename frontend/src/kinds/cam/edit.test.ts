@@ -107,7 +107,7 @@ describe('a typed value', () => {
 });
 
 describe('properties', () => {
-  it('list all of an element, and what is computed is not to be changed', () => {
+  it('list all of an element, and what is computed is not to be changed (CAM-60, CAM-64)', () => {
     const point = propertiesOf(editOf(DEFAULT_CAM), { kind: 'point', index: 1 }, t);
     expect(point.map(({ id, set }) => [id, set !== undefined])).toEqual([
       ['x', true],
@@ -120,7 +120,7 @@ describe('properties', () => {
     expect(segment.filter(({ set }) => set).map(({ id }) => id)).toEqual(['law']);
   });
 
-  it('change what they are about', () => {
+  it('change what they are about (CAM-63)', () => {
     const edit = editOf(DEFAULT_CAM);
     const tappet: Selected = { kind: 'tappet', track: 0, index: 1 };
     const of = (id: string) => propertiesOf(edit, tappet, t).find((one) => one.id === id)!;
@@ -138,7 +138,7 @@ describe('properties', () => {
     expect(all.some(({ set }) => set)).toBe(false);
   });
 
-  it('are sorted by type or name, both ways', () => {
+  it('are sorted by type or name, both ways (CAM-61)', () => {
     const all = propertiesOf(editOf(DEFAULT_CAM), { kind: 'segment', index: 0 }, t);
     expect(ordered(all, 'type', true)[0]!.group).toBe('computed');
     const titles = ordered(all, 'name', false).map(({ title }) => title);

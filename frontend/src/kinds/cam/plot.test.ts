@@ -79,7 +79,7 @@ describe('the range of a graph', () => {
     segments: [{ x: [0, 1], y: [-5, 3], v: [2, 2], a: [0, 0], j: [7, 7] }],
   } as unknown as CamDrawing;
 
-  it('is that of the properties for the position, and holds the curve', () => {
+  it('is that of the properties for the position, and holds the curve (CAM-33)', () => {
     const shown = valueRange(DEFAULT_CAM, drawing, 'y');
     expect(shown.min).toBeLessThan(-5);
     expect(shown.max).toBeGreaterThan(360);
