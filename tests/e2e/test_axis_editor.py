@@ -166,6 +166,12 @@ def test_a_logical_axis_chooses_its_master(page: Page, server: Server, project: 
         panel.get_by_label("Velocity filter").press("Tab")
     mirroring = stored(page, server, project, "Mirror")["data"]["mirroring"]
     assert (mirroring["master"], mirroring["velocity_filter"]) == ("Feed", 3)
+    log_in(page)
+    panel.get_by_role("tab", name="Commissioning").click()
+    diagram = panel.get_by_role("img", name=re.compile("State diagram"))
+    expect(diagram).to_have_attribute("data-state", "synchronized_motion")
+    expect(panel.get_by_text("A logical axis moves as its master does")).to_be_visible()
+    expect(panel.get_by_role("button", name="Take control")).to_have_count(0)
 
 
 def test_settings_are_checked_field_by_field(page: Page, server: Server, project: str) -> None:

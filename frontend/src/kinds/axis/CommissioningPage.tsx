@@ -11,7 +11,7 @@ import styles from './Axis.module.css';
 import { ControlSection } from './ControlSection';
 import { ErrorBox } from './ErrorBox';
 import { axisPath, panelPath, useExists, useShown } from './live';
-import type { AxisSettings } from './model';
+import { isLogical, type AxisSettings } from './model';
 import { NotLoggedIn } from './NotLoggedIn';
 import { StateDiagram } from './StateDiagram';
 import { Fact } from './StatusPage';
@@ -97,7 +97,11 @@ function Commissioning({ session, name, settings }: { session: OnlineSession; na
               </Facts>
             </Section>
           </div>
-          <ControlSection session={session} name={name} settings={settings} />
+          {isLogical(settings) ? (
+            <p className={form.note}>{t('axis.logical.noControl')}</p>
+          ) : (
+            <ControlSection session={session} name={name} settings={settings} />
+          )}
         </div>
       </div>
     </div>
