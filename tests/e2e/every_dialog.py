@@ -409,11 +409,15 @@ def cams(ui: Ui, server: Server) -> Iterator[str]:
         fetch(page, server, "DELETE", f"{project}/objects/{made['id']}")
 
 
-@tour("axis.forceTitle")
+@tour("axis.forceTitle", "cam.writeRunning")
 def axes(ui: Ui, server: Server) -> Iterator[str]:
-    """What is asked before an axis is taken from its program."""
+    """What is asked before an axis is taken from its program, and before a cam is written to it."""
     page = ui.page
-    fetch(page, server, "POST", "/projects", data={"name": "M1", "template": "motion"})
+    made = fetch(page, server, "POST", "/projects", data={"name": "M1", "template": "motion"})
+    objects = fetch(page, server, "GET", f"/projects/{made['id']}/objects")
+    application = next(one for one in objects if one["kind"] == "application")
+    cam = {"kind": "cam", "name": "Lift", "parent_id": application["id"]}
+    fetch(page, server, "POST", f"/projects/{made['id']}/objects", data=cam)
     ui.command("command.closeProject")
     expect(page.get_by_role("button", name=ui.name("command.newProject")).first).to_be_visible()
     page.reload()
@@ -424,6 +428,11 @@ def axes(ui: Ui, server: Server) -> Iterator[str]:
     ui.panel().get_by_role("tab", name=ui.text("axis.page.commissioning")).click()
     ui.panel().get_by_role("button", name=ui.text("axis.take"), exact=True).click()
     yield "axis.forceTitle"
+    page.keyboard.press("Escape")
+    open_object(page, "Lift")
+    ui.button("cam.menu", ui.panel()).click()
+    page.get_by_role("menuitem", name=ui.name("cam.writeRunning")).click()
+    yield "cam.writeRunning"
 
 
 @tour(
