@@ -12,8 +12,9 @@ from tappet.project.cams.variables import BY_TYPE, ELEMENTS, Row, is_table, vari
 LIBRARY = "SM3_Basic"
 VARIABLES = "IoConfig_{name}"
 """The list of global variables that a cam is; each has its own, so that an online change moves no other."""
+LIST_VARIABLES = "IoConfig_CamList"
 LIST = "_SMC_CAM_LIST"
-"""Pointers to all cams of an application."""
+"""Pointers to all cams of an application, in a list of variables of its own."""
 _LONGEST_NAME = 80
 """Characters of strCAMName."""
 _LREAL = 6

@@ -45,14 +45,14 @@ def _same(one: CamPoint, other: CamPoint, width: float) -> bool:
     return abs(one.v - other.v) <= _EQUAL * size_v and abs(one.a - other.a) <= _EQUAL * size_a
 
 
+def equal_steps(first: float, last: float, count: int) -> list[float]:
+    """So many positions of the master at equal distances, both ends among them."""
+    return [first + (last - first) * number / (count - 1) for number in range(count - 1)] + [last]
+
+
 def equidistant(cam: CamTable, count: int) -> list[tuple[float, float]]:
     """Master and slave at so many equal distances of the master, both ends among them."""
-    first, last = cam.domain
-    found = []
-    for number in range(count):
-        x = last if number == count - 1 else first + (last - first) * number / (count - 1)
-        found.append((x, value_at(cam, x).y))
-    return found
+    return [(x, value_at(cam, x).y) for x in equal_steps(*cam.domain, count)]
 
 
 def by_bend(cam: CamTable, count: int) -> list[tuple[float, float]]:

@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import Any
 
 from tappet.project.cams.checks import findings
+from tappet.project.cams.elements import equal_steps
 from tappet.project.cams.pieces import Piece, joined, points_of
 from tappet.project.cams.table import (
     FARTHEST,
@@ -244,7 +245,6 @@ def _table(running: RunningCam, count: int) -> Curve:
     limits = [name for name in table if name.startswith("fEditor")]
     if count != running.room or any(table[name] != table[f"fTable{name[7:]}"] for name in limits):
         raise CamTextError(1, "the program has changed the size or the ranges of the table")
-    first, last = running.cam["xStart"], running.cam["xEnd"]
     if running.format == "two_dimensional":
         places = [(x, y) for x, y in table["Table"]]
         for number, (left, right) in enumerate(pairwise(places), 2):
@@ -253,9 +253,8 @@ def _table(running: RunningCam, count: int) -> Curve:
                     number, f"{number_text(right[0])} does not lie behind {number_text(left[0])}"
                 )
     else:
-        width = last - first
-        places = [(first + width * n / (count - 1), y) for n, y in enumerate(table["Table"])]
-        places[-1] = (last, places[-1][1])
+        steps = equal_steps(running.cam["xStart"], running.cam["xEnd"], count)
+        places = list(zip(steps, table["Table"], strict=True))
     cubic = running.cam["byInterpolationQuality"] == 3
     slopes = _slopes(places) if cubic else [0.0] * count
     law: Law = "poly3" if cubic else "line"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND
 from tappet.project.cams.checks import findings
-from tappet.project.cams.code import VARIABLES, cam_list, declarations
+from tappet.project.cams.code import LIST_VARIABLES, VARIABLES, cam_list, declarations
 from tappet.project.cams.table import CamTable
 from tappet.project.model import Project, ProjectObject
 from tappet.project.object_kind import CODE_PLACES, Compiled, JsonFile, Naming, ObjectKind, Placement
@@ -30,7 +30,7 @@ def _source(project: Project, item: ProjectObject, writer: SourceWriter) -> None
 
 def _list(project: Project, cams: Sequence[ProjectObject], writer: SourceWriter) -> None:
     """Pointers to all cams."""
-    writer.name = "IoConfig_CamList"
+    writer.name = LIST_VARIABLES
     writer.keyword(f"{NOT_WRITTEN_BY_HAND}\nVAR_GLOBAL")
     writer.part(cams[0].id, "declaration", cam_list([item.name for item in cams]))
     writer.keyword("END_VAR")

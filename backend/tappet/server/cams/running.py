@@ -8,7 +8,7 @@ from typing import Any, cast
 from tappet.codegen import values
 from tappet.codegen.symbol_map import SymbolError, VarRef
 from tappet.codegen.symbol_types import TypeInfo
-from tappet.project.cams.code import VARIABLES
+from tappet.project.cams.code import LIST, LIST_VARIABLES, VARIABLES
 from tappet.project.cams.running import RunningCam
 from tappet.project.cams.table import CompileFormat
 from tappet.project.cams.variables import ELEMENTS, CamVariables
@@ -16,14 +16,11 @@ from tappet.runtime.operations.values import Read, Write
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 
-LIST = "IoConfig_CamList._SMC_CAM_LIST"
-
 
 class CamOfApplication:
-    """One cam of the application that is loaded in a runtime."""
+    """One cam of the application that is loaded in a runtime, as it was when it was read."""
 
     def __init__(self, link: RuntimeLink, name: str) -> None:
-        """Raises problems: 404 when the application has no such cam, 409 and 503 of the runtime."""
         self._link = link
         self._name = name
         self._symbols = link.loaded_symbols()
@@ -34,27 +31,38 @@ class CamOfApplication:
             raise Problem(404, "not-found", text)
         self._cam, self._elements = cam, elements
         self._tappets = self._found(f"{path}_T")
-        self._list = self._found(LIST)
+        self._list = self._found(f"{LIST_VARIABLES}.{LIST}")
+        self._bytes: dict[str, bytes] = {}
 
-    async def read(self) -> RunningCam:
-        """All of it at one moment."""
-        refs = [ref for ref in (self._cam, self._elements, self._list, self._tappets) if ref is not None]
-        read = dict(zip((ref.path for ref in refs), await self._bytes(refs), strict=True))
-        cam = self._value(self._cam, read)
-        self._check_place(cam, self._value(self._list, read) if self._list is not None else [])
-        tappets = self._value(self._tappets, read) if self._tappets is not None else []
-        elements = self._value(self._elements, read)
+    @classmethod
+    async def read(cls, link: RuntimeLink, name: str) -> CamOfApplication:
+        """All of it at one moment.
+
+        Raises problems: 404 when the application has no such cam, 409 when its elements are elsewhere, and
+        those of the runtime.
+        """
+        cam = cls(link, name)
+        refs = [ref for ref in (cam._cam, cam._elements, cam._list, cam._tappets) if ref is not None]
+        async with link.client() as client:
+            read = await client.call(Read([(ref.offset, ref.size) for ref in refs]))
+        cam._bytes = dict(zip((ref.path for ref in refs), read, strict=True))
+        cam._check_place()
+        return cam
+
+    def variables(self) -> RunningCam:
+        """Its values."""
+        tappets = self._value(self._tappets) if self._tappets is not None else []
+        elements = self._value(self._elements)
         found = elements if isinstance(elements, list) else [elements]
         format, room = self._format(self._elements.type)
-        return RunningCam(format, room, len(tappets), cam, found, tappets)
+        return RunningCam(format, room, len(tappets), self._value(self._cam), found, tappets)
 
     async def write(self, new: CamVariables, begin: Callable[[], Awaitable[None]]) -> None:
         """Stores everything at the beginning of one cycle; `begin` is called right before."""
-        refs = [ref for ref in (self._elements, self._tappets) if ref is not None]
-        arrays = await self._bytes(refs)
         orders: list[tuple[int, bytes, int | None]] = [
-            (ref.offset, self._changed(ref, data, rows), None)
-            for ref, data, rows in zip(refs, arrays, (new.elements, new.tappets), strict=False)
+            (ref.offset, self._changed(ref, rows), None)
+            for ref, rows in ((self._elements, new.elements), (self._tappets, new.tappets))
+            if ref is not None
         ]
         for member in self._cam.type.members:
             if member.name in new.cam:
@@ -73,17 +81,13 @@ class CamOfApplication:
         except SymbolError:
             return None
 
-    async def _bytes(self, refs: Sequence[VarRef]) -> list[bytes]:
-        async with self._link.client() as client:
-            return await client.call(Read([(ref.offset, ref.size) for ref in refs]))
+    def _value(self, ref: VarRef) -> Any:
+        return self._symbols.decode(ref, self._bytes[ref.path])
 
-    def _value(self, ref: VarRef, read: Mapping[str, bytes]) -> Any:
-        return self._symbols.decode(ref, read[ref.path])
-
-    def _check_place(self, cam: Mapping[str, Any], cams: Sequence[int]) -> None:
+    def _check_place(self) -> None:
         """The list of all cams says where this one lies, and so where its elements are."""
-        wanted = cam["pce"] - self._elements.offset + self._cam.offset
-        if wanted not in cams:
+        cams = self._value(self._list) if self._list is not None else []
+        if self._value(self._cam)["pce"] - self._elements.offset + self._cam.offset not in cams:
             text = (
                 f"The program has made '{self._name}' point to other elements than those that were compiled; "
                 "the editor reads and writes only its own."
@@ -100,11 +104,11 @@ class CamOfApplication:
         size, columns = info.name.split("_")[-2:]
         return ("two_dimensional" if columns == "2" else "one_dimensional"), int(size)
 
-    def _changed(self, ref: VarRef, data: bytes, rows: Sequence[Mapping[str, Any]]) -> bytes:
+    def _changed(self, ref: VarRef, rows: Sequence[Mapping[str, Any]]) -> bytes:
         """An array of structures, or one structure, with other members in its first rows."""
         types = self._symbols.types
         element = types[ref.type.elem] if ref.type.kind == "array" and ref.type.elem is not None else ref.type
-        changed = bytearray(data)
+        changed = bytearray(self._bytes[ref.path])
         for number, row in enumerate(rows):
             for member in element.members:
                 if member.name in row:

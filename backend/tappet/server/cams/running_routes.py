@@ -28,7 +28,7 @@ async def read_running_cam(
 
     What the editor cannot show is the problem `running-cam`, with the number of the element.
     """
-    found = await CamOfApplication(link, name).read()
+    found = (await CamOfApplication.read(link, name)).variables()
     try:
         cam = await run_in_threadpool(running.read_back, name, found, body.cam)
     except RunningCamError as error:
@@ -48,8 +48,8 @@ async def write_running_cam(
     There is room for as many elements and tappets as were compiled; a cam with more is the problem
     `running-cam`.
     """
-    application = CamOfApplication(link, name)
-    found = await application.read()
+    application = await CamOfApplication.read(link, name)
+    found = application.variables()
     try:
         values = await run_in_threadpool(running.to_write, name, found, body.cam)
     except RunningCamError as error:
