@@ -63,7 +63,6 @@ def _position_controlled(settings: AxisSettings) -> dict[str, str]:
         "fRatedVelocity": real(control.rated_velocity),
         "diRatedRaw": str(control.rated_raw),
         "bSpeedFromPosition": flag(control.speed_from == "position"),
-        "fMaxPositionLag": real(settings.position_lag),
         "bHWLimitEnable": flag(settings.axis_type == "finite"),
     }
 
@@ -85,10 +84,7 @@ _DRIVES: dict[DriveType, Drive] = {
     "SM_Drive_Virtual": Drive("AXIS_REF_VIRTUAL_SM3"),
     "SM_Drive_Simulated": Drive(
         "AXIS_REF_MAPPING_SM3",
-        members=lambda settings: {
-            "fMaxPositionLag": real(settings.position_lag),
-            "fRatedTorque": real(_RATED_TORQUE),
-        },
+        members=lambda settings: {"fRatedTorque": real(_RATED_TORQUE)},
         declared=_simulated,
         before="{axis}.in := {drive}.stIn;\n",
         behind="\n{drive}(stOut := {axis}.out, fCycle := {cycle});",

@@ -54,6 +54,7 @@ def initial_values(settings: AxisSettings) -> dict[str, str]:
         "iRatioTechUnitsNum": str(ratio.numerator),
         "dwRatioTechUnitsDenom": str(ratio.denominator),
         "fScalefactor": real(float(1 / _signed(settings))),
+        **({"fMaxPositionLag": real(settings.position_lag)} if settings.has_drive else {}),
         **drive_of(settings).members(settings),
     }
 
