@@ -137,3 +137,14 @@ def test_commands_of_the_cam_are_in_the_palette(page: Page, panel: Locator) -> N
     page.keyboard.press("Control+Shift+P")
     page.get_by_role("combobox").last.fill("Show Generated Code")
     expect(page.get_by_role("option").filter(has_text="Show Generated Code")).to_have_count(0)
+
+
+def test_who_logs_in_again_agrees_again_to_change_the_project(page: Page, panel: Locator) -> None:
+    bar = panel.get_by_role("group", name="The cam in the application")
+    edit = bar.get_by_role("button", name="Edit")
+    edit.click()
+    expect(edit).to_have_attribute("aria-pressed", "true")
+    page.keyboard.press("Control+F8")
+    expect(bar).to_have_count(0)
+    log_in(page)
+    expect(edit).to_have_attribute("aria-pressed", "false")

@@ -66,6 +66,11 @@ export function answerEdit(objectId: string, agreed: boolean): void {
   }
 }
 
+/** The object is edited from now on: the user has agreed without being asked. */
+export function unlockEdit(objectId: string): void {
+  useOnlineEdit.setState(({ unlocked }) => ({ unlocked: new Set([...unlocked, objectId]) }));
+}
+
 /** Logged out: nothing is locked and nothing is asked any more; what was kept is entered. */
 export function endOnlineEdit(objectId: string): void {
   answerEdit(objectId, true);

@@ -5,7 +5,15 @@ import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { AxisTypeSection } from './AxisTypeSection';
 import { BusTaskField } from './BusTaskField';
-import { axisFaults, beyondDrive, LIMIT_NAMES, type AxisPageProps, type AxisSettings, type FieldName } from './model';
+import {
+  axisFaults,
+  beyondDrive,
+  hasDrive,
+  LIMIT_NAMES,
+  type AxisPageProps,
+  type AxisSettings,
+  type FieldName,
+} from './model';
 import { NumberCell, NumberField } from '@/editors/form/NumberField';
 
 const RAMPS: readonly AxisSettings['ramp_type'][] = ['trapez', 'sin2', 'quadratic', 'quadratic_smooth'];
@@ -91,7 +99,7 @@ export function BasicPage({ projectId, objectId, axis, disabled, change }: AxisP
             disabled={disabled}
             onValue={(stopping_distance) => change({ stopping_distance })}
           />
-          {axis.drive === 'SM_Drive_Simulated' && (
+          {hasDrive(axis) && (
             <NumberField
               label={t('axis.positionLag')}
               hint={t('axis.positionLagHint')}

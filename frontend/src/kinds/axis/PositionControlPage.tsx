@@ -52,15 +52,6 @@ export function PositionControlPage({ axis, disabled, change }: AxisPageProps) {
               />
             )}
           </Field>
-          <NumberField
-            label={t('axis.positionLag')}
-            hint={t('axis.positionLagHint')}
-            unit="u"
-            value={axis.position_lag}
-            error={fault('position_lag')}
-            disabled={disabled}
-            onValue={(position_lag) => change({ position_lag })}
-          />
         </div>
       </Section>
       <Section title={t('axis.control.drive')}>

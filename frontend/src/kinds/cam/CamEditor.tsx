@@ -4,6 +4,7 @@ import { useObject } from '@/api/queries';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/project/editorProps';
 import { useDraft } from '@/editors/form/useDraft';
+import { endOnlineEdit, unlockEdit, useOnlineEdit } from '@/editors/text/onlineEdit';
 import { useObjectSession } from '@/online/useObjectSession';
 import { Failed, Loading } from '@/ui/Empty';
 import { Tabs } from '@/ui/Tabs';
@@ -33,9 +34,12 @@ const always = () => true;
 /** A cam: its four curves, its tappets, tables of both, and its properties (cam.md, sections 2 to 9). */
 export default function CamEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
-  const [unlocked, setUnlocked] = useState(false);
   const { data: object } = useObject(projectId, objectId, ofKind('cam'));
   const session = useObjectSession(projectId, object);
+  const unlocked = useOnlineEdit((state) => state.unlocked.has(objectId));
+  useEffect(() => {
+    if (session === null && unlocked) endOnlineEdit(objectId);
+  }, [session, unlocked, objectId]);
   // While logged in one agrees to change the project beside the application, as with texts.
   const mayChange = session !== null && unlocked ? mayChangeText : mayEdit;
   const scene = useRef<CamScene | null>(null);
@@ -103,14 +107,14 @@ export default function CamEditor({ panelId, projectId, objectId }: EditorProps)
         drawn={drawn}
         fit={tools === 'points' && layout.window !== null ? () => setLayout({ ...layout, window: null }) : null}
       />
-      {session && (
+      {session && draft.data && (
         <RunningBar
           session={session}
           name={name}
-          cam={edit.cam}
+          cam={draft.data}
           followers={followers}
           editing={unlocked}
-          onEdit={() => setUnlocked(!unlocked)}
+          onEdit={() => (unlocked ? endOnlineEdit : unlockEdit)(objectId)}
           forbidden={forbidden}
         />
       )}

@@ -21,6 +21,7 @@ import {
   snapped,
   snapStep,
   ticks,
+  valueOnCurve,
   valueRange,
   zoomed,
 } from './plot';
@@ -276,12 +277,14 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
           {edit.running && (
             <RunMarks
               {...edit.running}
-              drawing={drawing}
-              graph={graph}
               window={window}
-              values={values}
               width={plot.width}
               height={plot.height}
+              down={(x, y) => {
+                // The slave is where the application has it; derivatives are those of the curve that is shown.
+                const value = graph === 'y' ? y : drawing && valueOnCurve(drawing, graph, x);
+                return value === null ? null : py(value);
+              }}
             />
           )}
         </g>

@@ -16,6 +16,7 @@ const MOST_SHOWN = 3;
 interface RunningBarProps {
   session: OnlineSession;
   name: string;
+  /** That of the project, without what is being dragged. */
   cam: CamTable;
   followers: readonly string[];
   /** The cam may be changed while the application runs. */
@@ -58,7 +59,7 @@ export function RunningBar({ session, name, cam, followers, editing, onEdit, for
         </Button>
         <Button
           icon={Download}
-          disabledReason={running.data?.same === false ? null : t('cam.nothingToWrite')}
+          disabledReason={running.data?.same === true ? t('cam.nothingToWrite') : null}
           onClick={() => void runCommand('cam.writeRunning')}
         >
           {t('cam.write')}

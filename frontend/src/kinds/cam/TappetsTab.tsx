@@ -22,7 +22,7 @@ import {
 } from './tappets';
 import { TappetSign, type SignSide } from './TappetSign';
 import { onRanges } from './tappetBit';
-import { RunLines } from './RunMarks';
+import { RunMarks } from './RunMarks';
 import { useSize } from './useSize';
 
 const HEIGHT = 56;
@@ -220,7 +220,7 @@ function Track({ edit, track, window, tool, onTool }: TrackProps) {
           {onRanges(item.tappets, window).map(([from, to]) => (
             <line key={from} className={styles.bitOn} x1={px(from)} x2={px(to)} y1={MIDDLE + 20} y2={MIDDLE + 20} />
           ))}
-          {edit.running && <RunLines {...edit.running} window={window} width={plot} height={HEIGHT} />}
+          {edit.running && <RunMarks {...edit.running} window={window} width={plot} height={HEIGHT} />}
           {item.tappets.map((tappet, index) => (
             <TappetSign
               key={index}

@@ -76,15 +76,14 @@ export function useFollowers(session: OnlineSession | null, name: string): reado
   return useMemo(() => (lines === '' ? NONE : lines.split('\n')), [lines]);
 }
 
-/** What the application has instead of the cam of the editor; null while that is not known. */
-export function useRunningCam(session: OnlineSession | null, name: string, shown: CamTable | undefined) {
-  const runtimeId = session?.runtimeId ?? null;
+/** Whether the application has the cam of the editor; without an answer as long as that is not known. */
+export function useRunningCam(session: OnlineSession, name: string, shown: CamTable) {
+  const { runtimeId } = session;
   return useQuery({
-    queryKey: ['running-cam', runtimeId, session?.runtime?.code_id ?? null, name, shown],
-    queryFn: () => readCam(runtimeId!, name, shown!),
-    enabled: runtimeId !== null && shown !== undefined && session?.lostSince === null,
+    queryKey: ['running-cam', runtimeId, session.runtime?.code_id ?? null, name, shown],
+    queryFn: () => readCam(runtimeId, name, shown),
+    enabled: session.lostSince === null,
     refetchInterval: LOOK_MS,
-    placeholderData: (before: Schemas['RunningCamAnswer'] | undefined) => before,
     retry: false,
     gcTime: 0,
   });

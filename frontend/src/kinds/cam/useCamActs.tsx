@@ -38,23 +38,13 @@ const RUN: Readonly<Record<CamActId, (scene: CamScene) => void>> = {
 /** The acts of the cam that is shown, as commands find them: the same object until what is possible changes. */
 export function useCamActs(latest: RefObject<CamScene | null>, online: boolean, allowed: Enablement): Handlers {
   return useMemo(() => {
-    const possible: Readonly<Record<'editing' | 'application' | 'none', Enablement>> = {
-      editing: allowed,
-      application: online ? true : 'reason.notLoggedIn',
-      none: true,
-    };
+    const possible = { editing: allowed, application: online ? true : 'reason.notLoggedIn' } as const;
     return Object.fromEntries(
       CAM_ACTS.map(({ id, needs }) => {
-        const enabled = id === 'cam.readRunning' && online ? allowed : possible[needs ?? 'none'];
-        return [
-          id,
-          {
-            run: () => {
-              if (latest.current) RUN[id](latest.current);
-            },
-            enabled,
-          },
-        ];
+        const run = () => {
+          if (latest.current) RUN[id](latest.current);
+        };
+        return [id, { run, enabled: needs.map((need) => possible[need]).find((one) => one !== true) ?? true }];
       }),
     );
   }, [latest, allowed, online]);
