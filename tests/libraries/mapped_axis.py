@@ -49,6 +49,7 @@ END_VAR
 wStatus := Drive.wStatusWord;
 IF byMode = 6 THEN
     wStatus.12 := iHoming >= 20;
+    wStatus.10 := iHoming >= 20;
 END_IF
 Axis.in.wStatusWord := wStatus;
 Axis.in.byModesOfOperationDisplay := byMode;

@@ -212,6 +212,8 @@ def test_an_axis_moves_by_the_drive() -> None:
         (18, "diPositiveLimit := 90000, ", 90000 / 65536),
         (33, "", 0.0),
         (34, "", 1.0),
+        (2, "diPositiveLimit := 90000, ", 1.0),
+        (23, "diHomeFrom := 50000, diHomeTo := 60000, ", 50000 / 65536),
     ],
 )
 def test_the_drive_homes_by_switch_pulse_or_where_it_is(method: int, settings: str, home: float) -> None:
@@ -220,9 +222,27 @@ def test_the_drive_homes_by_switch_pulse_or_where_it_is(method: int, settings: s
     with drive(text, WITH_AXIS) as program:
         cycles(program, 20)
         program.set("Main.Home", Execute=True, Position=7.0)
-        cycles(program, 1500)
+        cycles(program, 2000)
         assert program.literal("Main.Home.Done") == "TRUE"
         assert program.literal("Main.Axis.nAxisState") == "standstill"
         turns = number(program, "Drive.fAngle") / (2 * math.pi)
-        tolerance = 1e-3 if method in (33, 34, 37) else 2 * 10.0 * CYCLE / (2 * math.pi)
-        assert number(program, "Axis.fActPosition") == pytest.approx(7.0 + turns - home, abs=tolerance)
+        assert number(program, "Axis.fActPosition") == pytest.approx(7.0 + turns - home, abs=1e-4)
+
+
+def test_an_axis_whose_home_switch_is_missing_fails_and_does_not_jump() -> None:
+    limits = "diNegativeLimit := -60000, diPositiveLimit := 60000, iHomingMethod := 23, diMaxLag := 2000"
+    with drive(limits, WITH_AXIS) as program:
+        cycles(program, 20)
+        program.set("Main.Home", Execute=True, Position=7.0)
+        places = []
+        for _ in range(3000):
+            program.cycle()
+            places.append(number(program, "Drive.fAngle"))
+        assert program.literal("Main.Home.ErrorID") == "SMC_DI_HOMING_ERROR"
+        assert program.literal("Main.Axis.nAxisState") == "errorstop"
+        assert np.abs(np.diff(places)).max() < 1.15 * 10.0 * CYCLE
+        program.set("Main.Home", Execute=False)
+        program.set("Main.Reset", Execute=True)
+        cycles(program, 30)
+        assert program.literal("Main.Axis.nAxisState") == "standstill", "the drive itself had no fault"
+        assert number(program, "Drive.fAngle") == pytest.approx(places[-1], abs=0.001)
