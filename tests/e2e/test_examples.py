@@ -6,10 +6,10 @@ import os
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
-from .conftest import Server
-from .workbench import log_in, open_object, tree_item
+from .conftest import Server, new_profile, start_page
+from .workbench import log_in, open_object, status_bar, tree_item
 
 pytestmark = pytest.mark.e2e
 
@@ -41,18 +41,38 @@ def test_an_example_begins_from_the_start_page_and_runs(page: Page) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("name", sorted(MACHINES))
-def test_machines_move_in_3d(page: Page, server: Server, name: str) -> None:
+def test_machines_move_in_3d(browser: Browser, server: Server, name: str, theme: str) -> None:
+    """The picture changes while the machine runs, and stands still when it is stopped."""
     folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
     folder.mkdir(parents=True, exist_ok=True)
     title, scene = MACHINES[name]
-    _begin(page, title)
-    log_in(page)
-    open_object(page, scene)
-    frame = page.frame_locator("[data-testid=scene-view]")
-    expect(frame.locator("canvas").first).to_be_visible()
-    remark = frame.locator(".mantine-Notification-closeButton")
-    if remark.count():  # without a graphics card the 3D library says that it is slow
-        remark.first.click()
-    page.wait_for_timeout(15_000)
-    page.screenshot(path=folder / f"example-{name}.png", timeout=60_000)
+    with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
+        _begin(page, title)
+        log_in(page)
+        open_object(page, scene)
+        frame = page.frame_locator("[data-testid=scene-view]")
+        canvas = frame.locator("canvas").first
+        expect(canvas).to_be_visible()
+        remark = frame.locator(".mantine-Notification-closeButton")
+        if remark.count():  # without a graphics card the 3D library says that it is slow
+            remark.first.click()
+        page.wait_for_timeout(15_000)
+        moving = _pictures(page, canvas)
+        assert len(set(moving)) == len(moving)
+        suffix = "" if theme == "light" else "-dark"
+        page.screenshot(path=folder / f"example-{name}{suffix}.png", timeout=60_000)
+        page.keyboard.press("Shift+F8")
+        expect(status_bar(page)).to_contain_text("stopped")
+        page.wait_for_timeout(5_000)
+        assert len(set(_pictures(page, canvas))) == 1
+
+
+def _pictures(page: Page, canvas: Locator) -> list[bytes]:
+    """Three pictures of a scene, a while apart."""
+    pictures = []
+    for _ in range(3):
+        page.wait_for_timeout(1_300)
+        pictures.append(canvas.screenshot(timeout=60_000))
+    return pictures
