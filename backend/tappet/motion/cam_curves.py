@@ -16,6 +16,10 @@ from tappet.project.cams.table import CamTable
 PARTS = 16
 """Into which the place of a zero is divided, so many times; the last step is a secant."""
 ROUNDS = 4
+LEAST_SAMPLES = 9
+"""Of a segment, so that narrow ones show their bends ..."""
+MOST_SAMPLES = 8_000
+"""... as long as the whole cam has no more than about so many."""
 SIDE = 8
 """Spacings of floating-point numbers from a jump to a place that is surely beside it."""
 
@@ -44,10 +48,11 @@ class CamCurves:
 
 
 def cam_curves(program: CamProgram, cam: CamTable, samples: int, at: Sequence[float] = ()) -> CamCurves:
-    """About so many samples, spread by width, and of each segment at least its ends."""
+    """About so many samples, spread by width, and of each segment enough to show its shape."""
     program.take(list(cam.pieces()))
     corners = np.array([point.x for point in cam.points])
-    counts = np.maximum(2, np.rint(samples * np.diff(corners) / (corners[-1] - corners[0])).astype(int))
+    least = max(2, min(LEAST_SAMPLES, samples, MOST_SAMPLES // (len(corners) - 1)))
+    counts = np.maximum(least, np.rint(samples * np.diff(corners) / (corners[-1] - corners[0])).astype(int))
     spread = [
         np.linspace(left, right, count)
         for (left, right), count in zip(pairwise(corners), counts, strict=True)

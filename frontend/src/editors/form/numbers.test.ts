@@ -1,5 +1,6 @@
+import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { numberText, typedNumber } from './numbers';
+import { numberText, shortNumber, typedNumber } from './numbers';
 
 describe('numbers', () => {
   it('are read as they are typed', () => {
@@ -17,5 +18,21 @@ describe('numbers', () => {
       '-1.5',
     ]);
     expect(numberText(Number.NaN)).toBe('');
+  });
+
+  it('are cut to a narrow column at their last digits', () => {
+    expect(
+      [0.3603603604, 10.00000238, 0.0000197786813, -12821.54, 120, -1234567.891].map((one) => shortNumber(one)),
+    ).toEqual(['0.3603604', '10.000002', '1.9779e-5', '-12821.54', '120', '-1234568']);
+  });
+
+  it('keep their size in a narrow column', () => {
+    fc.assert(
+      fc.property(fc.double({ noNaN: true, noDefaultInfinity: true, min: -1e12, max: 1e12 }), (value) => {
+        const shown = shortNumber(value);
+        expect(shown.length).toBeLessThanOrEqual(9);
+        expect(Math.abs(Number(shown) - value)).toBeLessThanOrEqual(0.05 * Math.abs(value));
+      }),
+    );
   });
 });

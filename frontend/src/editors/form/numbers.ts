@@ -8,6 +8,18 @@ export function numberText(value: number): string {
   return String(Number(value.toPrecision(10)));
 }
 
+/** A number that fits into a narrow column: as `numberText`, with as few digits as that takes. */
+export function shortNumber(value: number, length = 9): string {
+  const whole = numberText(value);
+  if (whole.length <= length) return whole;
+  for (let digits = length; digits > 0; digits--) {
+    const plain = String(Number(value.toPrecision(digits)));
+    const found = plain.length <= length ? plain : value.toExponential(digits - 1).replace('e+', 'e');
+    if (found.length <= length) return found;
+  }
+  return whole;
+}
+
 /** The number that was typed; NaN where it is none. A comma is taken as point. */
 export function typedNumber(text: string): number {
   const plain = text.trim().replace(',', '.');

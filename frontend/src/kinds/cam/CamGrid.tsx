@@ -1,7 +1,7 @@
 import { Minus, Plus } from 'lucide-react';
 import { useEffect, useMemo, useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
-import { numberText, typedNumber } from '@/editors/form/numbers';
+import { numberText, shortNumber, typedNumber } from '@/editors/form/numbers';
 import { IconButton } from '@/ui/Button';
 import { Select } from '@/ui/Field';
 import { CellInput } from '@/ui/grid/CellInput';
@@ -98,7 +98,7 @@ export function CamGrid({ edit }: { edit: CamEdit }) {
       if (name === null) return null;
       const value = name === 'j' ? jerkShown(edit, row.index) : cam.points[row.index]![name];
       const held = heldReason(cam, row.index, name) !== null;
-      return <span className={held ? styles.held : undefined}>{value === null ? '' : numberText(value)}</span>;
+      return <span className={held ? styles.held : undefined}>{value === null ? '' : shortNumber(value)}</span>;
     }
     const segment = cam.segments[row.index]!;
     if (id === 'law') {
@@ -107,13 +107,16 @@ export function CamGrid({ edit }: { edit: CamEdit }) {
     }
     const curve = drawing?.segments[row.index];
     if (curve === undefined || drawing?.segments.length !== cam.segments.length || name !== null) return null;
-    return <span className={styles.held}>{numberText(rounded(curve[id as 'least']))}</span>;
+    return <span className={styles.held}>{shortNumber(rounded(curve[id as 'least']))}</span>;
   };
   const hint = (at: number, { id }: GridColumn) => {
     const row = rows[at]!;
     const name = asPoint(id);
-    const reason = row.kind === 'point' && name !== null ? heldReason(cam, row.index, name) : null;
-    return reason === null ? undefined : t(reason);
+    if (row.kind !== 'point' || name === null) return undefined;
+    const reason = heldReason(cam, row.index, name);
+    if (reason !== null) return t(reason);
+    const value = cam.points[row.index]![name];
+    return shortNumber(value) === numberText(value) ? undefined : numberText(value);
   };
   const onKey = (event: KeyboardEvent): boolean => {
     if (event.key === 'Delete' && !locked && removable(edit)) removed(edit);

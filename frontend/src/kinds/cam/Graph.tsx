@@ -13,6 +13,7 @@ import { RunMarks } from './RunMarks';
 import {
   acrossOf,
   downOf,
+  drawnPoints,
   type GraphName,
   MARGIN_LEFT,
   MARGIN_RIGHT,
@@ -216,10 +217,21 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
     }
   };
 
+  const chosenPoint = selected?.kind === 'point' ? selected.index : null;
+  const drawn = useMemo(
+    () =>
+      drawnPoints(
+        cam.points.map((point) => point.x),
+        window,
+        plot.width,
+        chosenPoint,
+      ),
+    [cam.points, window, plot.width, chosenPoint],
+  );
   const stepX = niceStep(window, counts.x);
   const stepValue = niceStep(values, counts.value);
   const name = t(`cam.graph.${graph}`);
-  const marked = selected?.kind === 'point' ? cam.points[selected.index] : undefined;
+  const marked = chosenPoint === null ? undefined : cam.points[chosenPoint];
   const told = held !== null && marked && graph !== 'j' ? { x: marked.x, value: marked[graph] } : pointer?.at;
   return (
     <div
@@ -260,9 +272,10 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
           upright={ticks(window, counts.x).map(px)}
         />
         <g clipPath={`url(#clip-${graph})`}>
-          {cam.points.map((point, index) => (
-            <line key={index} className={styles.border} x1={px(point.x)} x2={px(point.x)} y1={0} y2={plot.height} />
-          ))}
+          {drawn.map((index) => {
+            const left = px(cam.points[index]!.x);
+            return <line key={index} className={styles.border} x1={left} x2={left} y1={0} y2={plot.height} />;
+          })}
           {drawing && (
             <GraphCurves
               drawing={drawing}
@@ -289,22 +302,18 @@ export function Graph({ edit, graph, tool, window, onWindow, onClose, onTool }: 
           )}
         </g>
         {graph !== 'j' &&
-          cam.points.map((point, index) => {
-            const left = px(point.x);
-            if (left < MARGIN_LEFT - 1 || left > MARGIN_LEFT + plot.width + 1) return null;
-            return (
-              <circle
-                key={index}
-                className={styles.point}
-                data-curve={graph}
-                data-point={index}
-                data-selected={(selected?.kind === 'point' && selected.index === index) || undefined}
-                cx={left}
-                cy={py(point[graph])}
-                r={selected?.kind === 'point' && selected.index === index ? 5 : 3.5}
-              />
-            );
-          })}
+          drawn.map((index) => (
+            <circle
+              key={index}
+              className={styles.point}
+              data-curve={graph}
+              data-point={index}
+              data-selected={index === chosenPoint || undefined}
+              cx={px(cam.points[index]!.x)}
+              cy={py(cam.points[index]![graph])}
+              r={index === chosenPoint ? 5 : 3.5}
+            />
+          ))}
       </svg>
       <div className={styles.graphHead}>
         <IconButton icon={X} small label={t('cam.closeGraph', { graph: name })} onClick={onClose} />

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import type { CamDrawing } from './curves';
-import { niceStep, shifted, snapped, tickText, ticks, valueRange, zoomed, type Range } from './plot';
+import { drawnPoints, niceStep, shifted, snapped, tickText, ticks, valueRange, zoomed, type Range } from './plot';
 import { DEFAULT_CAM } from './sampleCam';
 
 const range: fc.Arbitrary<Range> = fc
@@ -97,5 +97,21 @@ describe('the range of a graph', () => {
   it('has a height where everything is the same', () => {
     const shown = valueRange(DEFAULT_CAM, { ...drawing, segments: [] }, 'a');
     expect(shown).toEqual({ min: -1, max: 1 });
+  });
+});
+
+describe('points', () => {
+  const window = { min: 0, max: 100 };
+
+  it('are all drawn where there is room, two near ones too', () => {
+    expect(drawnPoints([0, 50, 50.1, 100], window, 700, null)).toEqual([0, 1, 2, 3]);
+    expect(drawnPoints([0, 50, 50.1, 100], { min: 50, max: 60 }, 700, null)).toEqual([1, 2]);
+  });
+
+  it('are left to the curve where they would overlap, but for the chosen one', () => {
+    const xs = [...Array.from({ length: 900 }, (_, at) => at / 10), 95, 100];
+    expect(drawnPoints(xs, window, 700, null)).toEqual([900, 901]);
+    expect(drawnPoints(xs, window, 700, 3)).toEqual([3, 900, 901]);
+    expect(drawnPoints(xs, { min: 1, max: 2 }, 700, null)).toHaveLength(11);
   });
 });

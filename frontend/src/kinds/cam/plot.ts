@@ -117,6 +117,23 @@ export function downOf(value: number, values: Range, height: number): number {
   return ((values.max - value) / (values.max - values.min)) * height;
 }
 
+/** Pixels that the circle of a point needs. */
+const POINT_ROOM = 7;
+
+/**
+ * The points of which there is room to draw circle and border: all of them, but where a plot has more points than it
+ * can show apart, those that stand too near to a neighbour are left to the curve. `always` is drawn.
+ */
+export function drawnPoints(xs: readonly number[], window: Range, width: number, always: number | null): number[] {
+  const inside = xs.map((_, index) => index).filter((index) => xs[index]! >= window.min && xs[index]! <= window.max);
+  if (inside.length * POINT_ROOM <= width) return inside;
+  const room = (POINT_ROOM / width) * (window.max - window.min);
+  return inside.filter((index) => {
+    const [left, right] = [xs[index - 1] ?? -Infinity, xs[index + 1] ?? Infinity];
+    return index === always || Math.min(xs[index]! - left, right - xs[index]!) >= room;
+  });
+}
+
 /** Pixels left of a plot, for the names of graphs and the numbers of values, and right of it. */
 export const MARGIN_LEFT = 116;
 export const MARGIN_RIGHT = 24;
