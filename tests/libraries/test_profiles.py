@@ -45,9 +45,9 @@ def test_accelerations_are_connected_by_lines(axes: CoupledAxes) -> None:
     assert found == pytest.approx([5.0, 25.0, 20.0], abs=1e-9)
     assert axes.state == "continuous_motion"
     axes.cycle()
-    assert axes.outputs("Accelerations") == {"Done", "Active"}
+    assert axes.outputs("Accelerations") == {"Busy", "Active", "Done"}
     axes.release("Accelerations")
-    assert axes.outputs("Accelerations") == {"Active"}
+    assert axes.outputs("Accelerations") == {"Busy", "Active"}
     axes.after(0.5)
     assert axes.velocity == pytest.approx(20.0)
     # position: 10/6, + 5*2 + 10*2^2/2, + 25 + 10/2 - 30/6
