@@ -138,10 +138,14 @@ def test_each_method_finds_the_home_of_its_diagram(method: int, start: int) -> N
         assert number(program, "fFastest") == pytest.approx(FAST, rel=0.15)
         assert number(program, "fRamp") < 1500.0
         away = (diagram in range(7, 11) and start > RIGHT) or (diagram in range(11, 15) and start < LEFT)
-        assert (program.literal("Main.xTurned") == "TRUE") == (away or diagram in (1, 2) or start in (-4900, 7900))
+        assert (program.literal("Main.xTurned") == "TRUE") == (
+            away or diagram in (1, 2) or start in (-4900, 7900)
+        )
 
 
-@pytest.mark.parametrize(("method", "start", "place"), [(33, 300, 0), (33, -300, -1000), (34, 300, 1000), (34, -300, 0)])
+@pytest.mark.parametrize(
+    ("method", "start", "place"), [(33, 300, 0), (33, -300, -1000), (34, 300, 1000), (34, -300, 0)]
+)
 def test_the_next_index_pulse_is_the_home(method: int, start: int, place: int) -> None:
     with drive(start, method) as program:
         assert homed(program)
