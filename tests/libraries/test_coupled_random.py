@@ -186,10 +186,10 @@ def _bring_to_rest(axes: Axes) -> None:
     for name in ALL:
         axes.set(name, **{_EXECUTE[name]: False})
     axes.cycle(2)
-    for axis in AXES:
+    for axis in AXES:  # A master first: that it turns may be an error of its slave
+        axes.cycle(2000)
         axes.set(f"{axis}Reset", Execute=axes.text(f"{axis}.nAxisState") == "errorstop")
-    axes.cycle(2000)
-    for axis in AXES:
+        axes.cycle(20)
         axes.set(f"{axis}Stop", Execute=True, Deceleration=1000.0)
     axes.cycle(3000)
     assert axes.busy() == [f"{axis}Stop" for axis in AXES]

@@ -1,4 +1,4 @@
-"""What blocks take over at the edge of Execute: the direction, and the state that the axis is in just then."""
+"""What blocks take over at the edge of Execute: the direction, and the state of the axis just then."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 from tests.libraries.coupled_axes import CoupledAxes, coupled_axes
-from tests.libraries.one_axis import CYCLE, OneAxis, one_axis
+from tests.libraries.one_axis import CYCLE, one_axis
 
 from tappet.libraries import load
 from tappet.libraries.catalog import items
@@ -88,7 +88,7 @@ def test_a_block_sees_the_state_before_what_later_blocks_of_the_cycle_do() -> No
 @pytest.mark.parametrize("offset", range(-3, 4))
 @pytest.mark.parametrize("mode", [0, 1])
 def test_the_end_of_a_motion_takes_no_accepted_command_along(offset: int, mode: int) -> None:
-    """INF-02: around the cycle in which a move brings its axis to standstill, the next one is taken and kept."""
+    """INF-02: around the cycle in which a move ends in standstill, the next one is taken and kept."""
     duration = 2 * (10.0 / 1000.0) ** 0.5
     with one_axis() as axis:
         axis.start("Relative1", Distance=10.0, **RAMP)
