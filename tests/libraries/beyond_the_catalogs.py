@@ -122,6 +122,23 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
             "AxisWarning": "BOOL",
         },
     },
+    "SMC_PI": {
+        "in_out": {},
+        "inputs": {
+            "bEnable": "BOOL",
+            **dict.fromkeys(("fSetValue", "fActValue", "fKp", "fTn", "fFeedForward"), "LREAL"),
+            **dict.fromkeys(("fOutMin", "fOutMax", "fStart"), "LREAL"),
+            "bHold": "BOOL",
+            "fCycle": "LREAL",
+        },
+        "outputs": {
+            "fOut": "LREAL",
+            "bBusy": "BOOL",
+            "bLimited": "BOOL",
+            "bError": "BOOL",
+            "eErrorID": "SMC_ERROR",
+        },
+    },
     "MC_CombineAxes": {
         "in_out": {"Master1": "AXIS_REF_SM3", "Master2": "AXIS_REF_SM3", "Slave": "AXIS_REF_SM3"},
         "inputs": {
