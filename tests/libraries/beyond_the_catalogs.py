@@ -139,6 +139,14 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
             "eErrorID": "SMC_ERROR",
         },
     },
+    "SMC_DigitalCamSwitch_HighPrecision": {
+        "in_out": {**_AXIS, "Switches": "MC_CAMSWITCH_REF", "TrackOptions": "MC_TRACK_REF"},
+        "inputs": {**_ENABLE, "EnableMask": "DWORD"},
+        "outputs": {
+            **{"InOperation": "BOOL", "Busy": "BOOL", **_ERROR},
+            "Events": "ARRAY[1..32] OF SMC_CAMSWITCH_TRACK_EVENTS",
+        },
+    },
     "MC_CombineAxes": {
         "in_out": {"Master1": "AXIS_REF_SM3", "Master2": "AXIS_REF_SM3", "Slave": "AXIS_REF_SM3"},
         "inputs": {
@@ -153,6 +161,16 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
         "outputs": {"InSync": "BOOL", **_MOVED},
     },
 }
+
+STRUCTURES: dict[str, dict[str, str]] = {
+    "SMC_CAMSWITCH_TOGGLE_EVENT": {
+        "SwitchNumber": "UDINT",
+        "ToggleEventId": "UDINT",
+        "Duration": "LREAL",
+        "NewValue": "BOOL",
+    },
+}
+"""As today's SoftMotion has them."""
 
 ENUMERATIONS: dict[str, dict[str, int]] = {
     "MC_SOURCE": {"mcCommandedValue": 0, "mcSetValue": 1, "mcActualValue": 2},

@@ -1,6 +1,7 @@
-"""The jerk of what brings a slave to its master is never above the given one, by differences of its positions.
+"""The jerk of what brings a slave to its master is never above the given one, by differences.
 
-Ramps by sin2 have no limit of the jerk (motion_semantics PRO-01), trapezoids of an axis none either; a gear has its own.
+Ramps by sin2 have no limit of the jerk (motion_semantics PRO-01), trapezoids of an axis none either;
+a gear has its own.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def _jerk(positions: list[float]) -> float:
 
 
 def _ahead(axes: CoupledAxes, block: str, output: str, ratio: float = 1.0) -> list[float]:
-    """How far the slave is ahead of its gear in each cycle, from before the start of the block until its end."""
+    """How far the slave is ahead of its gear in each cycle, from before the block starts until its end."""
     found = [axes.position - ratio * axes.master]
     axes.set(block, **{"bExecute" if block == "Backlash" else "Execute": True})
     for _ in range(5000):

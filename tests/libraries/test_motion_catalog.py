@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from tests.libraries.beyond_the_catalogs import BLOCKS, ENUMERATIONS, PINS_ADDED
+from tests.libraries.beyond_the_catalogs import STRUCTURES as NEW_STRUCTURES
 from tests.libraries.st_program import run
 
 from tappet.libraries import load
@@ -25,6 +26,7 @@ BEYOND = {
     *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
     *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
     "AXIS_REF_POSCONTROL_SM3",
+    *("SMC_CAMSWITCH_TOGGLE_EVENT", "SMC_CAMSWITCH_TRACK_EVENTS"),
     *("DriveIn", "DriveOut", "SMC3_CaptureDescription", "SimulatedDrive", "SimulatedDriveSettings"),
 }
 """What the library has beyond the catalogs."""
@@ -108,6 +110,11 @@ def _check(name: str, ours: tuple[Pin, ...], expected: dict[str, dict[str, Any]]
 
 def _enumerated(item: Item) -> dict[str, int]:
     return {value.name: int(value.value) for value in item.values}
+
+
+@pytest.mark.parametrize("name", sorted(NEW_STRUCTURES))
+def test_structures_beyond_the_catalogs_have_the_members_of_their_sources(name: str) -> None:
+    assert {member.name: member.type for member in OURS[name].members} == NEW_STRUCTURES[name]
 
 
 @pytest.mark.parametrize("name", sorted({*OURS} - {*BLOCKS} - {*ENUMERATIONS}))
