@@ -143,7 +143,9 @@ BLOCKS: dict[str, dict[str, dict[str, str]]] = {
         "in_out": {**_AXIS, "Switches": "MC_CAMSWITCH_REF", "TrackOptions": "MC_TRACK_REF"},
         "inputs": {**_ENABLE, "EnableMask": "DWORD"},
         "outputs": {
-            **{"InOperation": "BOOL", "Busy": "BOOL", **_ERROR},
+            "InOperation": "BOOL",
+            "Busy": "BOOL",
+            **_ERROR,
             "Events": "ARRAY[1..32] OF SMC_CAMSWITCH_TRACK_EVENTS",
         },
     },
