@@ -45,6 +45,7 @@ AXIS_ERROR = Reading(
 )
 ENABLES = {
     "MC_DigitalCamSwitch": Reading(),
+    "SMC_DigitalCamSwitch_HighPrecision": Reading(),
     "MC_Power": Reading(
         lambda found: found.set("Axis", fTaskCycle=0.0), lambda found: found.set("Axis", fTaskCycle=0.001)
     ),
