@@ -23,9 +23,10 @@ MACHINES = {
 
 
 def _begin(page: Page, title: str) -> None:
-    page.get_by_role("button", name="New project").first.click()
+    page.get_by_role("navigation", name="Start").get_by_role("button", name=title).click()
     dialog = page.get_by_role("dialog")
-    dialog.get_by_role("radio", name=f"Example: {title}").click()
+    expect(dialog.get_by_role("radio", name=f"Example: {title}")).to_be_checked()
+    expect(dialog.get_by_role("radio", name=f"Example: {title}")).to_be_in_viewport()
     expect(dialog.get_by_role("textbox").first).to_have_value(title)
     dialog.locator("button[type=submit]").click()
     expect(dialog).to_have_count(0)

@@ -1,3 +1,4 @@
+import { useEffect, useRef } from 'react';
 import styles from './RadioCards.module.css';
 
 export interface Card<Value extends string> {
@@ -16,11 +17,16 @@ interface RadioCardsProps<Value extends string> {
 
 /** One of a few choices that need a sentence each. */
 export function RadioCards<Value extends string>({ label, value, cards, onValue }: RadioCardsProps<Value>) {
+  const chosen = useRef<HTMLButtonElement>(null);
+  useEffect(() => {
+    chosen.current?.scrollIntoView({ block: 'nearest' });
+  }, []);
   return (
     <div role="radiogroup" aria-label={label} className={styles.cards}>
       {cards.map((card) => (
         <button
           key={card.value}
+          ref={card.value === value ? chosen : undefined}
           type="button"
           role="radio"
           aria-checked={card.value === value}

@@ -8,14 +8,17 @@
  */
 import { createElement, Fragment, type ReactElement, type ReactNode } from 'react';
 import { create } from 'zustand';
+import { ErrorBoundary } from './ErrorBoundary';
 import { FormDialog } from './FormDialog';
 import { menuOrigin } from './menuOrigin';
+import { explain, notify } from './notices';
 
 type Close<Answer> = (answer?: Answer) => void;
 
 interface OpenDialog {
   serial: number;
   element: ReactElement;
+  cancel: () => void;
 }
 
 const useDialogs = create<{ open: readonly OpenDialog[] }>(() => ({ open: [] }));
@@ -33,7 +36,9 @@ export function openDialog<Answer = true>(render: (close: Close<Answer>) => Reac
       });
       resolve(answer);
     };
-    useDialogs.setState((state) => ({ open: [...state.open, { serial: mine, element: render(close) }] }));
+    useDialogs.setState((state) => ({
+      open: [...state.open, { serial: mine, element: render(close), cancel: close }],
+    }));
   });
 }
 
@@ -75,9 +80,18 @@ function ConfirmDialog({ question, close }: { question: Question; close: Close<b
   );
 }
 
+/** Shows the open dialogs. When one fails, all are cancelled and the fault is told; the workbench stays. */
 export function DialogHost() {
   const open = useDialogs((state) => state.open);
-  return open.map((dialog) => createElement(Fragment, { key: dialog.serial }, dialog.element));
+  const onFault = (error: Error) => {
+    notify({ tone: 'error', ...explain(error) });
+    useDialogs.getState().open.forEach((dialog) => dialog.cancel());
+  };
+  return (
+    <ErrorBoundary resetKey={open.map((dialog) => dialog.serial).join()} onFault={onFault}>
+      {open.map((dialog) => createElement(Fragment, { key: dialog.serial }, dialog.element))}
+    </ErrorBoundary>
+  );
 }
 
 /** A modal dialog is up: global keys rest. */

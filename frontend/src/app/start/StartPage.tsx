@@ -1,9 +1,9 @@
 import { useQuery } from '@tanstack/react-query';
-import { Boxes, Download, Ellipsis, FileUp, FilePlus, FolderOpen, Trash2 } from 'lucide-react';
+import { Boxes, Cog, Download, Ellipsis, FileUp, FilePlus, FolderOpen, Trash2 } from 'lucide-react';
 import { useEffect, useState, type DragEvent } from 'react';
 import { api } from '@/api/client';
-import { keys, projectsQuery, queryClient } from '@/api/queries';
-import type { ProjectSummary } from '@/api/types';
+import { examplesQuery, keys, projectsQuery, queryClient } from '@/api/queries';
+import type { Example, ProjectSummary } from '@/api/types';
 import { useLanguage, useText } from '@/i18n';
 import { secondText } from '@/workbench/clock';
 import { kindWithRole } from '@/project/kinds';
@@ -13,6 +13,7 @@ import { confirm, openDialog } from '@/ui/dialogs';
 import { saveBlob } from '@/workbench/downloadFile';
 import { UserMenu } from '@/workbench/frame/UserMenu';
 import { droppedFiles, type NamedFile } from '@/workbench/exchange/dropped';
+import { exampleText } from '@/workbench/projectInfo/exampleText';
 import { guard } from '@/ui/notices';
 import { atLeast } from '@/workbench/rights';
 import { Button, IconButton } from '@/ui/Button';
@@ -34,6 +35,7 @@ export default function StartPage() {
     queryFn: () => loadNames('recent'),
     retry: false,
   });
+  const { data: examples = [] } = useQuery(examplesQuery);
   const role = useSession((state) => state.user?.role ?? null);
   const refused = atLeast(role, 'engineer') ? null : t('reason.engineer');
   const [search, setSearch] = useState('');
@@ -42,9 +44,9 @@ export default function StartPage() {
     document.title = 'Tappet';
   }, []);
 
-  const create = async () => {
+  const create = async (example?: Example) => {
     const { newProject } = await import('@/workbench/projectInfo/NewProjectDialog');
-    const project = await newProject();
+    const project = await newProject(example);
     if (project) go({ page: 'project', projectId: project.id });
   };
   const drop = (event: DragEvent) => {
@@ -73,6 +75,20 @@ export default function StartPage() {
             refused={refused}
             run={() => void guard(() => importFiles())}
           />
+          {examples.length > 0 && <h2 className={styles.examples}>{t('start.examples')}</h2>}
+          {examples.map((example) => {
+            const { title, description } = exampleText(t, example);
+            return (
+              <StartAction
+                key={example.name}
+                icon={Cog}
+                text={title}
+                about={description}
+                refused={refused}
+                run={() => void create(example)}
+              />
+            );
+          })}
         </nav>
         <section
           className={styles.content}
@@ -127,16 +143,17 @@ export default function StartPage() {
 interface StartActionProps {
   icon: typeof FilePlus;
   text: string;
+  about?: string;
   refused: string | null;
   run: () => void;
 }
 
-function StartAction({ icon: Icon, text, refused, run }: StartActionProps) {
+function StartAction({ icon: Icon, text, about, refused, run }: StartActionProps) {
   return (
     <button
       className={styles.action}
       aria-disabled={refused ? true : undefined}
-      title={refused ?? undefined}
+      title={refused ?? about}
       onClick={() => !refused && run()}
     >
       <Icon size={17} strokeWidth={1.6} aria-hidden />

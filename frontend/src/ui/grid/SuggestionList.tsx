@@ -15,7 +15,10 @@ interface SuggestionListProps {
   onTake: (index: number) => void;
 }
 
-const intoView = (option: HTMLElement | null) => option?.scrollIntoView({ block: 'nearest' });
+// Returns nothing: newer browsers give a promise, which React would take for a function that cleans up.
+const intoView = (option: HTMLElement | null) => {
+  option?.scrollIntoView({ block: 'nearest' });
+};
 
 /** What could be meant, below the field it is typed into; the field keeps the focus. */
 export function SuggestionList({ anchor, items, at, onTake }: SuggestionListProps) {

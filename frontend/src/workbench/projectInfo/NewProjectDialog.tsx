@@ -2,7 +2,7 @@ import { useState } from 'react';
 import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import { examplesQuery, keys, queryClient } from '@/api/queries';
-import type { ProjectSummary } from '@/api/types';
+import type { Example, ProjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { exampleText } from './exampleText';
 import { openDialog } from '@/ui/dialogs';
@@ -12,9 +12,9 @@ import { Field, TextInput } from '@/ui/Field';
 import { RadioCards, type Card } from '@/ui/RadioCards';
 import { useRefusal } from '@/ui/useRefusal';
 
-/** Asks for name and template and creates the project; undefined when cancelled. */
-export function newProject(): Promise<ProjectSummary | undefined> {
-  return openDialog<ProjectSummary>((close) => <NewProjectDialog close={close} />);
+/** Asks for name and template and creates the project; undefined when cancelled. An example may be proposed. */
+export function newProject(example?: Example): Promise<ProjectSummary | undefined> {
+  return openDialog<ProjectSummary>((close) => <NewProjectDialog proposed={example} close={close} />);
 }
 
 const TEMPLATES = ['standard', 'motion', 'empty'] as const;
@@ -22,7 +22,12 @@ const TEMPLATES = ['standard', 'motion', 'empty'] as const;
 /** What a new project begins with: a template, or an example by its name. */
 type Beginning = (typeof TEMPLATES)[number] | `example:${string}`;
 
-function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void }) {
+interface NewProjectDialogProps {
+  proposed: Example | undefined;
+  close: (project?: ProjectSummary) => void;
+}
+
+function NewProjectDialog({ proposed, close }: NewProjectDialogProps) {
   const t = useText();
   const free = (proposal: string) => {
     const projects = queryClient.getQueryData<ProjectSummary[]>(keys.projects) ?? [];
@@ -31,9 +36,9 @@ function NewProjectDialog({ close }: { close: (project?: ProjectSummary) => void
       proposal,
     );
   };
-  const [name, setName] = useState(() => free(t('project.untitled')));
+  const [name, setName] = useState(() => free(proposed ? exampleText(t, proposed).title : t('project.untitled')));
   const [written, setWritten] = useState(false);
-  const [beginning, setBeginning] = useState<Beginning>('standard');
+  const [beginning, setBeginning] = useState<Beginning>(proposed ? `example:${proposed.name}` : 'standard');
   const { data: examples = [] } = useQuery(examplesQuery);
   const [refused, ask] = useRefusal();
   const fault = name.trim() === '' ? t('name.empty') : null;
