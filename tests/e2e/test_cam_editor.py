@@ -198,6 +198,78 @@ def test_a_jump_is_told_and_leads_to_its_place(cam: CamPage) -> None:
     expect(cam.editor.get_by_role("row", selected=True)).to_contain_text("Point 2")
 
 
+def test_the_border_of_two_graphs_is_dragged(cam: CamPage) -> None:
+    """CAM-31: one becomes higher by what the other loses; the keyboard moves it too."""
+    page = cam.page
+    border = cam.editor.get_by_role("separator", name="Border between Position and Velocity")
+
+    def heights() -> list[float]:
+        boxes = [cam.graph(name).bounding_box() for name in ("y", "v", "a", "j")]
+        return [box["height"] for box in boxes if box is not None]
+
+    before = heights()
+    x, y = cam.centre(border)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x, y + 40, steps=5)
+    page.mouse.up()
+    page.mouse.move(x, y + 90)
+    after = heights()
+    assert after[0] - before[0] == pytest.approx(40, abs=4)
+    assert before[1] - after[1] == pytest.approx(40, abs=4)
+    assert after[2:] == pytest.approx(before[2:], abs=1)
+    border.focus()
+    page.keyboard.press("ArrowUp")
+    assert heights()[0] < after[0]
+    border.dblclick()
+    assert heights() == pytest.approx(before, abs=1)
+
+
+def test_a_chosen_property_is_described(cam: CamPage) -> None:
+    """CAM-62: by a click or the keyboard, also one that is only shown; its row is marked, and no other."""
+    page = cam.page
+    cam.point("y", 1).click()
+    panel = cam.editor.get_by_label("Element properties")
+    panel.get_by_label("Y", exact=True).click()
+    description = panel.get_by_text("Position of the slave there")
+    expect(description).to_be_visible()
+    chosen = panel.locator("[data-chosen]")
+    expect(chosen).to_have_count(1)
+    expect(chosen).to_contain_text("Y")
+    frame = chosen.evaluate("row => getComputedStyle(row).outlineStyle")
+    assert frame == "solid"
+    page.keyboard.press("Tab")
+    expect(panel.get_by_text("Velocity of the slave by that of the master")).to_be_visible()
+    expect(description).to_have_count(0)
+    panel.get_by_text("J", exact=True).click()
+    expect(panel.get_by_text("J follows from the curve")).to_be_visible()
+    expect(chosen).to_have_count(1)
+
+
+def test_tools_belong_to_their_view_and_the_jerk_is_only_shown(cam: CamPage) -> None:
+    """cam CAM-20 to CAM-23, CAM-14, CAM-15."""
+    page = cam.page
+    expect(cam.editor.get_by_role("button", name="Add point")).to_be_visible()
+    cam.editor.get_by_role("button", name="Add point").click()
+    box = cam.graph("j").bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    cam.expect_points(4)
+    expect(cam.graph("j").locator("[data-point]")).to_have_count(0)
+    page.keyboard.press("Escape")
+    cam.point("y", 1).click()
+    expect(cam.point("y", 1)).to_have_attribute("data-selected", "true")
+    cam.graph("y").locator("path[data-curve]").nth(2).click(position={"x": 40, "y": 4}, force=True)
+    for name in ("Cam", "Cam table", "Tappets", "Tappet table"):
+        expect(cam.editor.get_by_role("tab", name=name, exact=True)).to_be_visible()
+    cam.tab("Tappets")
+    expect(cam.editor.get_by_role("button", name="Add point")).to_have_count(0)
+    expect(cam.editor.get_by_role("button", name="Add tappet")).to_be_visible()
+    cam.tab("Cam table")
+    for tool in ("Add point", "Add tappet"):
+        expect(cam.editor.get_by_role("button", name=tool)).to_have_count(0)
+
+
 def test_graphs_are_closed_opened_zoomed_and_fitted(cam: CamPage) -> None:
     page = cam.page
     cam.graph("j").get_by_role("button", name="Close the graph: Jerk").click()

@@ -50,7 +50,7 @@ OF_SLAVE = {
     "FollowValues": "SMC_FollowSetValues",
     "Reset": "MC_Reset",
 }
-RELEASES = {"GearOut": "MC_GearOut"}
+RELEASES = {"GearOut": "MC_GearOut", "CamOut": "MC_CamOut"}
 PROFILES = {
     "Positions": ("MC_PositionProfile", "TimePosition", "MC_TP_REF"),
     "Velocities": ("MC_VelocityProfile", "TimeVelocity", "MC_TV_REF"),

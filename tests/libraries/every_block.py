@@ -62,6 +62,7 @@ Axis.in.diActPosition := diPlace;
 Axis.in.diActVelocity := LREAL_TO_DINT(fSpeed);
 IF byMode = 6 THEN
     Axis.in.wStatusWord.12 := iHoming > 20;
+    Axis.in.wStatusWord.10 := TRUE;
 END_IF
 """,
 }

@@ -36,6 +36,7 @@ VAR
     Reset   : SM3_Basic.MC_Reset;
     Status  : SM3_Basic.MC_ReadStatus;
     Info    : SM3_Basic.MC_ReadAxisInfo;
+    AxisError : SM3_Basic.MC_ReadAxisError;
     liPlace : LINT := {place}; (* Of the motor [increments] *)
     xStuck  : BOOL;
     xFault  : BOOL;
@@ -75,6 +76,7 @@ Reset(Axis := Axis);
 Probe(Axis := Axis, TriggerInput := Trigger);
 Status(Axis := Axis, Enable := TRUE);
 Info(Axis := Axis, Enable := TRUE);
+AxisError(Axis := Axis, Enable := TRUE);
 Axis.EndCycle();
 Drive(wControlWord := Axis.out.wControlWord, bFault := xFault, bVoltage := xVolts);
 IF NOT xFixed THEN

@@ -275,6 +275,18 @@ def test_short_stays_in_the_window_do_not_add_up(axis: Watched) -> None:
         axis.cycle()
 
 
+def test_a_cam_that_leaves_the_window_in_each_period_is_never_in_position(axis: Watched) -> None:
+    """ax3000 EX-AX-09: inside for 1.5 s of each 2 s, with a time of more than 1.5 s."""
+    axis.set("InPosition", bEnable=True, fPosWindow=0.1, fPosTime=1.5025)
+    for _ in range(3):
+        axis.set("", fAhead=0.0)
+        for _ in range(600):
+            axis.cycle()
+            assert not axis.true("InPosition.bInPosition")
+        axis.set("", fAhead=0.2)
+        axis.cycle(200)
+
+
 def test_a_window_over_the_end_of_the_period(rotary: Watched) -> None:
     rotary.set("", fAhead=359.95)
     rotary.set("InPosition", bEnable=True, fPosWindow=0.1)

@@ -174,21 +174,22 @@ def test_software_limits(axis: OneAxis, settings: dict[str, float], deceleration
     assert axis.position == 0.0
 
 
+@pytest.mark.parametrize("block", ["Halt1", "Stop1"])
 @pytest.mark.parametrize(("avoid", "lowest", "seconds"), [(False, -3.0, 2.095), (True, 0.0, 0.632)])
-def test_reversal_on_halt(axis: OneAxis, avoid: bool, lowest: float, seconds: float) -> None:
-    """ax3000 EX-AX-06: v = 2, a = -10, jerk 10; the velocity passes 0 down to -3 unless that is avoided."""
+def test_reversal_on_halt(axis: OneAxis, block: str, avoid: bool, lowest: float, seconds: float) -> None:
+    """ax3000 EX-AX-06, AXIS-13: v = 2, a = -10, jerk 10; the velocity passes 0 down to -3 unless avoided."""
     axis.set("Axis", eRampType=2, bAvoidReversalOnHaltStop=avoid)
     axis.start("Velocity1", Velocity=20.0, Acceleration=10.0, Deceleration=10.0, Jerk=10.0)
     axis.after(6.0)
     axis.start("Velocity2", Velocity=1e-3, Acceleration=10.0, Deceleration=10.0, Jerk=1e5)
     axis.until(lambda: axis.velocity <= 2.0)
     assert axis.number("Axis.fSetAcceleration") == pytest.approx(-10.0, abs=0.01)
-    axis.start("Halt1", Deceleration=10.0, Jerk=10.0)
+    axis.start(block, Deceleration=10.0, Jerk=10.0)
     seen = [axis.velocity]
 
     def gone() -> bool:
         seen.append(axis.velocity)
-        return "Done" in axis.outputs("Halt1")
+        return "Done" in axis.outputs(block)
 
     assert axis.until(gone) == pytest.approx(seconds, abs=0.01)
     assert min(seen) == pytest.approx(lowest, abs=0.02)

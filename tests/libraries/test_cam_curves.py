@@ -69,6 +69,19 @@ def test_the_default_cam_has_the_values_of_the_specification(given_cams: Cams) -
     assert given_cams.values([29.13])[0][2] == pytest.approx(0.0328352829, abs=1e-8)
 
 
+def test_test_cam_a_has_the_values_of_the_specification(given_cams: Cams) -> None:
+    """Spec ax3000 EX-AX-14: values, largest slope and largest curvature."""
+    given_cams.xyva(np.array([(0, 0, 0, 0), (180, 180, 0, 0), (360, 0, 0, 0)], dtype=float))
+    expected = {20: 2.0759, 45: 18.63281, 90: 90.0, 100: 108.59625, 120: 142.22222, 180: 180.0, 270: 90.0}
+    expected[340] = 2.0759
+    found = given_cams.values(list(map(float, expected)))[:, 0]
+    np.testing.assert_allclose(found, list(expected.values()), rtol=0, atol=5e-5)
+    curve = given_cams.values(np.linspace(0.0, 180.0, POSITIONS).tolist())
+    assert given_cams.values([90.0])[0][1] == pytest.approx(1.875, abs=1e-12)
+    assert curve[:, 1].max() <= 1.875 + 1e-12
+    assert np.abs(curve[:, 2]).max() == pytest.approx(0.032075, abs=1e-5)
+
+
 def test_a_polynomial_between_two_lines(given_cams: Cams) -> None:
     """Spec cam EX-02: points that stand twice bend the slope."""
     rise = 100 / 140

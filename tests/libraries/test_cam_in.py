@@ -278,6 +278,49 @@ def test_ramp_in_of_a_rotary_slave_takes_its_direction(mode: int, slave: float, 
         assert pair.slave == pytest.approx(108.59625, abs=1e-4)
 
 
+def test_the_start_position_given_to_the_slave_avoids_a_step() -> None:
+    """Spec ax3000 CAM-18: an absolute start begins where SMC_GetCamSlaveSetPosition says."""
+    with cam_pair(HALF) as pair:
+        pair.select(1)
+        pair.place(100.0, 20.0)
+        pair.set("StartPosition", Enable=True)
+        pair.cycle()
+        pair.start("SlaveSet", Position=pair.number("StartPosition.fStartPosition"))
+        pair.cycle()
+        before = pair.slave
+        pair.couple()
+        assert pair.slave == pytest.approx(before, abs=1e-12)
+        assert pair.slave == pytest.approx(108.59625, abs=1e-5)
+
+
+def test_a_relative_cycle_steps_where_the_cam_does_not_begin_at_zero() -> None:
+    """Spec ax3000 CST-06 and CST-07, cam CAM-109: each cycle begins 10 behind the end of the one before."""
+    with cam_pair(((0, 10, 0, 0), (360, 40, 0, 0))) as pair:
+        pair.select(1, slave_absolute=False)
+        pair.couple()
+        assert pair.slave == pytest.approx(10.0)
+        pair.run(100.0)
+        before = pair.slave
+        for _ in range(3601):
+            before = pair.slave
+            pair.cycle()
+            if pair.true("CamIn1.EndOfProfile"):
+                break
+        assert before == pytest.approx(40.0, abs=1e-3)
+        assert pair.slave - before == pytest.approx(10.0, abs=1e-3)
+
+
+def test_ramp_in_takes_the_time_of_its_ramps() -> None:
+    """Spec ax3000 EX-AX-16 and CST-05: 88.596 with 100 u/s and 500 u/s2, and InSync only then."""
+    with cam_pair(HALF) as pair:
+        pair.select(1)
+        pair.place(100.0, 20.0)
+        pair.couple(StartMode=RAMP_IN, VelocityDiff=100.0, Acceleration=500.0, Deceleration=500.0)
+        gone = pair.until(lambda: pair.true("CamIn1.InSync"))
+        assert gone * CYCLE == pytest.approx(0.2 + (88.59625 - 20.0) / 100.0 + 0.2, abs=3 * CYCLE)
+        assert pair.slave == pytest.approx(108.59625, abs=1e-5)
+
+
 def test_ramp_in_stays_within_its_limits_against_the_cam() -> None:
     """Spec cam CAM-110: a moving slave comes to a moving master."""
     with cam_pair(((0, 0, 1, 0), (3600, 3600, 1, 0))) as pair:

@@ -172,6 +172,21 @@ def test_a_command_that_is_aborted(machines: dict[str, Machine], block: str, rel
     assert stands(found, block) == set()
 
 
+@pytest.mark.parametrize("block", ["MC_GearOut", "MC_CamOut"])
+def test_a_released_slave_stays_released(machines: dict[str, Machine], block: str) -> None:
+    """EXE-07: Done as long as Execute, also when another command has the axis; ax3000 EX-AX-17 stops by it."""
+    case = EXECUTES[block]
+    found = machines[case.kind]
+    _start(found, block, case)
+    found.set("OtherStop", Execute=True, Deceleration=100.0)
+    found.cycle()
+    for _ in range(5):
+        found.cycle()
+        assert stands(found, block) == {"Done"}
+    release(found, block)
+    assert stands(found, block) == set()
+
+
 @pytest.mark.parametrize("block", MOTIONS)
 def test_another_edge_while_it_is_busy(machines: dict[str, Machine], block: str) -> None:
     """EXE-03, MC-04: it starts anew, without an end of the one before."""

@@ -107,6 +107,38 @@ def test_an_edge_on_the_same_gear_changes_its_ratio(axes: CoupledAxes) -> None:
     assert axes.velocity == pytest.approx(200.0)
 
 
+def test_an_edge_on_the_same_ratio_does_not_disturb_the_gear(axes: CoupledAxes) -> None:
+    """ax3000 GEAR-02."""
+    axes.run_master(100.0)
+    _at_once(axes, RatioNumerator=3, RatioDenominator=2)
+    apart = axes.position - 1.5 * axes.master
+    for _ in range(3):
+        axes.release("Gear1")
+        axes.start("Gear1")
+        assert axes.velocity == pytest.approx(150.0, abs=1e-9)
+        axes.cycle(5)
+        assert axes.outputs("Gear1") == {"Busy", "Active", "InGear"}
+    assert axes.position - 1.5 * axes.master == pytest.approx(apart, abs=1e-9)
+
+
+def test_what_waits_behind_a_gear_begins_when_it_is_reached(axes: CoupledAxes) -> None:
+    """SEQ-05 and SEQ-06, where ax3000 MC-08 has Aborting alone: no blending, and Buffered waits for InGear."""
+    axes.run_master(100.0)
+    axes.start("Gear1", RatioDenominator=2, **RAMP)
+    axes.start("Velocity", Velocity=20.0, BufferMode=2, **RAMP)
+    assert axes.text("Velocity.ErrorID") == "SMC_BLENDING_NOT_SUPPORTED_BY_PREVIOUS_MOVEMENT"
+    axes.release("Velocity")
+    axes.start("Velocity", BufferMode=1)
+    axes.after(0.4)
+    assert axes.outputs("Velocity") == {"Busy"}
+    assert axes.outputs("Gear1") == {"Busy", "Active"}
+    axes.after(0.1)
+    assert axes.outputs("Velocity") == {"Busy", "Active"}
+    assert axes.velocity == pytest.approx(50.0, abs=0.5)
+    axes.until("Velocity", "InVelocity")
+    assert axes.velocity == 20.0
+
+
 def test_a_slave_that_is_called_before_its_master_lags_a_cycle(axes: CoupledAxes) -> None:
     """Spec CAL-07: no way is lost by it."""
     axes.write("xSlaveFirst", True)
@@ -129,6 +161,8 @@ def test_a_released_slave_keeps_its_velocity(axes: CoupledAxes) -> None:
     assert axes.velocity == pytest.approx(100.0)
     axes.start("Stop", Deceleration=1000.0)
     axes.until("Stop", "Done")
+    assert axes.outputs("GearOut") == {"Done"}
+    axes.release("GearOut")
     assert axes.outputs("GearOut") == set()
 
 

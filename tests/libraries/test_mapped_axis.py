@@ -52,6 +52,16 @@ def test_the_counter_of_the_drive_runs_over(bits: int, mask: str, start: int) ->
         assert (number(program, "liPlace") - start - 2000) % 2**bits == 0
 
 
+def test_a_short_counter_goes_on_behind_its_end() -> None:
+    """devices EX-08: from 65530 to 10 with 16 bits are 16 increments, which are 1.6 degrees."""
+    with axis(f"{DEGREES}, byPositionBits := 16", place=65530, mask="AND 16#FFFF") as program:
+        before = number(program, "Axis.fActPosition")
+        program.set("Main", liPlace=65536 + 10)
+        cycles(program, 2)
+        assert number(program, "Axis.in.diActPosition") == 10
+        assert number(program, "Axis.fActPosition") - before == pytest.approx(1.6, abs=1e-9)
+
+
 def test_a_rotary_axis_turns_on_for_long() -> None:
     settings = DEGREES.replace("iMovementType := 1", "iMovementType := 0, fPositionPeriod := 90.0")
     with axis(settings) as program:
@@ -68,6 +78,7 @@ def test_a_rotary_axis_turns_on_for_long() -> None:
 
 
 def test_a_fault_of_the_drive_is_an_error_of_the_axis_until_it_is_reset() -> None:
+    """ERR-06, ax3000 DIAG-01: MC_ReadAxisError has the number of the drive."""
     with axis() as program:
         switch_on(program)
         program.set("Main.Turn", Execute=True)
@@ -76,7 +87,8 @@ def test_a_fault_of_the_drive_is_an_error_of_the_axis_until_it_is_reset() -> Non
         cycles(program, 5)
         assert state(program) == "errorstop"
         assert program.literal("Main.Turn.ErrorID") == "SMC_DI_AXIS_ERROR"
-        assert number(program, "Axis.dwErrorID") == 0x8611
+        assert number(program, "AxisError.AxisErrorID") == number(program, "Axis.dwErrorID") == 0x8611
+        assert program.literal("Main.AxisError.AxisError") == "TRUE"
         program.set("Main.Turn", Execute=False)
         program.set("Main.Reset", Execute=True)
         cycles(program, 50)

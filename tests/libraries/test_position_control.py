@@ -19,9 +19,9 @@ PROGRAM = """
 PROGRAM Main
 VAR
     Axis  : SM3_Basic.AXIS_REF_POSCONTROL_SM3 := (fTaskCycle := 0.002, iRatioTechUnitsNum := {sign}1,
-        dwRatioTechUnitsDenom := 100, fRatedVelocity := 400.0, diRatedRaw := 16384,
+        dwRatioTechUnitsDenom := 100, fRatedVelocity := {rated}, diRatedRaw := {raw},
         fSWMaxDeceleration := 1000.0,
-        fMaxVelocity := 1000.0, fMaxAcceleration := 1E5, fMaxDeceleration := 1E5, {settings});
+        fMaxVelocity := 5000.0, fMaxAcceleration := 1E5, fMaxDeceleration := 1E5, {settings});
     Power : SM3_Basic.MC_Power := (Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
     Move  : SM3_Basic.MC_MoveAbsolute := (Velocity := 100.0, Acceleration := 1000.0, Deceleration := 1000.0);
     Turn  : SM3_Basic.MC_MoveVelocity := (Velocity := 100.0, Acceleration := 1000.0, Deceleration := 1000.0);
@@ -84,9 +84,11 @@ def axis(
     gain: float = 1.0,
     constant: float = 0.0,
     sign: str = "",
+    raw: int = RAW,
+    rated: float = RATED,
 ) -> Iterator[Plant]:
     """Switched on; the drive tells its state at once."""
-    text = PROGRAM.format(settings=f"{settings}, byPositionBits := {bits}", sign=sign)
+    text = PROGRAM.format(settings=f"{settings}, byPositionBits := {bits}", sign=sign, raw=raw, rated=rated)
     with run(text, 0) as program:
         plant = Plant(program, bits, dead, gain, constant)
         plant.cycle(2)
@@ -141,6 +143,16 @@ def test_a_speed_beyond_the_rated_one_is_limited() -> None:
         plant.program.set("Main.Turn", Execute=True, Velocity=900.0, Acceleration=1e4)
         plant.cycle(300)
         assert number(plant.program, "Axis.out.diSetVelocity") == RAW
+
+
+def test_the_speed_of_a_ten_volt_drive() -> None:
+    """devices EX-06, AXIS-45: 3600 degrees/s are 32767, so 360 degrees/s are 3276 or 3277."""
+    settings = "fKp := 0.0, iMovementType := 0, fPositionPeriod := 360.0"
+    with axis(settings, raw=32_767, rated=3600.0) as plant:
+        plant.program.set("Main.Turn", Execute=True, Velocity=360.0, Acceleration=1e4)
+        plant.cycle(100)
+        assert number(plant.program, "Axis.fSetVelocity") == 360.0
+        assert number(plant.program, "Axis.out.iSetVelocity") in (3276, 3277)
 
 
 @pytest.mark.parametrize("bits", [16, 24, 32])
@@ -267,7 +279,7 @@ def test_the_drive_cannot_home_by_itself() -> None:
 
 
 def test_in_virtual_mode_the_drive_has_no_power() -> None:
-    with run(PROGRAM.format(settings="bVirtual := TRUE", sign=""), 0) as program:
+    with run(PROGRAM.format(settings="bVirtual := TRUE", sign="", raw=RAW, rated=RATED), 0) as program:
         plant = Plant(program, 32, 0, 1.0, 0.0)
         plant.cycle(3)
         assert state(program) == "standstill"

@@ -205,7 +205,7 @@ def test_inching_moves_a_step_for_each_edge(axes: CoupledAxes) -> None:
 
 
 def test_a_program_writes_positions(axes: CoupledAxes) -> None:
-    """motion_semantics EX-26, ax3000 EX-AX-21."""
+    """ax3000 EX-AX-21: a cam that the program computes; MC_CamOut ends it."""
     axes.write("xWave", True)
     axes.start("Follow")
     assert axes.state == "synchronized_motion"
@@ -214,8 +214,21 @@ def test_a_program_writes_positions(axes: CoupledAxes) -> None:
     assert axes.position == pytest.approx(50.0 * math.sin(3.0 * wave), abs=1e-9)
     mean = 50.0 * (math.sin(3.0 * wave) - math.sin(3.0 * (wave - CYCLE))) / CYCLE
     assert axes.velocity == pytest.approx(mean, abs=1e-9)
-    axes.start("GearOut")
+    axes.start("CamOut")
     assert axes.state == "continuous_motion"
+    axes.cycle()
+    assert axes.outputs("Follow") == {"bCommandAborted"}
+
+
+def test_the_velocity_of_written_positions_is_their_increment(axes: CoupledAxes) -> None:
+    """motion_semantics EX-26, ax3000 CONFLICT-11: 0.1 u in each cycle of 1 ms are 100 u/s."""
+    axes.start("Follow", fSetPosition=0.1)
+    for cycle in range(2, 50):
+        axes.set("Follow", fSetPosition=0.1 * cycle)
+        axes.cycle()
+        assert axes.velocity == pytest.approx(100.0, abs=1e-9)
+    assert axes.state == "synchronized_motion"
+    axes.start("Halt", Deceleration=1000.0)
     axes.cycle()
     assert axes.outputs("Follow") == {"bCommandAborted"}
 

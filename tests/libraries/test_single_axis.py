@@ -67,13 +67,33 @@ def test_directions_of_a_rotary_axis(
     assert axis.position == pytest.approx(position % 360, abs=1e-9)
 
 
-@pytest.mark.parametrize("direction", [0, 1, -1])
-def test_a_linear_axis_has_one_way(axis: OneAxis, direction: int) -> None:
-    """ax3000 EX-AX-02."""
+@pytest.mark.parametrize(("before", "travel"), [(1, 280.0), (-1, -80.0)])
+def test_the_current_direction_is_that_of_the_last_motion(axis: OneAxis, before: int, travel: float) -> None:
+    """PRO-04, ax3000 MC-09: from 100 to 20, in the direction in which the axis has moved before."""
+    axis.set("Axis", iMovementType=0)
+    axis.start("Velocity1", Direction=before, **RAMP)
+    axis.after(0.5)
+    start(axis, "Halt1")
+    axis.until_done("Halt1")
     axis.start("SetPosition1", Position=100.0)
-    axis.start("Absolute1", Position=40.0, Direction=direction, **RAMP)
-    axis.until_done("Absolute1")
-    assert axis.position == 40.0
+    axis.start("Absolute1", Position=20.0, Direction=2, **RAMP)
+    gone, last = 0.0, 100.0
+    while "Busy" in axis.outputs("Absolute1"):
+        gone, last = gone + (axis.position - last + 180) % 360 - 180, axis.position
+        axis.cycle()
+    assert gone + (axis.position - last + 180) % 360 - 180 == pytest.approx(travel, abs=1e-9)
+
+
+@pytest.mark.parametrize("direction", [-1, 0, 1, 2, 3])
+@pytest.mark.parametrize(("position", "sign"), [(40.0, -1), (160.0, 1)])
+def test_a_linear_axis_has_one_way(axis: OneAxis, position: float, sign: int, direction: int) -> None:
+    """ax3000 EX-AX-02: 60 u from 100, whatever the direction says."""
+    axis.start("SetPosition1", Position=100.0)
+    axis.start("Absolute1", Position=position, Direction=direction, **RAMP)
+    while "Done" not in axis.outputs("Absolute1"):
+        assert sign * axis.velocity >= 0.0
+        axis.cycle()
+    assert axis.position == position
 
 
 def test_absolute_twice(axis: OneAxis) -> None:
@@ -118,6 +138,18 @@ def test_relative_and_additive_during_a_motion(axis: OneAxis) -> None:
         for name in ("Absolute1", block, "SetPosition1"):
             axis.set(name, Execute=False)
         axis.cycle()
+
+
+@pytest.mark.parametrize("block", ["Relative2", "Additive2"])
+def test_relative_and_additive_behind_a_motion(axis: OneAxis, block: str) -> None:
+    """motion_semantics EX-05 and EX-06: started with Done of the first, 6000 and then 10000."""
+    ramp = {"Velocity": 1000.0, "Acceleration": 10_000.0, "Deceleration": 10_000.0}
+    axis.start("Relative1", Distance=6000.0, **ramp)
+    axis.until_done("Relative1")
+    assert (axis.position, axis.velocity) == (6000.0, 0.0)
+    axis.start(block, Distance=4000.0, **ramp)
+    axis.until_done(block)
+    assert axis.position == pytest.approx(10_000.0, abs=1e-9)
 
 
 def test_velocities_one_after_the_other(axis: OneAxis) -> None:
@@ -249,6 +281,24 @@ def test_blending(
     assert axis.position == sign * 3000.0
 
 
+def test_a_command_that_does_not_wait(axis: OneAxis) -> None:
+    """SEQ-01, ax3000 EX-AX-04, Aborting: at 5 s and 450 u the second takes over, and the whole takes 19 s."""
+    begin = axis.cycles_gone
+    axis.start("Absolute1", Position=1000.0, **RAMP)
+    axis.after(5.0 - CYCLE)
+    assert (axis.position, axis.velocity) == (pytest.approx(450.0, abs=1e-6), pytest.approx(100.0))
+    axis.start("Absolute2", Position=3000.0, Velocity=200.0, Acceleration=100.0, Deceleration=100.0)
+    slowest = axis.velocity
+    axis.cycle()
+    assert axis.outputs("Absolute1") == {"CommandAborted"}
+    while axis.position < 1000.0:
+        slowest = min(slowest, axis.velocity)
+        axis.cycle()
+    assert slowest >= 100.0
+    axis.until_done("Absolute2")
+    assert (axis.cycles_gone - begin) * CYCLE == pytest.approx(19.0, abs=4 * CYCLE)
+
+
 def test_blending_does_not_pass_a_target_that_the_next_motion_cannot_stop_behind(axis: OneAxis) -> None:
     """The velocity there is what 10 u suffice to brake from: sqrt(2 * 100 * 10)."""
     axis.start("Absolute1", Position=1000.0, **RAMP)
@@ -311,7 +361,11 @@ def test_a_move_by_nothing_needs_no_velocity(axis: OneAxis) -> None:
     )
     axis.set("Relative1", Execute=False)
     axis.cycle()
-    axis.start("Relative1", Distance=0.0)
+    axis.start("Relative1", Velocity=10.0, Acceleration=0.0)
+    assert axis.text("Relative1.ErrorID") == "SMC_MR_INVALID_VELACC_VALUES", "CONFLICT-01"
+    axis.set("Relative1", Execute=False)
+    axis.cycle()
+    axis.start("Relative1", Distance=0.0, Velocity=0.0, Acceleration=1.0)
     assert axis.until_done("Relative1", 0.01) <= TWO_CYCLES
     assert (axis.state, axis.position) == ("standstill", 0.0)
 

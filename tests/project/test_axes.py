@@ -309,3 +309,59 @@ def test_a_logical_axis_has_the_task_of_its_master() -> None:
 def test_a_master_is_a_name(master: str) -> None:
     with pytest.raises(InvalidDataError):
         _with_logical(master=master)
+
+
+@pytest.mark.parametrize("interval", ["T#1ms", "T#2ms", "T#2500us", "T#4ms", "T#20ms"])
+def test_cycle_times_of_a_bus_task(interval: str) -> None:
+    """ax3000 TASK-08: those of the manual, and the ends of the range."""
+    project = moving(with_axes("Drive"))
+    task = only(project, "task")
+    project = edit.change_data(project, task.id, {**task.data.model_dump(), "interval": interval})
+    cycle, place = _values(project, 200, "Drive.fTaskCycle", "Drive.fSetPosition")
+    assert cycle == {"T#2500us": 0.0025}.get(interval, int(interval[2:-2]) / 1000)
+    assert place > 0.0
+
+
+@pytest.mark.parametrize("drive", ["SM_Drive_Virtual", "SM_Drive_Simulated", "SM_Drive_PosControl"])
+def test_another_drive_needs_no_other_program(drive: str) -> None:
+    """AXIS-05, AXIS-10: the program that moves the axis is the same; a virtual drive is always virtual."""
+    project = moving(with_axes("Drive", drive=drive))
+    given = {"Drive__in__bRegulatorRealState": True, "Drive__in__bDriveStartRealState": True}
+    virtual, place = _values(
+        project,
+        60,
+        "Drive.bVirtual",
+        "Drive.fSetPosition",
+        **(given if drive == "SM_Drive_PosControl" else {}),
+    )
+    assert virtual == (drive == "SM_Drive_Virtual")
+    assert place > 0.0
+
+
+def test_settings_become_members_of_the_axis() -> None:
+    """AXIS-11, AXIS-12, AXIS-13, AXIS-15, AXIS-17: the fields of the editor, by the numbers of their parameters."""
+    settings = {
+        "axis_type": "finite",
+        "ramp_type": "sin2",
+        "software_limits": {"enabled": True, "negative": -5.0, "positive": 700.0, "deceleration": 350.0},
+        "dynamic_limits": {"velocity": 110.0, "acceleration": 120.0, "deceleration": 130.0, "jerk": 140.0},
+    }
+    wanted = {
+        "iMovementType": 1,
+        "eRampType": 1,
+        "bSWLimitEnable": True,
+        "fSWLimitNegative": -5.0,
+        "fSWLimitPositive": 700.0,
+        "fSWLimitDeceleration": 350.0,
+        "fSWMaxVelocity": 110.0,
+        "fSWMaxAcceleration": 120.0,
+        "fSWMaxDeceleration": 130.0,
+        "fSWMaxJerk": 140.0,
+        "bVirtual": True,
+    }
+    found = _values(moving(with_axes("Drive", **settings)), 5, *(f"Drive.{name}" for name in wanted))
+    assert dict(zip(wanted, found, strict=True)) == wanted
+    rotary = {"axis_type": "modulo", "modulo": 48.0, "ramp_type": "quadratic"}
+    members = ("iMovementType", "fPositionPeriod", "eRampType", "fSWMaxVelocity", "fSWMaxAcceleration")
+    found = _values(moving(with_axes("Drive", **rotary)), 5, *(f"Drive.{name}" for name in members))
+    assert found == [0, 48.0, 2, 100.0, 100.0]

@@ -197,6 +197,50 @@ def test_axes_brake_by_their_ramps_when_a_program_faults(where: str) -> None:
         assert no_step([0.0, *positions(runtime, 100)])
 
 
+INTERLOCK = """fbPower(Axis := Drive, Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
+fbMove(Axis := Drive, Execute := fbPower.Status, Position := 50.0, Velocity := 10.0,
+    Acceleration := 100.0, Deceleration := 100.0);
+fbHalt(Axis := Drive, Execute := xClosed, Deceleration := 100.0);"""
+
+
+def interlocked() -> Project:
+    """Logic in a slower task, in another language, closes a gate by the position of the axis; the motion halts by it."""
+    declaration = DECLARATION.replace("END_VAR", "    fbHalt : MC_Halt;\nEND_VAR")
+    project = with_axes("Drive")
+    (program,) = project.find_kind("pou")
+    project = edit.change_data(project, program.id, {"declaration": declaration, "implementation": INTERLOCK})
+    (application,) = project.applications()
+    variables = {"declaration": "VAR_GLOBAL\n    xClosed, xNever : BOOL;\nEND_VAR"}
+    project, _ = edit.add_object(project, application.id, "gvl", "Gate", data=variables)
+    for name, body in (
+        ("Logic", "LD Drive.fActPosition\nGE 20.0\nS xClosed"),
+        ("Idle", "LD TRUE\nST xNever"),
+    ):
+        text = {"declaration": f"PROGRAM {name}\nVAR\nEND_VAR", "implementation": body, "language": "IL"}
+        project, _ = edit.add_object(project, application.id, "pou", name, data=text)
+    (configuration,) = project.find_kind("task_configuration")
+    task = {"interval": "T#100ms", "priority": 9, "pous": [{"name": "Logic"}]}
+    project, _ = edit.add_object(project, configuration.id, "task", "Slow", data=task)
+    return project
+
+
+def test_logic_of_another_task_uses_the_data_of_an_axis() -> None:
+    """ax3000 PRJ-02 to PRJ-05, TASK-05; what no task calls has no effect, and the build says so."""
+    (one,) = project_applications(interlocked())
+    result = build_application(one.sources, one.tasks, options=replace(one.options, level=1))
+    assert [d.message for d in result.diagnostics if d.code == "W1403"] == [
+        "Program 'Idle' is called by no task and no program"
+    ]
+    with LocalRuntime(package(interlocked())) as runtime:
+        runtime.run(cycles=300)
+        assert runtime.literal("Gate.xClosed") == "TRUE"
+        assert runtime.literal("Gate.xNever") == "FALSE"
+        assert runtime.read("PLC_PRG.fbMove.CommandAborted") is True
+        # 20 u, at most a cycle of the slow task and the way to standstill behind them
+        assert 20.0 <= runtime.read("Drive.fSetPosition") <= 20.0 + 10.0 * 0.14 + 0.5
+        assert runtime.literal("IoConfig_Globals.Drive.nAxisState") == "standstill"
+
+
 def test_a_fault_with_standing_axes_ends_at_once() -> None:
     with LocalRuntime(package(faulting("behind"))) as runtime:
         runtime.run(cycles=600)

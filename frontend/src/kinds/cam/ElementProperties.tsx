@@ -55,7 +55,12 @@ export function ElementProperties({ edit, of }: { edit: CamEdit; of: 'points' | 
       ) : (
         <div className={styles.propertyList}>
           {properties.map((property) => (
-            <PropertyField key={`${place}.${property.id}`} property={property} onFocus={() => setAbout(property.id)} />
+            <PropertyField
+              key={`${place}.${property.id}`}
+              property={property}
+              chosen={property.id === about}
+              onFocus={() => setAbout(property.id)}
+            />
           ))}
         </div>
       )}
@@ -66,11 +71,18 @@ export function ElementProperties({ edit, of }: { edit: CamEdit; of: 'points' | 
   );
 }
 
-function PropertyField({ property, onFocus }: { property: Property; onFocus: () => void }) {
+interface PropertyFieldProps {
+  property: Property;
+  /** Its description is shown. */
+  chosen: boolean;
+  onFocus: () => void;
+}
+
+function PropertyField({ property, chosen, onFocus }: PropertyFieldProps) {
   const [fault, setFault] = useState<string | null>(null);
   const { set, choices } = property;
   return (
-    <div onFocusCapture={onFocus} onPointerDown={onFocus}>
+    <div className={styles.property} data-chosen={chosen || undefined} onFocusCapture={onFocus} onPointerDown={onFocus}>
       <Field row label={property.title} error={fault}>
         {(attributes) =>
           choices ? (
