@@ -1,8 +1,9 @@
 """The transition table of the specification: every function block in every state of an axis.
 
-The table is `tests/spec/data/axis_transitions.csv`, its cells as they are printed, and what PLCopen or
-another part of the specification says of the blocks that it does not name. Blocks of the library that are in
-no row leave the state as it is (STA-17). All of it holds for an axis without a drive and for one with a drive.
+The table is `tests/spec/data/axis_transitions.csv`: its cells as they are printed, and what PLCopen or
+another part of the specification says of the blocks that it does not name. Blocks of the library that are
+in no row leave the state as it is (STA-17). All of it holds for an axis without a drive and for one with a
+drive.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.cli.invoke import invoke
 from tests.libraries.beyond_the_catalogs import BLOCKS, ENUMERATIONS, PINS_ADDED
 from tests.libraries.beyond_the_catalogs import STRUCTURES as NEW_STRUCTURES
 from tests.libraries.st_program import run
@@ -151,6 +152,31 @@ def test_items_have_the_pins_of_both_catalogs(name: str) -> None:
     _check(name, ours.inputs, inputs, defaults=True)
     _check(name, ours.outputs, _expected(name, "outputs"), defaults=False)
     _check(name, ours.in_out, _expected(name, "in_out"), defaults=False)
+
+
+@pytest.mark.parametrize("name", sorted({*OURS} - {*BLOCKS} - {*ENUMERATIONS} - BEYOND - {"LibParams"}))
+def test_items_are_of_the_kind_and_type_of_both_catalogs(name: str) -> None:
+    """A function block, a function with its result, a structure, an enumeration, or another name of a type."""
+    said = [catalog[name.upper()] for catalog in CATALOGS if name.upper() in catalog]
+    assert OURS[name].kind in {item["kind"] for item in said}
+    results = {result.upper() for item in said if (result := item.get("returns") or item.get("type"))}
+    if results:
+        assert results == {str(OURS[name].returns).upper()}
+
+
+def test_library_show_has_what_is_compared_here() -> None:
+    """`tappet library show` is what is held against the catalogs: the same items, pins, types and defaults."""
+    found = json.loads(invoke("library", "show", "SM3_Basic", "--format", "json").output)
+    shown = {item["name"]: item for item in found}
+    assert {*shown} == {*OURS}
+    for name, item in OURS.items():
+        for section in ("inputs", "outputs", "in_out", "members"):
+            ours = [(pin.name, pin.type, pin.default) for pin in getattr(item, section)]
+            assert [(pin["name"], pin["type"], pin["default"]) for pin in shown[name][section]] == ours, name
+        assert [(value["name"], value["value"]) for value in shown[name]["values"]] == [
+            (value.name, value.value) for value in item.values
+        ]
+        assert (shown[name]["kind"], shown[name]["returns"]) == (item.kind, item.returns)
 
 
 @pytest.mark.parametrize("name", sorted(BLOCKS))

@@ -72,8 +72,8 @@ def test_a_comment_is_cut_into_sentences_and_loses_what_it_cites() -> None:
 
 def test_a_whole_comment_has_no_blanks_between_chinese_sentences() -> None:
     assert (
-        comment("The axis stands. It starts in standstill only.", LIBRARY, "zh")
-        == "The axis stands. 只能在静止时启动。"
+        comment("The axis stands. With both inputs TRUE nothing moves.", LIBRARY, "zh")
+        == "The axis stands. 两个输入都为 TRUE 时不运动。"
     )
     assert comment(
         "Moves the axis to a position. PLCopen part 1, version 2.0. Spec X-01.", LIBRARY, "zh"
