@@ -20,7 +20,16 @@ from tests.libraries.command_cases import (
     torque_mode,
     without_bus,
 )
-from tests.libraries.every_block import BLOCKS, ENABLE, LEVELS, Machine, begin_pin, good_inputs, machine
+from tests.libraries.every_block import (
+    BLOCKS,
+    ENABLE,
+    LEVELS,
+    LIBRARY,
+    Machine,
+    begin_pin,
+    good_inputs,
+    machine,
+)
 
 
 @dataclass(frozen=True)
@@ -106,6 +115,12 @@ def test_every_block_with_enable_has_a_case() -> None:
     """Other blocks work while another input is TRUE (test_profiles), or in each call (test_cam_tappets)."""
     starts = {block: begin_pin(block) for block in BLOCKS}
     assert {block for block in starts if starts[block] in ENABLE} == {*ENABLES} - {"SMC_MeasureDistance"}
+    alone = {
+        name
+        for name, item in LIBRARY.items()
+        if name not in BLOCKS and any(pin.name in ENABLE for pin in item.inputs)
+    }
+    assert alone == {"SMC_PI"}, "without an axis: test_pi_controller"
     assert {block for block in starts if starts[block] in LEVELS} == {"MC_Jog", "SMC_Inch"}
     assert {block for block in starts if starts[block] is None} == {"SMC_GetTappetValue"}
 

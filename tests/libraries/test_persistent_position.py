@@ -8,8 +8,8 @@ from tests.libraries.st_program import Program, run
 PROGRAM = """
 PROGRAM Main
 VAR
-    First   : SM3_Basic.AXIS_REF_MAPPING_SM3 := (fTaskCycle := 0.002, {settings});
-    Again   : SM3_Basic.AXIS_REF_MAPPING_SM3 := (fTaskCycle := 0.002, {again});
+    First   : SM3_Basic.{axis} := (fTaskCycle := 0.002, {settings});
+    Again   : SM3_Basic.{axis} := (fTaskCycle := 0.002, {again});
     Virtual : SM3_Basic.AXIS_REF_VIRTUAL_SM3;
     Place   : SM3_Basic.MC_SetPosition;
     Store   : SM3_Basic.{block};
@@ -22,13 +22,13 @@ VAR
     dwCount : DWORD := {count};
 END_VAR
 IF NOT xOff THEN
-    First.in.diActPosition := DWORD_TO_DINT(dwCount);
+    First.in.{counter};
     First.BeginCycle();
     Place(Axis := First);
     Store(Axis := First, PersistentData := Data, bEnable := TRUE{bits});
     First.EndCycle();
 ELSE
-    Again.in.diActPosition := DWORD_TO_DINT(dwCount);
+    Again.in.{counter};
     Again.BeginCycle();
     Again.bError := Again.bError OR xError;
     Restore(Axis := Again, PersistentData := Data, bEnable := TRUE{bits});
@@ -51,10 +51,16 @@ def program(
     count: int = 1000,
     again: str | None = None,
     bits: int | None = None,
+    kind: str = "AXIS_REF_MAPPING_SM3",
 ) -> str:
     given = "" if bits is None else f", usiNumberOfAbsoluteBits := {bits}"
     again = settings if again is None else again
-    return PROGRAM.format(settings=settings, block=block, count=count, again=again, bits=given)
+    counter = "diActPosition := DWORD_TO_DINT(dwCount)"
+    if kind == "AXIS_REF_POSCONTROL_SM3":
+        counter = "dwActPosition := dwCount"
+    return PROGRAM.format(
+        settings=settings, block=block, count=count, again=again, bits=given, axis=kind, counter=counter
+    )
 
 
 def number(running: Program, path: str) -> float:
@@ -69,10 +75,13 @@ def switched_off_and_on(running: Program, count: int) -> None:
         running.cycle()
 
 
+@pytest.mark.parametrize("kind", ["AXIS_REF_MAPPING_SM3", "AXIS_REF_POSCONTROL_SM3"])
 @pytest.mark.parametrize(("settings", "sign"), [(LINEAR, 1), (INVERTED, -1)])
 @pytest.mark.parametrize("turned", [0, 37, -2000])
-def test_a_position_is_restored_with_what_was_turned_by_hand(settings: str, sign: int, turned: int) -> None:
-    with run(program(settings), 4) as running:
+def test_a_position_is_restored_with_what_was_turned_by_hand(
+    settings: str, sign: int, turned: int, kind: str
+) -> None:
+    with run(program(settings, kind=kind), 4) as running:
         running.set("Main.Place", Execute=True, Position=55.5)
         running.cycle()
         assert running.literal("Main.Store.bPositionRestored") == "FALSE", "nothing was stored before"
