@@ -55,6 +55,7 @@ VAR
     xReads   : BOOL := TRUE;
     xClears  : BOOL;
     xStopsBus : BOOL; (* The axis gets no bus cycles *)
+    diApart : DINT;   (* From one instance to another in the memory *)
 {_INSTANCES}
 {_READERS}
 END_VAR
@@ -65,6 +66,7 @@ IF xClears THEN
     xClears := SM3_Basic.SMC_ClearFBError(ADR(Axis));
 END_IF
 {_READS}
+diApart := LINT_TO_DINT(LWORD_TO_LINT(ADR(Velocity1)) - LWORD_TO_LINT(ADR(Absolute1)));
 IF NOT xStopsBus THEN Axis.EndCycle(); END_IF
 END_PROGRAM
 """

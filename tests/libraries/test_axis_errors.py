@@ -21,9 +21,15 @@ def test_errors_of_blocks_are_kept(axis: OneAxis) -> None:
     assert axis.text("Velocity1.ErrorID") == "SMC_MV_DIRECTION_NOT_APPLICABLE"
     axis.cycle()
     assert axis.text("FBError.nFBErrorID") == "SMC_MA_INVALID_VELACC_VALUES"
+    first = axis.text("FBError.pbyErrorInstance"), axis.text("FBError.tTimeStamp")
     axis.write("xClears", True)
     axis.cycle()
     assert axis.text("FBError.nFBErrorID") == "SMC_MV_DIRECTION_NOT_APPLICABLE"
+    second = axis.text("FBError.pbyErrorInstance"), axis.text("FBError.tTimeStamp")
+    assert int(second[0].replace("16#", "0x"), 0) - int(first[0].replace("16#", "0x"), 0) == int(
+        axis.text("diApart")
+    ), "the instances"
+    assert _milliseconds(second[1]) - _milliseconds(first[1]) == 2, "two cycles later"
     axis.write("xClears", True)
     axis.cycle()
     assert axis.says("Status", "FBErrorOccured") == set()
@@ -34,6 +40,10 @@ def test_errors_of_blocks_are_kept(axis: OneAxis) -> None:
     axis.cycle()
     assert axis.outputs("Absolute1") == {"Error"}
     assert axis.says("Status", "FBErrorOccured") == set()
+
+
+def _milliseconds(time: str) -> int:
+    return int(time.upper().removeprefix("TIME#").removeprefix("T#").removesuffix("MS"))
 
 
 @pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])

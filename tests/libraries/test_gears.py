@@ -139,6 +139,33 @@ def test_what_waits_behind_a_gear_begins_when_it_is_reached(axes: CoupledAxes) -
     assert axes.velocity == 20.0
 
 
+@pytest.mark.parametrize(
+    ("block", "inputs", "reached"),
+    [
+        ("Through", {"Position": 60.0, "Velocity": 50.0, "EndVelocity": 30.0, **RAMP}, "InEndVelocity"),
+        ("GearPos", SYNC, "InSync"),
+    ],
+)
+def test_a_buffered_command_waits_for_what_is_reached(
+    axes: CoupledAxes, block: str, inputs: dict[str, float], reached: str
+) -> None:
+    """SEQ-05: behind InEndVelocity and InSync, with the velocity that is reached there."""
+    axes.run_master(100.0)
+    axes.start(block, **inputs)
+    if block == "GearPos":
+        axes.until(block, "StartSync")
+    axes.start("Velocity", Velocity=10.0, BufferMode=1, **RAMP)
+    for _ in range(5000):
+        if "Active" in axes.outputs("Velocity"):
+            break
+        assert axes.outputs("Velocity") == {"Busy"}
+        before = axes.velocity
+        axes.cycle()
+    assert before == pytest.approx({"InEndVelocity": 30.0, "InSync": 100.0}[reached], abs=0.3)
+    axes.cycle()
+    assert axes.outputs(block) == {"CommandAborted"}
+
+
 def test_a_slave_that_is_called_before_its_master_lags_a_cycle(axes: CoupledAxes) -> None:
     """Spec CAL-07: no way is lost by it."""
     axes.write("xSlaveFirst", True)

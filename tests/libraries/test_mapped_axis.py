@@ -100,6 +100,32 @@ def test_a_fault_of_the_drive_is_an_error_of_the_axis_until_it_is_reset() -> Non
         assert number(program, "Axis.dwErrorID") == 0
 
 
+def test_an_error_that_stays_is_told_by_the_reset() -> None:
+    """ERR-07: 123 when the fault has not gone in time, 121 without communication, until the bus is back."""
+    with axis() as program:
+        switch_on(program)
+        program.set("Main", xFault=True)
+        cycles(program, 5)
+        assert state(program) == "errorstop"
+        program.set("Main.Reset", Execute=True)
+        cycles(program, 1005)
+        assert program.literal("Main.Reset.ErrorID") == "SMC_R_DRIVE_DOESNT_ANSWER_IN_TIME"
+        program.set("Main", xFault=False)
+        program.set("Main.Reset", Execute=False)
+        program.set("Main.Axis", **{"in.bOffline": True})
+        cycles(program, 3)
+        program.set("Main.Reset", Execute=True)
+        cycles(program, 2)
+        assert program.literal("Main.Reset.ErrorID") == "SMC_R_DRIVE_DOESNT_ANSWER"
+        assert state(program) == "errorstop"
+        program.set("Main.Axis", **{"in.bOffline": False})
+        program.set("Main.Reset", Execute=False)
+        cycles(program, 10)
+        program.set("Main.Reset", Execute=True)
+        cycles(program, 50)
+        assert program.literal("Main.Reset.Done") == "TRUE"
+
+
 def test_an_axis_that_loses_its_power_does_not_jump_when_it_comes_back() -> None:
     with axis() as program:
         switch_on(program)

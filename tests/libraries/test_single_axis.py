@@ -67,6 +67,35 @@ def test_directions_of_a_rotary_axis(
     assert axis.position == pytest.approx(position % 360, abs=1e-9)
 
 
+@pytest.mark.parametrize(("direction", "travel"), [(0, -100.0), (3, 260.0)], ids=["shortest", "fastest"])
+def test_the_fastest_way_counts_the_present_velocity(axis: OneAxis, direction: int, travel: float) -> None:
+    """PRO-04: at 100 u/s, 100 back takes 1 s to stop and 2.5 s for 150; 260 on take 2.1 s and 1 s to stop."""
+    axis.set("Axis", iMovementType=0)
+    axis.start("Velocity1", Direction=1, **RAMP)
+    axis.until(lambda: "InVelocity" in axis.outputs("Velocity1"))
+    begin, last = axis.cycles_gone, axis.position
+    axis.start("Absolute1", Position=(axis.position - 100.0) % 360.0, Direction=direction, **RAMP)
+    gone = 0.0
+    while "Done" not in axis.outputs("Absolute1"):
+        gone, last = gone + (axis.position - last + 180) % 360 - 180, axis.position
+        axis.cycle()
+    gone += (axis.position - last + 180) % 360 - 180
+    assert gone == pytest.approx(travel, abs=1e-9)
+    seconds = {-100.0: 3.5, 260.0: 3.1}[travel]
+    assert (axis.cycles_gone - begin) * CYCLE == pytest.approx(seconds, abs=3 * CYCLE)
+
+
+def test_actual_values_follow_a_cycle_behind(axis: OneAxis) -> None:
+    """INF-04: the set value of a cycle is the actual value of an ideal axis in the next one."""
+    start(axis, "Absolute1")
+    for _ in range(500):
+        set_values = [axis.number(f"Axis.fSet{name}") for name in ("Position", "Velocity", "Acceleration")]
+        axis.cycle()
+        assert [
+            axis.number(f"Axis.fAct{name}") for name in ("Position", "Velocity", "Acceleration")
+        ] == set_values
+
+
 @pytest.mark.parametrize(("before", "travel"), [(1, 280.0), (-1, -80.0)])
 def test_the_current_direction_is_that_of_the_last_motion(axis: OneAxis, before: int, travel: float) -> None:
     """PRO-04, ax3000 MC-09: from 100 to 20, in the direction in which the axis has moved before."""
