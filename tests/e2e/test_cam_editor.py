@@ -325,6 +325,28 @@ def test_tappets_are_added_moved_switched_and_deleted(cam: CamPage) -> None:
     expect(cam.editor.get_by_role("row")).to_have_count(1 + 4)
 
 
+def test_tappets_stay_in_the_range_and_are_added_at_the_start(cam: CamPage) -> None:
+    """CAM-52, CAM-56: a drag ends where the master does; Del deletes; the table adds at 0, ON and OFF."""
+    page = cam.page
+    cam.tab("Tappets")
+    signs = cam.editor.get_by_role("application", name=re.compile("^Track 1")).locator("[data-positive]")
+    x, y = cam.centre(signs.nth(1).locator("circle"))
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 900, y, steps=4)
+    with objects_stored(page):
+        page.mouse.up()
+    assert [tappet["x"] for tappet in cam.stored()["tracks"][0]["tappets"]] == [90, 360]
+    signs.nth(1).locator("circle").click()
+    with objects_stored(page):
+        page.keyboard.press("Delete")
+    assert [tappet["x"] for tappet in cam.stored()["tracks"][0]["tappets"]] == [90]
+    cam.tab("Tappet table")
+    with objects_stored(page):
+        cam.cell(0, 0).get_by_role("button", name="Add tappet").click()
+    assert cam.stored()["tracks"][0]["tappets"][0] == {"x": 0, "positive": "on", "negative": "off"}
+
+
 def test_a_text_replaces_the_points_and_one_that_is_none_does_not(cam: CamPage) -> None:
     page = cam.page
     cam.editor.get_by_role("button", name="Cam", exact=True).click()
