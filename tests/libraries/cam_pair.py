@@ -47,6 +47,9 @@ SLAVE_BLOCKS = {
     "SlaveStop": "MC_Stop",
     "SlaveSet": "MC_SetPosition",
     "SlaveReset": "MC_Reset",
+    "SlaveSuper": "MC_MoveSuperImposed",
+    "SlaveHaltSuper": "MC_HaltSuperimposed",
+    "SlaveOverride": "MC_SetOverride",
 }
 
 

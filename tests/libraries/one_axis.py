@@ -22,6 +22,8 @@ BLOCKS = {
     "Stop": "MC_Stop",
     "Reset": "MC_Reset",
     "SetPosition": "MC_SetPosition",
+    "Super": "MC_MoveSuperImposed",
+    "HaltSuper": "MC_HaltSuperimposed",
 }
 READERS = {
     "Status": ("MC_ReadStatus", "Enable"),
@@ -30,6 +32,7 @@ READERS = {
     "Actual": ("MC_ReadActualPosition", "Enable"),
     "SetValue": ("SMC_ReadSetPosition", "Enable"),
 }
+
 TWO_CYCLES = 2 * CYCLE + 1e-9
 RAMP = {"Velocity": 100.0, "Acceleration": 100.0, "Deceleration": 100.0}
 STATES = (
@@ -51,6 +54,7 @@ VAR
     Axis     : SM3_Basic.AXIS_REF_VIRTUAL_SM3 := (
         fTaskCycle := {CYCLE}, fMaxVelocity := 1E5, fMaxAcceleration := 1E6, fMaxDeceleration := 1E6);
     Power    : SM3_Basic.MC_Power;
+    Override : SM3_Basic.MC_SetOverride;
     sSkipped : STRING; (* The block that is not called *)
     xReads   : BOOL := TRUE;
     xClears  : BOOL;
@@ -61,6 +65,7 @@ VAR
 END_VAR
 IF NOT xStopsBus THEN Axis.BeginCycle(); END_IF
 Power(Axis := Axis);
+Override(Axis := Axis);
 {_CALLS}
 IF xClears THEN
     xClears := SM3_Basic.SMC_ClearFBError(ADR(Axis));

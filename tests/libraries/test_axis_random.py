@@ -12,9 +12,11 @@ from tests.libraries.one_axis import CYCLE, STATES, OneAxis, one_axis
 
 MOVES = ("Absolute", "Relative", "Additive", "Velocity", "Halt", "Stop")
 BLOCKS = tuple(f"{name}{number}" for name in MOVES for number in (1, 2))
+SUPERIMPOSED = ("Super1", "Super2")
 MOTIONS = tuple(block for block in BLOCKS if not block.startswith("Stop"))
 FASTEST = 200.0
 STEEPEST = 1000.0
+"""Acceleration of a command; a superimposed motion comes besides."""
 RAMP_TYPES = {"trapez": 0, "sin2": 1, "quadratic": 2, "quadratic_smooth": 3}
 
 speeds = st.floats(1.0, FASTEST)
@@ -93,6 +95,40 @@ class AxisMachine(RuleBasedStateMachine):
         self.axis.set(block, Execute=False)
         self.step()
 
+    @rule(
+        block=st.sampled_from(SUPERIMPOSED),
+        by=st.floats(-100.0, 100.0),
+        speed=st.floats(1.0, 50.0),
+        up=ramps,
+        down=ramps,
+        cycles=st.sampled_from((1, 30, 300)),
+    )
+    def superimpose(self, block: str, by: float, speed: float, up: float, down: float, cycles: int) -> None:
+        self.axis.set(block, Execute=False)
+        self.step()
+        self.axis.set(block, Distance=by, VelocityDiff=speed, Acceleration=up, Deceleration=down, Jerk=5000.0)
+        self.axis.set(block, Execute=True)
+        self.step()
+        self.wait(cycles)
+
+    @rule(down=ramps, cycles=st.sampled_from((1, 100)))
+    def halt_superimposed(self, down: float, cycles: int) -> None:
+        self.axis.set("HaltSuper1", Execute=False)
+        self.step()
+        self.axis.set("HaltSuper1", Deceleration=down, Jerk=5000.0, Execute=True)
+        self.step()
+        self.wait(cycles)
+
+    @rule(
+        velocity=st.sampled_from((0.0, 0.2, 1.0)),
+        ramp=st.sampled_from((0.3, 1.0)),
+        jerk=st.sampled_from((0.5, 1.0)),
+        cycles=st.sampled_from((1, 100)),
+    )
+    def override(self, velocity: float, ramp: float, jerk: float, cycles: int) -> None:
+        self.axis.set("Override", Enable=True, VelFactor=velocity, AccFactor=ramp, JerkFactor=jerk)
+        self.wait(cycles)
+
     @rule(block=st.sampled_from(MOTIONS))
     def let_go(self, block: str) -> None:
         self.axis.set(block, Execute=False)
@@ -125,7 +161,7 @@ class AxisMachine(RuleBasedStateMachine):
         way = self.before[0] - position - (by if shifted else 0.0)
         if self.period:
             way = (way + self.period / 2) % self.period - self.period / 2
-        steepest = STEEPEST * CYCLE * 1.001
+        steepest = 2 * STEEPEST * CYCLE * 1.001
         assert abs(self.before[1] - velocity) <= steepest + 1e-9
         assert abs(way - (velocity + self.before[1]) / 2 * CYCLE) <= steepest * CYCLE + 1e-9
 
@@ -134,7 +170,9 @@ class AxisMachine(RuleBasedStateMachine):
         if not hasattr(self, "axis"):
             return
         assert self.axis.state in STATES
-        outputs: dict[str, set[str]] = {block: self.axis.outputs(block) for block in BLOCKS}
+        outputs: dict[str, set[str]] = {
+            block: self.axis.outputs(block) for block in (*BLOCKS, *SUPERIMPOSED, "HaltSuper1")
+        }
         for told in outputs.values():
             assert len(told & {"Done", "CommandAborted", "Error"}) <= 1
             assert not ("Busy" in told and told & {"CommandAborted", "Error"})

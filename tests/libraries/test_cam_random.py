@@ -172,6 +172,21 @@ class CamMachine(RuleBasedStateMachine):
         self._start(block, **inputs)
         self.wait(cycles)
 
+    @rule(by=st.floats(-30.0, 30.0), speed=st.floats(1.0, 50.0), up=ramps, cycles=st.sampled_from((1, 100)))
+    def superimpose(self, by: float, speed: float, up: float, cycles: int) -> None:
+        self._start("SlaveSuper", Distance=by, VelocityDiff=speed, Acceleration=up, Deceleration=up)
+        self.wait(cycles)
+
+    @rule(up=ramps, cycles=st.sampled_from((1, 50)))
+    def halt_superimposed(self, up: float, cycles: int) -> None:
+        self._start("SlaveHaltSuper", Deceleration=up)
+        self.wait(cycles)
+
+    @rule(factor=st.sampled_from((0.0, 0.3, 1.0)), cycles=st.sampled_from((1, 50)))
+    def override(self, factor: float, cycles: int) -> None:
+        self.pair.set("SlaveOverride", Enable=True, VelFactor=factor)
+        self.wait(cycles)
+
     @rule(up=ramps, cycles=st.sampled_from((1, 50, 200)))
     def stop_slave(self, up: float, cycles: int) -> None:
         self._start("SlaveStop", Deceleration=up)

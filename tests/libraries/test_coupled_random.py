@@ -28,6 +28,9 @@ SINGLE = {
     "Through": "SMC_MoveContinuousRelative",
     "Super": "MC_MoveSuperImposed",
     "HaltSuper": "MC_HaltSuperimposed",
+    "Additive": "MC_MoveAdditive",
+    "Override": "MC_SetOverride",
+    "Place": "MC_SetPosition",
     "Halt": "MC_Halt",
     "Stop": "MC_Stop",
     "Reset": "MC_Reset",
@@ -36,12 +39,15 @@ OF_SLAVE = {
     "Gear": "MC_GearIn",
     "GearPos": "MC_GearInPos",
     "Phasing": "MC_PhasingRelative",
+    "PhasingTo": "MC_PhasingAbsolute",
     "Backlash": "SMC_BacklashCompensation",
 }
 BLOCKS = {f"{axis}{name}": block for axis in AXES for name, block in SINGLE.items()}
 COUPLINGS = {f"{axis}{name}": block for axis in AXES[1:] for name, block in OF_SLAVE.items()}
+COMBINATIONS = {f"{axis}Combine": "MC_CombineAxes" for axis in AXES[1:]}
+PROFILES = {f"{axis}Positions": "MC_PositionProfile" for axis in AXES}
 RELEASES = {f"{axis}Out": "MC_GearOut" for axis in AXES[1:]}
-ALL = BLOCKS | COUPLINGS | RELEASES
+ALL = BLOCKS | COUPLINGS | COMBINATIONS | PROFILES | RELEASES
 _ITEMS = {item.name: item for item in items(load("SM3_Basic"))}
 _EXECUTE = {name: _ITEMS[block].inputs[0].name for name, block in ALL.items()}
 _STEEPEST = 8_000.0
@@ -61,8 +67,14 @@ def _exclusive(name: str, block: str) -> str:
 
 def _watched(axis: str) -> str:
     return f"""
+IF {axis}Place.Done AND NOT x{axis}Placed THEN
+    f{axis}Position := f{axis}Position + {axis}Place.Position;
+END_IF
+x{axis}Placed := {axis}Place.Done;
 fMean := {CYCLE / 2} * ({axis}.fSetVelocity + f{axis}Velocity);
-IF sWrong = '' AND NOT (ABS({axis}.fSetPosition - f{axis}Position - fMean) < {_STEEPEST * CYCLE**2}) THEN
+IF NOT xSteps AND sWrong = ''
+    AND NOT (ABS({axis}.fSetPosition - f{axis}Position - fMean) < {_STEEPEST * CYCLE**2})
+THEN
     sWrong := '{axis} jumps';
 END_IF
 IF sWrong = '' AND {axis}.nAxisState = SM3_Basic.SMC_AXIS_STATE.standstill AND {axis}.fSetVelocity <> 0.0 THEN
@@ -72,13 +84,25 @@ f{axis}Position := {axis}.fSetPosition;
 f{axis}Velocity := {axis}.fSetVelocity;"""
 
 
+def _steps(name: str) -> str:
+    """MC_CombineAxes gives a slave the velocity of its masters at once, and those behind it as well."""
+    return f"""
+xSteps := xSteps OR ({name}.Busy AND NOT x{name}Busy) OR ({name}.Active AND NOT x{name}Active);
+x{name}Busy := {name}.Busy;
+x{name}Active := {name}.Active;"""
+
+
 _AXIS = f"(fTaskCycle := {CYCLE}, fMaxVelocity := 1E9, fMaxAcceleration := 1E12, fMaxDeceleration := 1E12)"
 PROGRAM = "\n".join(
     [
-        "PROGRAM Main\nVAR\n    sWrong : STRING; fMean : LREAL;",
+        "PROGRAM Main\nVAR\n    sWrong : STRING; fMean : LREAL; xSteps : BOOL;",
+        "    Table : SM3_Basic.MC_TP_REF := (Number_of_pairs := 2, IsAbsolute := FALSE,",
+        "        MC_TP_Array := [(delta_time := T#300ms, position := 4.0), (delta_time := T#300ms)]);",
+        *(f"    x{name}Busy, x{name}Active : BOOL;" for name in COMBINATIONS),
         *(f"    {axis} : SM3_Basic.AXIS_REF_VIRTUAL_SM3 := {_AXIS};" for axis in AXES),
         *(
-            f"    {axis}Power : SM3_Basic.MC_Power; f{axis}Position, f{axis}Velocity : LREAL;"
+            f"    {axis}Power : SM3_Basic.MC_Power; x{axis}Placed : BOOL;"
+            f" f{axis}Position, f{axis}Velocity : LREAL;"
             for axis in AXES
         ),
         *(f"    {name} : SM3_Basic.{block};" for name, block in ALL.items()),
@@ -88,9 +112,14 @@ PROGRAM = "\n".join(
         *(f"{axis}{name}(Axis := {axis});" for axis in AXES for name in SINGLE),
         *(f"First{name}(Master := Master, Slave := First);" for name in OF_SLAVE),
         *(f"Second{name}(Master := First, Slave := Second);" for name in OF_SLAVE),
+        "FirstCombine(Master1 := Master, Master2 := Master, Slave := First);",
+        "SecondCombine(Master1 := Master, Master2 := First, Slave := Second);",
+        *(f"{name}(Axis := {name.removesuffix('Positions')}, TimePosition := Table);" for name in PROFILES),
         *(f"{axis}Out(Slave := {axis});" for axis in AXES[1:]),
         *(f"{axis}.EndCycle();" for axis in AXES),
         *(_exclusive(name, block) for name, block in ALL.items()),
+        "xSteps := FALSE;",
+        *(_steps(name) for name in COMBINATIONS),
         *(_watched(axis) for axis in AXES),
         "END_PROGRAM\n",
     ]
@@ -160,6 +189,18 @@ def commands(draw: st.DrawFn) -> tuple[str, dict[str, Any], int, bool]:
         values |= {"RatioNumerator": draw(st.integers(-3, 3)), "RatioDenominator": draw(st.integers(1, 3))}
     if "MasterStartDistance" in pins:
         values["MasterStartDistance"] = draw(st.sampled_from((50.0, 80.0, -50.0)))
+    if "VelFactor" in pins:
+        values = {
+            "VelFactor": draw(st.sampled_from((0.0, 0.3, 1.0))),
+            "AccFactor": draw(st.sampled_from((0.5, 1.0))),
+        }
+    if "Mode" in pins:
+        values["Mode"] = True
+    if "ArraySize" in pins:
+        values["ArraySize"] = 2
+    if "GearRatioNumeratorM1" in pins:
+        values |= {f"GearRatioNumeratorM{master}": draw(st.integers(-2, 2)) for master in (1, 2)}
+        values["CombineMode"] = draw(st.sampled_from((0, 1)))
     if "fBacklash" in pins:
         values |= {"fBacklash": 2.0, "fCompensationAcc": 400.0, "fCompensationDec": 400.0}
     return name, values, draw(st.sampled_from((1, 2, 30, 200, 700))), draw(st.booleans())

@@ -8,14 +8,15 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from tests.libraries.mapped_axis import CYCLE, axis, cycles, number, switch_on
-from tests.libraries.st_program import Program, run
+from tests.libraries.st_program import run
 from tests.libraries.test_controller_modes import change
 
 SERVO = """
 PROGRAM Main
 VAR
     Axis   : SM3_Basic.AXIS_REF_MAPPING_SM3 := (fTaskCycle := {cycle}, iMovementType := 1,
-        dwRatioTechUnitsDenom := 65536, iRatioTechUnitsNum := 1, fRatedTorque := 1.27, fSWMaxDeceleration := 1000.0);
+        dwRatioTechUnitsDenom := 65536, iRatioTechUnitsNum := 1, fRatedTorque := 1.27,
+        fSWMaxDeceleration := 1000.0);
     Drive  : SM3_Basic.SimulatedDrive := (stSettings := ({settings}));
     Power  : SM3_Basic.MC_Power;
     Mode   : SM3_Basic.SMC_SetControllerMode;
@@ -34,7 +35,7 @@ END_PROGRAM
 
 
 def test_a_free_mass_comes_to_the_limit_exponentially() -> None:
-    """1 Nm accelerates by 200 u/s2; from a T below the limit on the rest of the velocity falls as exp(-t/T)."""
+    """1 Nm accelerates by 200 u/s2; near the limit the rest of the velocity falls as exp(-t/T)."""
     limit, acceleration, time = 50.0, 200.0, 20 * CYCLE
     with axis() as program:
         switch_on(program)
@@ -67,7 +68,7 @@ def test_a_free_mass_comes_to_the_limit_exponentially() -> None:
 def test_a_servo_settles_at_the_limit(
     inertia: float, dry: float, ramp: float, cycle: float, sign: int
 ) -> None:
-    """Whatever inertia and friction it has: hardly above the limit, and with the torque of the friction there."""
+    """Whatever inertia and friction it has: hardly above the limit, with the torque of friction there."""
     limit, torque, viscous = 20.0, 0.5, 1e-4
     settings = f"fInertia := {inertia}, fDry := {dry * torque}, fViscous := {viscous}, fNoise := 0.0"
     text = SERVO.format(settings=settings, cycle=cycle)

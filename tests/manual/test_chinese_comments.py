@@ -11,7 +11,13 @@ import pytest
 from tappet.libraries import load
 from tappet.libraries.catalog import Item, items
 from tappet.manual.examples import read_examples
-from tappet.manual.pages import EXAMPLES, LIBRARY, public_methods
+from tappet.manual.pages import (
+    FOLDERS,
+    LIBRARY,
+    examples_of,
+    public_methods,
+    sentences_of_examples,
+)
 from tappet.translation.library_comments import comment, said, sentences, table
 
 CHINESE = re.compile("[一-鿿]")
@@ -28,24 +34,33 @@ def _of(item: Item) -> Iterator[str]:
 
 def _shown() -> dict[str, set[str]]:
     """Sentences by table."""
-    library = load(LIBRARY)
-    found: set[str] = set()
-    for item in items(library):
-        for one in (item, *public_methods(library, item)):
-            found |= {sentence for comment in _of(one) for sentence in sentences(comment)}
-    folder = Path(__file__).parents[2] / "docs" / "motion" / "examples"
-    examples = {s for one in read_examples(folder).values() for s in sentences(one.comment)}
-    return {LIBRARY: found, EXAMPLES: examples}
+    shown: dict[str, set[str]] = {}
+    folder = Path(__file__).parents[2] / "docs" / "motion"
+    for name in FOLDERS:
+        library = load(name)
+        shown[name] = {
+            sentence
+            for item in items(library)
+            for one in (item, *public_methods(library, item))
+            for comment in _of(one)
+            for sentence in sentences(comment)
+        }
+        examples = read_examples(folder / examples_of(name)).values()
+        shown[sentences_of_examples(name)] = {s for one in examples for s in sentences(one.comment)}
+    return shown
 
 
-@pytest.mark.parametrize("name", [LIBRARY, EXAMPLES])
+TABLES = [table for name in FOLDERS for table in (name, sentences_of_examples(name))]
+
+
+@pytest.mark.parametrize("name", TABLES)
 def test_every_sentence_has_a_row_and_every_row_a_sentence(name: str) -> None:
     shown, known = _shown()[name], table(name, "zh")
     assert sorted(shown - known.keys()) == [], "write them into translation/zh/libraries"
     assert sorted(known.keys() - shown) == []
 
 
-@pytest.mark.parametrize("name", [LIBRARY, EXAMPLES])
+@pytest.mark.parametrize("name", TABLES)
 def test_rows_are_chinese_with_the_numbers_and_names_of_the_english_sentence(name: str) -> None:
     known = table(name, "zh")
     assert [english for english, zh in known.items() if not CHINESE.search(zh)] == [

@@ -12,12 +12,12 @@ import pytest
 
 from tappet.libraries import load
 from tappet.libraries.catalog import items
-from tappet.manual.examples import Example, read_examples
+from tappet.manual.examples import Example
 from tappet.manual.library_errors import errors_of
-from tappet.manual.pages import group_of, state_of
+from tappet.manual.pages import FOLDERS, group_of, state_of
 from tappet.manual.recording import ExampleError, Recording, record
 from tappet.manual.simplified import simplified
-from tappet.manual.written import made, stored, write
+from tappet.manual.written import all_examples, made, stored, write
 
 MANUAL = Path(__file__).parents[2] / "docs" / "motion"
 LARGEST = 15_000
@@ -26,7 +26,7 @@ LARGEST = 15_000
 
 @cache
 def recordings() -> tuple[Recording, ...]:
-    return tuple(record(read_examples(MANUAL / "examples")))
+    return tuple(record(all_examples(MANUAL)))
 
 
 @cache
@@ -47,6 +47,21 @@ def test_every_item_has_a_page_in_both_languages() -> None:
         assert [name for name in names if f"{folder}/{name}.md" not in written()] == []
         index = written()[f"{folder}/README.md"]
         assert [name for name in names if f"[{name}]({name}.md)" not in index] == []
+
+
+def test_every_item_of_the_cam_builder_has_a_page_in_both_languages() -> None:
+    names = [item.name for item in items(load("SM3_CamBuilder"))]
+    assert len(names) > 12
+    for folder in ("cam-builder", "cam-builder/zh"):
+        assert [name for name in names if f"{folder}/{name}.md" not in written()] == []
+        index = written()[f"{folder}/README.md"]
+        assert [name for name in names if f"[{name}]({name}.md)" not in index] == []
+    page = written()["cam-builder/CamBuilder.md"]
+    assert [
+        name for name in ("Init", "Append", "CheckContinuity", "Write") if f": {name}\n" not in page
+    ] == []
+    assert "| `camRef` | [MC_CAM_REF](../blocks/MC_CAM_REF.md) |" in page
+    assert "](../../blocks/zh/MC_CAM_REF.md)" in written()["cam-builder/zh/CamBuilder.md"]
 
 
 def test_every_function_block_with_an_example_has_a_chart() -> None:
@@ -86,7 +101,12 @@ def test_what_examples_expect_comes_true() -> None:
 
 
 def test_every_block_has_an_example() -> None:
-    blocks = {item.name for item in items(load("SM3_Basic")) if item.kind in ("function_block", "function")}
+    blocks = {
+        item.name
+        for library in FOLDERS
+        for item in items(load(library))
+        if item.kind in ("function_block", "function")
+    }
     examples = {one.example.name for one in recordings()}
     assert examples - blocks == set()
     assert blocks - examples == {

@@ -1,4 +1,4 @@
-"""A page for each block, function and type of SM3_Basic, and an index, in English and Chinese."""
+"""A page for each block, function and type of the motion libraries, and an index, in English and Chinese."""
 
 from __future__ import annotations
 
@@ -19,8 +19,10 @@ from tappet.translation.language import Language
 from tappet.translation.library_comments import said
 
 LIBRARY = "SM3_Basic"
-EXAMPLES = "SM3_Basic_examples"
-"""Table of the sentences of the examples."""
+CAM_BUILDER = "SM3_CamBuilder"
+FOLDERS = {LIBRARY: "blocks", CAM_BUILDER: "cam-builder"}
+"""Where the pages of a library lie, by the library."""
+
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
 _SECTIONS = (("in_out", "in_out"), ("inputs", "inputs"), ("outputs", "outputs"))
 _POUS = ("function_block", "function", "program")
@@ -28,14 +30,24 @@ _EXTENDS = re.compile(r"^FUNCTION_BLOCK\s+(?:(?:INTERNAL|ABSTRACT)\s+)*\w+\s+EXT
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
-def pages(examples: Mapping[str, Example]) -> dict[str, str]:
-    """Text of every page by its path below `docs/motion/blocks`."""
+def examples_of(library: str) -> str:
+    """The folder of the examples of a library, below `docs/motion`."""
+    return "examples" if library == LIBRARY else f"examples/{FOLDERS[library]}"
+
+
+def sentences_of_examples(library: str) -> str:
+    """Table of the sentences of the examples of a library."""
+    return f"{library}_examples"
+
+
+def pages(library: str, examples: Mapping[str, Example]) -> dict[str, str]:
+    """Text of every page of a library by its path below `docs/motion`."""
     made: dict[str, str] = {}
     for language in LANGUAGES:
-        manual = _Manual(load(LIBRARY), examples, language)
+        manual = _Manual(library, examples, language)
         for item in manual.items.values():
-            made[f"{manual.folder}{item.name}.md"] = manual.page(item)
-        made[f"{manual.folder}README.md"] = manual.index()
+            made[f"{manual.folder}/{item.name}.md"] = manual.page(item)
+        made[f"{manual.folder}/README.md"] = manual.index()
     return made
 
 
@@ -52,6 +64,11 @@ def group_of(item: Item) -> str:
     return _rows().get(item.name, {}).get("group", "other")
 
 
+def _group_in(library: str, item: Item) -> str:
+    """What one library is about is one group."""
+    return group_of(item) if library == LIBRARY or item.kind not in _POUS else "cams"
+
+
 def _text_of(library: Library, name: str) -> str:
     return next((source.text for source in library.sources if source.name == name), "")
 
@@ -59,7 +76,7 @@ def _text_of(library: Library, name: str) -> str:
 def public_methods(library: Library, item: Item) -> list[Item]:
     """The methods that programs may call."""
     text = _text_of(library, item.name)
-    return [one for one in item.methods if re.search(rf"\bMETHOD\s+(PUBLIC\s+)?{one.name}\b", text)]
+    return [one for one in item.methods if re.search(rf"\bMETHOD\s+((PUBLIC|FINAL)\s+)*{one.name}\b", text)]
 
 
 def state_of(name: str) -> str:
@@ -70,15 +87,18 @@ def state_of(name: str) -> str:
 class _Manual:
     """The pages in a language."""
 
-    def __init__(self, library: Library, examples: Mapping[str, Example], language: Language) -> None:
-        self.items = {item.name: item for item in items(library)}
-        self.folder = "zh/" if language == "zh" else ""
-        self._library = library
+    def __init__(self, library: str, examples: Mapping[str, Example], language: Language) -> None:
+        self.items = {item.name: item for item in items(load(library))}
+        self.folder = FOLDERS[library] + ("/zh" if language == "zh" else "")
+        self._name = library
+        self._library = load(library)
+        basic = {item.name: item for item in items(load(LIBRARY))}
+        self._basic = {} if library == LIBRARY else basic
         self._examples = examples
         self._language = language
         self._up = "../../" if language == "zh" else "../"
         self._numbers = {
-            value.name: (number, value.comment) for value, number in _numbered(self.items["SMC_ERROR"])
+            value.name: (number, value.comment) for value, number in _numbered(basic["SMC_ERROR"])
         }
         self._users: dict[str, set[str]] = {}
         for item in self.items.values():
@@ -92,7 +112,9 @@ class _Manual:
         lines = [f"# {item.name}", ""]
         kind = self._word(item.kind)
         kind = kind[0].upper() + kind[1:]
-        where = f"{kind}{self._word('comma')}[{group(group_of(item), self._language)}](README.md)"
+        where = (
+            f"{kind}{self._word('comma')}[{group(_group_in(self._name, item), self._language)}](README.md)"
+        )
         other = self._word("other language", page=f"{item.name}.md")
         lines += [f"{where} · [{self._word('source')}]({self._up}{self._source(item)}) · {other}", ""]
         for paragraph in self._paragraphs(item.summary):
@@ -142,6 +164,8 @@ class _Manual:
                 continue  # that of the block it extends, in another way
             lines += [f"## {self._word('methods')}: {method.name}", ""]
             lines += [self._say(method.summary), ""]
+            if method.returns:
+                lines += [self._word("returns", type=method.returns.replace(f"{LIBRARY}.", "")), ""]
             for section, heading in _SECTIONS:
                 lines += self._pins(self._word(heading), getattr(method, section), "###")
         return lines
@@ -180,7 +204,7 @@ class _Manual:
         example = self._examples.get(item.name)
         if example is None:
             return []
-        file = f"{self._up}examples/{item.name}.st"
+        file = f"{self._up}{examples_of(self._name)}/{item.name}.st"
         names = ", ".join(f"`{name}`" for name in example.axes)
         key = "axis" if len(example.axes) == 1 else "axes" if example.axes else "no axis"
         axes = self._word(key, name=example.axes[0] if example.axes else "", names=names)
@@ -194,7 +218,12 @@ class _Manual:
                 "",
             ]
             lines += [self._word("chart", cycles=example.cycles, cycle=CYCLE_MS), ""]
-        lines += [f"## {self._word('example')}", "", self._say(example.comment, EXAMPLES), ""]
+        lines += [
+            f"## {self._word('example')}",
+            "",
+            self._say(example.comment, sentences_of_examples(self._name)),
+            "",
+        ]
         lines += [
             self._word("example text", axes=axes, file=file),
             "",
@@ -207,19 +236,16 @@ class _Manual:
 
     def index(self) -> str:
         """The index in groups, behind the rules that hold for all blocks."""
-        rules = files(__package__).joinpath(f"rules_{self._language}.md").read_text(encoding="utf-8")
-        lines = [f"# {self._word('title')}", "", self._word("other language", page="README.md"), ""]
-        lines += [
-            self._word("intro", cycle=CYCLE_MS),
-            "",
-            f"## {self._word('general')}",
-            "",
-            rules.strip(),
-            "",
-        ]
+        name = "rules" if self._name == LIBRARY else FOLDERS[self._name].replace("-", "_")
+        rules = files(__package__).joinpath(f"{name}_{self._language}.md").read_text(encoding="utf-8")
+        lines = [f"# {self._word('title', library=self._name)}", ""]
+        lines += [self._word("other language", page="README.md"), ""]
+        if self._name == LIBRARY:
+            lines += [self._word("intro", cycle=CYCLE_MS), "", f"## {self._word('general')}", ""]
+        lines += [rules.strip(), ""]
         head = (self._word("name"), self._word("kind"), self._word("what"))
         for key in GROUPS:
-            members = [item for item in self.items.values() if group_of(item) == key]
+            members = [item for item in self.items.values() if _group_in(self._name, item) == key]
             rows = [
                 (f"[{item.name}]({item.name}.md)", self._word(item.kind), self._first(item))
                 for item in members
@@ -235,27 +261,36 @@ class _Manual:
     def _type(self, text: str) -> str:
         """A type with links to the pages of its parts."""
 
+        text = text.replace(f"{LIBRARY}.", "")
+
         def linked(match: re.Match[str]) -> str:
             name = match.group()
+            if name in self._basic:
+                return f"[{name}]({self._basic_page(name)})"
             return f"[{name}]({name}.md)" if name in self.items else name
 
-        if not any(name in self.items for name in _IDENTIFIER.findall(text)):
+        if not any(name in self.items or name in self._basic for name in _IDENTIFIER.findall(text)):
             return f"`{text}`"
         return _IDENTIFIER.sub(linked, text.replace("[", r"\[").replace("]", r"\]"))
 
+    def _basic_page(self, name: str) -> str:
+        """A page of SM3_Basic, from one of another library."""
+        language = "zh/" if self._language == "zh" else ""
+        return f"{self._up}{FOLDERS[LIBRARY]}/{language}{name}.md"
+
     def _source(self, item: Item) -> str:
-        return f"../../backend/tappet/libraries/{LIBRARY}/{item.name}.st"
+        return f"../../backend/tappet/libraries/{self._name}/{item.name}.st"
 
     def _word(self, key: str, **facts: object) -> str:
         return word(key, self._language, **facts)
 
-    def _say(self, comment: str, library: str = LIBRARY) -> str:
+    def _say(self, comment: str, library: str | None = None) -> str:
         between = "" if self._language == "zh" else " "
-        return between.join(said(comment, library, self._language))
+        return between.join(said(comment, library or self._name, self._language))
 
     def _paragraphs(self, comment: str) -> list[str]:
         """The first sentence of a comment, and what it goes on with."""
-        found = said(comment, LIBRARY, self._language)
+        found = said(comment, self._name, self._language)
         between = "" if self._language == "zh" else " "
         return [text for text in (between.join(found[:1]), between.join(found[1:])) if text]
 

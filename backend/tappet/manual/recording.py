@@ -21,6 +21,7 @@ from tappet.manual.examples import AXES, CYCLE_MS, Example
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.local import LocalRuntime
 
+LIBRARIES = ("SM3_Basic", "SM3_CamBuilder")
 NS_PER_MS = 1_000_000
 TOLERANCE = 1e-6
 _CYCLE = """PROGRAM Cycle
@@ -82,7 +83,7 @@ def record(examples: Mapping[str, Example]) -> Iterator[Recording]:
     if not examples:
         return
     package = _built(tuple(examples.values()))
-    blocks = {item.name: item for item in items(load("SM3_Basic"))}
+    blocks = {item.name: item for name in LIBRARIES for item in items(load(name))}
     with LocalRuntime(package, flight=FlightSettings(memory=0), start=False) as runtime:
         for number, example in enumerate(examples.values()):
             yield _recorded(runtime, number, example, blocks[example.name])
@@ -96,7 +97,8 @@ def _built(examples: tuple[Example, ...]) -> CodePackage:
     cycle = _CYCLE.format(begin=begin, calls=calls, end=end)
     sources += [Source("Axes", frame(), name="Axes"), Source("Cycle", cycle, name="Cycle")]
     task = Task("Bus", interval_ns=CYCLE_MS * NS_PER_MS, programs=("Cycle",))
-    options = BuildOptions(libraries=(LibraryReference("SM3_Basic"), LibraryReference("Standard")), level=1)
+    references = tuple(LibraryReference(name) for name in (*LIBRARIES, "Standard"))
+    options = BuildOptions(libraries=references, level=1)
     result = build_application(sources, [task], options=options, session=BuildSession())
     messages = [str(one) for one in result.diagnostics if _counts(one)]
     if messages or result.package is None:

@@ -6,7 +6,7 @@ from tappet.translation.language import Language
 
 _WORDS: dict[str, tuple[str, str]] = {
     "comma": (", ", "，"),
-    "title": ("Blocks and types of SM3_Basic", "SM3_Basic 的功能块和类型"),
+    "title": ("Blocks and types of {library}", "{library} 的功能块和类型"),
     "intro": (
         "Made from the sources of the library by `make generate`; every chart is recorded from the example "
         "below it, with a cycle of {cycle} ms.",
