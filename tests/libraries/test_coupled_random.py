@@ -72,7 +72,7 @@ IF {axis}Place.Done AND NOT x{axis}Placed THEN
 END_IF
 x{axis}Placed := {axis}Place.Done;
 fMean := {CYCLE / 2} * ({axis}.fSetVelocity + f{axis}Velocity);
-IF NOT xSteps AND sWrong = ''
+IF iSteps = 0 AND sWrong = ''
     AND NOT (ABS({axis}.fSetPosition - f{axis}Position - fMean) < {_STEEPEST * CYCLE**2})
 THEN
     sWrong := '{axis} jumps';
@@ -87,7 +87,9 @@ f{axis}Velocity := {axis}.fSetVelocity;"""
 def _steps(name: str) -> str:
     """MC_CombineAxes gives a slave the velocity of its masters at once, and those behind it as well."""
     return f"""
-xSteps := xSteps OR ({name}.Busy AND NOT x{name}Busy) OR ({name}.Active AND NOT x{name}Active);
+IF ({name}.Busy AND NOT x{name}Busy) OR ({name}.Active AND NOT x{name}Active) THEN
+    iSteps := 3; (* From the edge or the end of the command before it *)
+END_IF
 x{name}Busy := {name}.Busy;
 x{name}Active := {name}.Active;"""
 
@@ -95,7 +97,7 @@ x{name}Active := {name}.Active;"""
 _AXIS = f"(fTaskCycle := {CYCLE}, fMaxVelocity := 1E9, fMaxAcceleration := 1E12, fMaxDeceleration := 1E12)"
 PROGRAM = "\n".join(
     [
-        "PROGRAM Main\nVAR\n    sWrong : STRING; fMean : LREAL; xSteps : BOOL;",
+        "PROGRAM Main\nVAR\n    sWrong : STRING; fMean : LREAL; iSteps : INT;",
         "    Table : SM3_Basic.MC_TP_REF := (Number_of_pairs := 2, IsAbsolute := FALSE,",
         "        MC_TP_Array := [(delta_time := T#300ms, position := 4.0), (delta_time := T#300ms)]);",
         *(f"    x{name}Busy, x{name}Active : BOOL;" for name in COMBINATIONS),
@@ -118,7 +120,7 @@ PROGRAM = "\n".join(
         *(f"{axis}Out(Slave := {axis});" for axis in AXES[1:]),
         *(f"{axis}.EndCycle();" for axis in AXES),
         *(_exclusive(name, block) for name, block in ALL.items()),
-        "xSteps := FALSE;",
+        "iSteps := MAX(0, iSteps - 1);",
         *(_steps(name) for name in COMBINATIONS),
         *(_watched(axis) for axis in AXES),
         "END_PROGRAM\n",
