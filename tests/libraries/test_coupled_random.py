@@ -87,10 +87,10 @@ f{axis}Velocity := {axis}.fSetVelocity;"""
 def _steps(name: str) -> str:
     """MC_CombineAxes gives a slave the velocity of its masters at once, and those behind it as well."""
     return f"""
-IF ({name}.Busy AND NOT x{name}Busy) OR ({name}.Active AND NOT x{name}Active) THEN
+IF ({name}.Execute AND NOT x{name}Execute) OR ({name}.Active AND NOT x{name}Active) THEN
     iSteps := 3; (* From the edge or the end of the command before it *)
 END_IF
-x{name}Busy := {name}.Busy;
+x{name}Execute := {name}.Execute;
 x{name}Active := {name}.Active;"""
 
 
@@ -100,7 +100,7 @@ PROGRAM = "\n".join(
         "PROGRAM Main\nVAR\n    sWrong : STRING; fMean : LREAL; iSteps : INT;",
         "    Table : SM3_Basic.MC_TP_REF := (Number_of_pairs := 2, IsAbsolute := FALSE,",
         "        MC_TP_Array := [(delta_time := T#300ms, position := 4.0), (delta_time := T#300ms)]);",
-        *(f"    x{name}Busy, x{name}Active : BOOL;" for name in COMBINATIONS),
+        *(f"    x{name}Execute, x{name}Active : BOOL;" for name in COMBINATIONS),
         *(f"    {axis} : SM3_Basic.AXIS_REF_VIRTUAL_SM3 := {_AXIS};" for axis in AXES),
         *(
             f"    {axis}Power : SM3_Basic.MC_Power; x{axis}Placed : BOOL;"
