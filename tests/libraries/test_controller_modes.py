@@ -139,6 +139,64 @@ def test_the_velocity_of_a_torque_is_limited() -> None:
         assert number(program, "fSpeed") >= 450
 
 
+@pytest.mark.parametrize("block", ["Torque", "Direct"])
+def test_a_torque_is_gone_when_the_power_comes_back(block: str) -> None:
+    """Its command has failed: nobody may find the motor turning in standstill."""
+    with axis() as program:
+        switch_on(program)
+        change(program, "torque")
+        program.set("Main.Torque", Torque=1.0, TorqueRamp=1000.0)
+        program.set("Main.Direct", fTorque=1.0)
+        program.set(f"Main.{block}", **{"bEnable" if block == "Direct" else "Execute": True})
+        cycles(program, 20)
+        assert number(program, "Axis.fSetTorque") == 1.0
+        program.set("Main.Power", bRegulatorOn=False)
+        program.cycle()
+        program.set(f"Main.{block}", **{"bEnable" if block == "Direct" else "Execute": False})
+        program.set("Main.Power", bRegulatorOn=True)
+        cycles(program, 300)
+        assert state(program) == "standstill"
+        assert number(program, "Axis.fSetTorque") == 0.0
+        before = number(program, "fSpeed")
+        cycles(program, 100)
+        assert number(program, "fSpeed") == before
+
+
+def test_a_torque_does_not_wait_behind_another_mode() -> None:
+    with axis() as program:
+        switch_on(program)
+        change(program, "torque")
+        program.set("Main.Torque", Execute=True, Torque=0.5, TorqueRamp=1000.0)
+        cycles(program, 20)
+        program.set("Main.Torque", Execute=False)
+        program.set("Main", xFollow=True)
+        change(program, "position")
+        program.set("Main", xFollow=False)
+        program.set("Main.Turn", Execute=False)
+        program.set("Main.Stop", Execute=True)
+        cycles(program, 600)
+        program.set("Main.Stop", Execute=False)
+        program.cycle()
+        change(program, "torque")
+        cycles(program, 100)
+        assert (number(program, "Axis.fSetTorque"), number(program, "fSpeed")) == (0.0, 0.0)
+
+
+def test_an_error_brakes_an_axis_with_a_torque_by_its_ramp() -> None:
+    with axis(f"{DEGREES}, fSWMaxDeceleration := 100.0") as program:
+        switch_on(program)
+        change(program, "torque")
+        program.set("Main.Torque", Execute=True, Torque=1.0, TorqueRamp=1000.0)
+        cycles(program, 100)
+        speed = number(program, "fSpeed")
+        assert speed > 100.0
+        program.set("Main.Axis", bSWLimitEnable=True)
+        cycles(program, 2)
+        assert state(program) == "errorstop"
+        cycles(program, round(speed / 10.0 / 100.0 / CYCLE) + 20)
+        assert (number(program, "fSpeed"), number(program, "Axis.fSetTorque")) == (0.0, 0.0)
+
+
 def test_a_torque_needs_its_mode_and_values() -> None:
     with axis() as program:
         switch_on(program)
