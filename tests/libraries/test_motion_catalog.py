@@ -24,7 +24,7 @@ OPAQUE = {"SMC_CAMElement", "SMC_TAPPETDATA"}
 BEYOND = {
     *("SMC_CAM_TYPE", "SMC_CAM_SEGMENT_TYPE", "SMC_CAM_SEGMENT"),
     *("SMC_CAMEvaluate", "SMC_CAMValues", "MC_INPUT_REF"),
-    *("AxisPanel", "AxisPanelCommand", "AxisPanelState"),
+    *("AxisPanel", "AxisPanelCommand", "AxisPanelPhase", "AxisPanelState"),
     *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
     "AXIS_REF_POSCONTROL_SM3",
     *("SMC_CAMSWITCH_TOGGLE_EVENT", "SMC_CAMSWITCH_TRACK_EVENTS"),

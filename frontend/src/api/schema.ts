@@ -7266,9 +7266,11 @@ export interface components {
             /** @default 100 */
             acceleration?: number;
             /** @enum {unknown} */
-            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
+            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "measure_move" | "measure_step" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
             /** @default 100 */
             deceleration?: number;
+            /** @default 1 */
+            duration?: number;
             /** @description Number that the page has made up. */
             holder: number;
             /** @default 10000 */

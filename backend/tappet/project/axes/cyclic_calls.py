@@ -192,11 +192,10 @@ def _program(
 
 def _panels(writer: SourceWriter, moved: Sequence[_Moved]) -> None:
     """The panels of the axes that are moved; they cost one look a cycle as long as nobody uses them."""
-    axes = [one.axis for one in moved if one.task is not None]
-    if axes:
+    tasks = [(one.axis, one.task) for one in moved if one.task is not None]
+    if tasks:
         writer.keyword("{attribute 'qualified_only'}\nVAR_GLOBAL")
-        for axis in axes:
-            writer.part(
-                axis.id, "declaration", f"    {{attribute 'hide'}}\n    {axis.name} : {LIBRARY}.AxisPanel;"
-            )
+        for axis, task in tasks:
+            panel = f"{axis.name} : {LIBRARY}.AxisPanel := (sBusTask := '{task.name}');"
+            writer.part(axis.id, "declaration", f"    {{attribute 'hide'}}\n    {panel}")
         writer.keyword("END_VAR")

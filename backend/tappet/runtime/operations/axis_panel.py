@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
 PANELS = "IoConfig_AxisPanels"
+LONGEST_ANSWER_S = 10.0
+"""Of a measurement: LONGEST of StepMeasurement."""
 _COUNTERS = 1 << 32
 _COMMANDS = {
     "move_absolute": "MoveAbsolute",
@@ -30,6 +32,8 @@ _COMMANDS = {
     "set_position": "SetPosition",
     "home": "Home",
     "reset": "Reset",
+    "measure_step": "MeasureStep",
+    "measure_move": "MeasureMove",
 }
 _JOGS = {"jog_forward": (True, False), "jog_backward": (False, True), "jog_end": (False, False)}
 
@@ -39,7 +43,7 @@ Finite = Annotated[float, Meta(ge=-1e300, le=1e300)]
 Positive = Annotated[float, Meta(gt=0, le=1e300)]
 Action = Literal[
     "take", "force", "power_on", "power_off", "jog_forward", "jog_backward", "jog_end", "move_absolute",
-    "move_relative", "set_position", "home", "reset",
+    "move_relative", "set_position", "home", "reset", "measure_step", "measure_move",
 ]  # fmt: skip
 
 
@@ -67,11 +71,13 @@ class SteerAxis(Operation[PanelStatus], frozen=True):
     holder: Holder
     action: Action
     position: Finite = 0.0
-    """Target, or distance of a relative move."""
+    """Target, distance of a relative move, or height of what is measured."""
     velocity: Positive = 10.0
     acceleration: Positive = 100.0
     deceleration: Positive = 100.0
     jerk: Positive = 10_000.0
+    duration: Annotated[float, Meta(gt=0, le=LONGEST_ANSWER_S)] = 1.0
+    """Seconds until the axis moves back from what is measured."""
 
     def run(self, plc: SoftPlc) -> PanelStatus:
         """What is wrong with a command, the panel says at eError."""
@@ -89,6 +95,7 @@ class SteerAxis(Operation[PanelStatus], frozen=True):
             "fAcceleration": self.acceleration,
             "fDeceleration": self.deceleration,
             "fJerk": self.jerk,
+            "fDuration": self.duration,
         }
         if self.action in _JOGS:
             forward, backward = _JOGS[self.action]
@@ -177,7 +184,10 @@ class Panel:
             raise OperationError("no_control", f"another page controls the axis '{self._axis}'")
 
     def command(self, name: str, **inputs: Value) -> None:
-        """Begin a command of the panel."""
+        """Begin a command of the panel. OperationError while it measures, unless it is to stop."""
+        if name != "Stop" and self._literal("ePhase") != "Idle":
+            text = f"the axis '{self._axis}' is being measured; wait for the end, or stop it"
+            raise OperationError("measuring", text)
         self.write(**inputs, eCommand=name, udiCommand=self.next("udiCommand"))
 
     def status(self) -> PanelStatus:
