@@ -13,13 +13,12 @@ from scipy.signal import TransferFunction, bode, lsim
 from servo_axis import Encoder, ServoDrive
 
 from tappet.motion.drive_loop import (
-    DriveLoops,
     drive_answer,
     drive_margins,
     friction_answer,
     proposed_loops,
 )
-from tappet.motion.position_loop import Aim
+from tappet.motion.loops import Aim, DriveLoops
 
 CYCLE = 0.002
 AIMS: tuple[Aim, ...] = ("no_overshoot", "fast")

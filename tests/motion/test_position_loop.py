@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from servo_axis import Encoder, ServoAxis
 
+from tappet.motion.loops import ControllerLoop
 from tappet.motion.position_loop import (
-    ControllerLoop,
     Plant,
     controller_answer,
     margins,

@@ -17,6 +17,7 @@ from tappet.codegen.package import CodePackage
 from tappet.motion.axis_measurement import AxisFacts, AxisMeasurement, NoPositionLoopError, RefusedStepError
 from tappet.motion.loop_tuning import evaluate
 from tappet.motion.measured_response import Recording
+from tappet.motion.recorded_axis import recorded_answer
 from tappet.project import edit
 from tappet.project.model import Project
 from tappet.runtime.local import LocalRuntime
@@ -122,7 +123,9 @@ class Page:
             if self.phase() == "Idle":
                 break
         assert self.panel("xDone") == "TRUE"
-        return self.axis.recording(self.frames, facts)
+        frames = [one for one in self.frames if self.axis.phase(one.data) != "Idle"]
+        cycles = [one.cycle for one in frames]
+        return recorded_answer(cycles, [one.data for one in frames], self.axis.layout, facts)
 
     def panel(self, output: str) -> str:
         return self.runtime.literal(f"IoConfig_AxisPanels.Drive.{output}")
@@ -180,7 +183,7 @@ def test_gains_for_the_simulated_drive_are_proposed() -> None:
         one.switch_on()
         facts = one.facts()
         first = one.measure("measure_step", 5.0, 0.3)
-        found = evaluate(first, facts.loop(), facts.largest_torque)
+        found = evaluate(first, facts.loop, facts.largest_torque)
         assert found.problem is None
         assert found.identified is not None
         assert found.figures is not None
@@ -195,7 +198,7 @@ def test_gains_for_the_simulated_drive_are_proposed() -> None:
             one.runtime.write(f"{drive}.fVelocityGain", proposal.gains["velocity_gain"])
             one.runtime.write(f"{drive}.fIntegralTime", proposal.gains["integral_time"])
             again = one.measure("measure_step", 5.0, 0.3)
-            now = evaluate(again, one.facts().loop())
+            now = evaluate(again, one.facts().loop)
             assert now.figures is not None
             assert now.figures.overshoot < 0.03
             assert now.figures.rise_time_s is not None
@@ -212,11 +215,11 @@ def test_gains_for_the_simulated_drive_are_proposed() -> None:
 )
 def test_a_gain_for_the_controller_is_proposed(action: Action, gain: float) -> None:
     """The plant of the program: two cycles of the bus, three more, and a lag of 6 ms. The dead time is that
-    of EX-07, by a fast move also with a gain of 0."""
+    of devices EX-07, by a fast move also with a gain of 0."""
     with page("SM_Drive_PosControl", gain=gain) as one:
         one.switch_on()
         facts = one.facts()
-        found = evaluate(one.measure(action, 3.0, 0.6), facts.loop())
+        found = evaluate(one.measure(action, 3.0, 0.6), facts.loop)
         assert found.problem is None
         assert found.identified is not None
         plant = found.identified
@@ -235,7 +238,7 @@ def test_a_gain_for_the_controller_is_proposed(action: Action, gain: float) -> N
         one.runtime.write("Drive.fKp", gentle.gains["position_gain"])
         one.runtime.write("Drive.fDeadTimeCycles", gentle.gains["dead_time"])
         again = one.measure("measure_step", 3.0, 0.6)
-        now = evaluate(again, one.facts().loop())
+        now = evaluate(again, one.facts().loop)
         assert now.figures is not None
         assert now.figures.overshoot < 0.01
         assert abs(now.figures.steady_error) < 0.02
@@ -244,7 +247,7 @@ def test_a_gain_for_the_controller_is_proposed(action: Action, gain: float) -> N
 def test_an_axis_without_a_gain_does_not_follow_a_step() -> None:
     with page("SM_Drive_PosControl", gain=0.0) as one:
         one.switch_on()
-        found = evaluate(one.measure("measure_step", 3.0, 0.2), one.facts().loop())
+        found = evaluate(one.measure("measure_step", 3.0, 0.2), one.facts().loop)
         assert found.proposals == ()
         assert "did not follow the set position" in str(found.problem)
 

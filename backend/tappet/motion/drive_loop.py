@@ -33,26 +33,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from tappet.motion.loops import Aim, DriveLoops, Margins
 from tappet.motion.measured_response import Numbers
-from tappet.motion.position_loop import Aim, Margins, superposed
+from tappet.motion.position_loop import superposed
 
 DAMPING: dict[Aim, float] = {"no_overshoot": 1.0, "fast": 1.0 / math.sqrt(2.0)}
 OF_VELOCITY_LOOP: dict[Aim, float] = {"no_overshoot": 0.25, "fast": 0.3}
 """Gain of the position loop by the crossover of the velocity loop."""
-
-
-@dataclass(frozen=True, slots=True)
-class DriveLoops:
-    """Gains of a drive, and what is known of its current loop."""
-
-    position_gain: float
-    """Velocity by position error, in 1/s."""
-    velocity_gain: float
-    """Torque by velocity error, in Nms."""
-    integral_time_s: float
-    """Of the velocity loop, 0: it has no integral part."""
-    current_time_s: float
-    """Sum of the small time constants below the velocity loop."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
-from tappet.motion.drive_loop import DriveLoops, drive_answer, friction_answer
+from tappet.motion.drive_loop import drive_answer, friction_answer
+from tappet.motion.loops import DriveLoops
 from tappet.motion.measured_response import Numbers, Recording, UnusableMeasurementError
 from tappet.motion.position_loop import Plant, plant_answer
 
@@ -57,7 +58,7 @@ def identify_plant(recording: Recording) -> Identified:
     def columns(dead: float, lag: float) -> Columns:
         return [plant_answer(Plant(1.0, dead, lag), command, cycle)]
 
-    return _identify(recording, columns, len(recording.act_position))
+    return _identify(recording, columns, len(recording.act_position), factor=None)
 
 
 def identify_drive(recording: Recording, loops: DriveLoops) -> Identified:
@@ -79,16 +80,20 @@ def identify_drive(recording: Recording, loops: DriveLoops) -> Identified:
         friction = friction_answer(loops, lag, dead, start, len(wanted), cycle)
         return [drive_answer(loops, lag, dead, wanted, cycle), friction]
 
-    return _identify(recording, columns, count)
+    return _identify(recording, columns, count, factor=1.0)  # the velocity loop is one with a sensor
 
 
-def _identify(recording: Recording, columns: Callable[[float, float], Columns], count: int) -> Identified:
-    """The times with which the columns fit best, over the first cycles."""
+def _identify(
+    recording: Recording, columns: Callable[[float, float], Columns], count: int, factor: float | None
+) -> Identified:
+    """The times with which the columns fit best, over the first cycles; `factor` is the known one of the
+    first column."""
+    _check_direction(recording)
     cycle = recording.cycle_s
     longest = _LONGEST_PART * (len(recording.set_position) - recording.resting) * cycle
 
     def misfit(times: Numbers) -> Numbers:
-        return _fit(columns(float(times[0]), float(times[1])), recording, count)[0]
+        return _fit(columns(float(times[0]), float(times[1])), recording, count, factor)[0]
 
     dead_times = np.concatenate([[0.0], np.geomspace(0.25 * cycle, longest, _DEAD_TIMES)])
     lags = np.geomspace(0.05 * cycle, longest, _LAGS)
@@ -107,7 +112,7 @@ def _identify(recording: Recording, columns: Callable[[float, float], Columns], 
     ]
     best = min(found, key=lambda result: float(result.cost))
     dead, lag = (float(time) for time in best.x)
-    rest, factor, answer = _fit(columns(dead, lag), recording, count)
+    rest, found_factor, answer = _fit(columns(dead, lag), recording, count, factor)
     residual = float(np.sqrt(np.mean(rest**2)))
     if residual > LARGEST_RESIDUAL * abs(recording.height):
         raise UnusableMeasurementError(
@@ -115,20 +120,30 @@ def _identify(recording: Recording, columns: Callable[[float, float], Columns], 
             f"{residual / abs(recording.height):.0%} of the height; look for a loose coupling, friction, or "
             "a loop that oscillates, and measure again"
         )
-    if factor <= 0.0:
+    return Identified(dead, lag, found_factor, residual, answer)
+
+
+def _check_direction(recording: Recording) -> None:
+    farthest = recording.act_position[int(np.argmax(np.abs(recording.act_position)))]
+    if farthest * recording.height < 0.0:
         raise UnusableMeasurementError(
             "The axis moves against the set position; check the direction in the scaling and the wiring of "
             "the drive"
         )
-    return Identified(dead, lag, factor, residual, answer)
 
 
-def _fit(columns: Columns, recording: Recording, count: int) -> tuple[Numbers, float, Numbers]:
-    """What is left of the first recorded positions by the best linear parameters, the one of the first
+def _fit(
+    columns: Columns, recording: Recording, count: int, factor: float | None
+) -> tuple[Numbers, float, Numbers]:
+    """What is left of the first recorded positions by the best linear parameters, the factor of the first
     column, and all positions of the model."""
-    matrix = np.stack([*columns, np.ones(len(columns[0]))], axis=1)
+    known = np.zeros(len(columns[0])) if factor is None else factor * columns[0]
+    free = columns if factor is None else columns[1:]
+    matrix = np.stack([*free, np.ones(len(known))], axis=1)
     sizes = np.max(np.abs(matrix[:count]), axis=0)
     sizes[sizes == 0.0] = 1.0
-    solution, *_ = np.linalg.lstsq(matrix[:count] / sizes, recording.act_position[:count], rcond=None)
-    model = matrix @ (solution / sizes)
-    return (recording.act_position - model)[:count], float(solution[0] / sizes[0]), model
+    wanted = (recording.act_position - known)[:count]
+    solution, *_ = np.linalg.lstsq(matrix[:count] / sizes, wanted, rcond=None)
+    model = known + matrix @ (solution / sizes)
+    rest = (recording.act_position - model)[:count]
+    return rest, float(solution[0] / sizes[0]) if factor is None else factor, model

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
-from tappet.motion.drive_loop import DriveLoops, drive_answer, drive_margins, proposed_loops
+from tappet.motion.drive_loop import drive_answer, drive_margins, proposed_loops
 from tappet.motion.loop_identification import Identified, identify_drive, identify_plant
+from tappet.motion.loops import Aim, ControllerLoop, DriveLoops, GainName, Margins
 from tappet.motion.measured_response import (
     Figures,
     Numbers,
@@ -17,9 +17,6 @@ from tappet.motion.measured_response import (
     figures,
 )
 from tappet.motion.position_loop import (
-    Aim,
-    ControllerLoop,
-    Margins,
     Plant,
     controller_answer,
     margins,
@@ -29,8 +26,6 @@ from tappet.motion.position_loop import (
 FULL = 0.98
 """Part of a limit from which the drive counts as being at it."""
 AIMS: tuple[Aim, ...] = ("no_overshoot", "fast")
-
-GainName = Literal["position_gain", "dead_time", "velocity_gain", "integral_time"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +62,19 @@ def evaluate(
                     "A fast move shows the dead time of a drive, its feed-forward hides the loops; measure a "
                     "step for their gains"
                 )
-            _check_limit("torque", recording.torque, largest_torque)
+            if _reaches(recording.torque, largest_torque):
+                raise UnusableMeasurementError(
+                    "The torque of the drive was at its limit, so that the answer is not that of the loop; "
+                    "measure a smaller height"
+                )
             identified = identify_drive(recording, loop)
             proposals = tuple(_for_drive(recording, loop, identified, aim) for aim in AIMS)
         else:
-            _check_limit("velocity", recording.command, loop.largest_velocity)
+            if _reaches(recording.command, loop.largest_velocity):
+                raise UnusableMeasurementError(
+                    "The velocity of the drive was at its limit, so that the answer is not that of the loop; "
+                    "measure a smaller height"
+                )
             identified = identify_plant(recording)
             dead = loop.dead_time_cycles
             dead = dead if found.dead_time_cycles is None else float(found.dead_time_cycles)
@@ -82,13 +85,9 @@ def evaluate(
     return Evaluation(found, identified, proposals, None)
 
 
-def _check_limit(what: str, values: Numbers | None, limit: float | None) -> None:
-    """Raises UnusableMeasurementError when the drive was at a limit, so that it did not answer linearly."""
-    if values is not None and limit and float(np.max(np.abs(values))) >= FULL * limit:
-        raise UnusableMeasurementError(
-            f"The {what} of the drive was at its limit, so that the answer is not that of the loop; measure "
-            "a smaller height"
-        )
+def _reaches(values: Numbers | None, limit: float | None) -> bool:
+    """Whether the drive was at a limit, so that it did not answer linearly."""
+    return values is not None and bool(limit) and float(np.max(np.abs(values))) >= FULL * (limit or 0.0)
 
 
 def _for_controller(recording: Recording, loop: ControllerLoop, known: Identified, aim: Aim) -> Proposal:

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from tappet.motion.loops import LEAST_INCREMENTS
 from tappet.project.errors import ProjectError
 
 Numbers = npt.NDArray[np.floating[Any]]
-Excitation = Literal["step", "move"]
 
 SETTLED = 0.02
 """Part of the height that an answer keeps within once it is settled, the usual 2 % band."""
@@ -27,8 +27,6 @@ LEAST_RESTING = 5
 """Cycles from which the noise at rest is known."""
 LEAST_RESPONDING = 20
 """Cycles of an answer that can be judged."""
-LEAST_INCREMENTS = 20
-"""Of the encoder in a step that can be judged."""
 LEAST_MOTION = 0.05
 """Part of the height below which an axis counts as not moving."""
 LEAST_REACTION = 0.002

@@ -21,15 +21,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import fftconvolve
 
+from tappet.motion.loops import Aim, ControllerLoop, Margins
 from tappet.motion.measured_response import Numbers
 
-Aim = Literal["no_overshoot", "fast"]
 SHARE: dict[Aim, float] = {"no_overshoot": 0.25, "fast": 0.5}
 """Of 1 / (b TS)."""
 _LEAST_LAG = 1e-9
@@ -44,27 +43,6 @@ class Plant:
     """Velocity that comes of the one asked for."""
     dead_time_s: float
     lag_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class ControllerLoop:
-    """How the controller closes the loop."""
-
-    gain: float
-    """fKp: velocity by position error, in 1/s."""
-    dead_time_cycles: float = 0.0
-    """How old the set position is that the actual one is compared with."""
-    largest_velocity: float | None = None
-    """That it asks for, in units/s."""
-
-
-@dataclass(frozen=True, slots=True)
-class Margins:
-    """How far the loop is from oscillating."""
-
-    phase_deg: float
-    gain: float | None
-    """Factor of the gain at which it oscillates, None: at none."""
 
 
 def small_time_constants(plant: Plant, cycle_s: float) -> float:

@@ -49,6 +49,7 @@ from tappet.server.settings import ServerSettings
 from tappet.server.source import routes as routes_source
 from tappet.server.static import FrontEnd, find_static
 from tappet.server.static_analysis import routes as routes_static_analysis
+from tappet.server.tuning import routes as routes_tuning
 from tappet.server.unit_tests import routes as routes_tests
 from tappet.server.users import routes as routes_users
 from tappet.server.values import routes as routes_values
@@ -83,6 +84,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_scenes.router,
     routes_cams.router,
     routes_running_cams.router,
+    routes_tuning.router,
     routes_events.router,
 )
 """One router per resource, all below `API`; the routes of wire operations come behind them."""

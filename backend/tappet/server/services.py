@@ -33,6 +33,7 @@ from tappet.server.runtimes.plc_client import Connect
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.server.sockets import EndedSessions
 from tappet.server.tables import runtimes as runtimes_table
+from tappet.server.tuning.evaluator import MeasurementEvaluator
 from tappet.server.unit_tests.service import TestRuns
 from tappet.server.views.service import ViewRegistry
 from tappet.whole_file import remove_unfinished
@@ -56,6 +57,7 @@ class Services:
     runtimes: RuntimeRegistry
     commissioning: Commissioning
     cams: CamCalculator
+    evaluator: MeasurementEvaluator = field(default_factory=MeasurementEvaluator)
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
     comparisons: Comparisons = field(default_factory=Comparisons)
@@ -129,6 +131,7 @@ class Services:
         await self.views.close()
         await self.commissioning.builder.close()
         await self.cams.close()
+        await self.evaluator.close()
         await self.runtimes.close()
         if self.local_runtime is not None:
             await self.local_runtime.close()

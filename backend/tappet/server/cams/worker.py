@@ -6,9 +6,6 @@ the library is built for the first order that needs it.
 
 from __future__ import annotations
 
-import gc
-import os
-import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -26,11 +23,9 @@ from tappet.project.cams.code import generated_code
 from tappet.project.cams.point_lists import written_points
 from tappet.project.cams.table import CamTable
 from tappet.project.errors import ProjectError
-from tappet.server.frames import pack_frame, read_frame
+from tappet.server.worker_loop import serve
 from tappet.translation.sentences import sentence
 
-BEHIND_TYPING = 5
-"""Niceness."""
 COLUMNS = ("x", "y", "v", "a", "j")
 
 
@@ -125,21 +120,5 @@ def _columns(rows: Numbers) -> dict[str, Any]:
     return dict(zip(COLUMNS, rows.T.tolist(), strict=True))
 
 
-def main() -> None:
-    """Serves orders until the input ends."""
-    os.nice(BEHIND_TYPING)
-    output = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever prints in here must not get between the frames
-    worker = CamWorker()
-    gc.freeze()
-    while (order := read_frame(sys.stdin.buffer)) is not None:
-        try:
-            output.write(pack_frame(worker.outcome(order)))
-            output.flush()
-        except BrokenPipeError:
-            os._exit(0)  # the server was killed: there is nobody to answer
-        del order
-
-
 if __name__ == "__main__":
-    main()
+    serve(CamWorker().outcome)
