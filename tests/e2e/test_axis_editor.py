@@ -113,7 +113,7 @@ def test_an_axis_is_added_programmed_and_seen_moving(page: Page, server: Server,
     assert value("IoConfig_AxisPanels.Axis.eState") in ("0", "Free")
 
 
-def _add_drive(page: Page, server: Server, project: str, name: str, drive: str) -> None:
+def add_drive(page: Page, server: Server, project: str, name: str, drive: str) -> None:
     objects = fetch(page, server, "GET", f"{project}/objects")
     pool = next((item for item in objects if item["kind"] == "axis_pool"), None)
     if pool is None:
@@ -127,7 +127,7 @@ def _add_drive(page: Page, server: Server, project: str, name: str, drive: str) 
 
 
 def test_a_drive_that_follows_a_speed_has_its_position_loop(page: Page, server: Server, project: str) -> None:
-    _add_drive(page, server, project, "Spindle", "SM_Drive_PosControl")
+    add_drive(page, server, project, "Spindle", "SM_Drive_PosControl")
     open_object(page, "Spindle")
     panel = editor(page)
     panel.get_by_role("tab", name="Position control").click()
@@ -148,8 +148,8 @@ def test_a_drive_that_follows_a_speed_has_its_position_loop(page: Page, server: 
 
 
 def test_a_logical_axis_chooses_its_master(page: Page, server: Server, project: str) -> None:
-    _add_drive(page, server, project, "Feed", "SM_Drive_Virtual")
-    _add_drive(page, server, project, "Mirror", "SM_Drive_Logical")
+    add_drive(page, server, project, "Feed", "SM_Drive_Virtual")
+    add_drive(page, server, project, "Mirror", "SM_Drive_Logical")
     open_object(page, "Mirror")
     panel = editor(page)
     expect(panel.get_by_role("tab", name="Scaling")).to_have_count(0)

@@ -252,6 +252,17 @@ def test_an_axis_without_a_gain_does_not_follow_a_step() -> None:
         assert "did not follow the set position" in str(found.problem)
 
 
+def test_a_slow_bus_task_rests_long_enough_to_know_the_noise() -> None:
+    """Twenty cycles at least, whatever the cycle."""
+    with LocalRuntime(package(with_axes("Drive", drive="SM_Drive_Simulated", scaling=SCALING))) as runtime:
+        runtime.run(cycles=5)
+        one = Page(runtime)
+        one.switch_on()
+        assert one.facts().values["fTaskCycle"] == 0.02
+        recording = one.measure("measure_step", 5.0, 1.0)
+        assert recording.resting == pytest.approx(20, abs=1)
+
+
 def test_a_rotary_axis_is_measured_over_its_zero() -> None:
     with page("SM_Drive_PosControl") as one:
         one.switch_on()

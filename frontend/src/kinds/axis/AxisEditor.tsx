@@ -12,21 +12,32 @@ import { CommissioningPage } from './CommissioningPage';
 import { InformationPage } from './InformationPage';
 import { LogicalPage } from './LogicalPage';
 import { canStore } from './model';
+import { mayEdit, mayChangeText } from '@/workbench/rights';
+import { reasonText } from '@/workbench/run';
+import { useCommandContext } from '@/workbench/useCommandContext';
 import { ParametersPage } from './ParametersPage';
 import { PositionControlPage } from './PositionControlPage';
 import { ScalingPage } from './ScalingPage';
 import { StatusPage } from './StatusPage';
+import { isTunable } from './tuning';
+import { TuningPage } from './TuningPage';
 
 const AxisIcon = objectIcon('axis');
+const NO_OTHERS = {};
 
-/** The pages of an axis (devices.md, 14.2 to 14.5); while logged in the ones that show and move it are in front. */
+/**
+ * The pages of an axis (devices.md, 14.2 to 14.5). Settings are typed while logged out; what was measured while logged in is taken
+ * into them, and taken back by Undo.
+ */
 export default function AxisEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
-  const draft = useDraft(panelId, projectId, objectId, ofKind('axis'), canStore);
+  const draft = useDraft(panelId, projectId, objectId, ofKind('axis'), canStore, NO_OTHERS, mayChangeText);
+  const mayType = mayEdit(useCommandContext());
+  const readOnly = mayType === true ? null : reasonText(mayType);
   const session = useObjectSession(projectId, draft.object);
   const name = draft.object?.name ?? '';
   const form = (Page: typeof BasicPage) => (
-    <FormPage draft={draft}>
+    <FormPage draft={{ ...draft, readOnly }}>
       {(axis) => (
         <>
           <h1 className={styles.title}>
@@ -37,7 +48,7 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
             projectId={projectId}
             objectId={objectId}
             axis={axis}
-            disabled={draft.readOnly !== null}
+            disabled={readOnly !== null}
             change={(changes) => draft.change({ ...axis, ...changes })}
           />
         </>
@@ -61,6 +72,23 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
       title: t('axis.page.commissioning'),
       content: <CommissioningPage session={session} name={name} settings={draft.data} />,
     },
+    ...(draft.data !== undefined && isTunable(draft.data)
+      ? [
+          {
+            id: 'tuning',
+            title: t('axis.page.tuning'),
+            content: (
+              <TuningPage
+                session={session}
+                name={name}
+                settings={draft.data}
+                readOnly={draft.readOnly}
+                change={draft.change}
+              />
+            ),
+          },
+        ]
+      : []),
     { id: 'parameters', title: t('axis.page.parameters'), content: <ParametersPage session={session} name={name} /> },
     { id: 'status', title: t('axis.page.status'), content: <StatusPage session={session} name={name} /> },
     {

@@ -17,7 +17,7 @@ import { StateDiagram } from './StateDiagram';
 import { Fact } from './StatusPage';
 
 const AXIS = ['nAxisState', 'fSetPosition', 'fActPosition', 'fSetVelocity', 'fActVelocity', 'fSetAcceleration'];
-const MORE = ['fActAcceleration', 'bRegulatorRealState', 'bError', 'eFailure'];
+const MORE = ['fActAcceleration', 'bRegulatorRealState', 'bError', 'eFailure', 'xHomed'];
 const PANEL = ['eState', 'udiHolder', 'xRefused', 'xLost', 'xBusy', 'eError'];
 
 interface CommissioningProps {
@@ -44,6 +44,7 @@ function Commissioning({ session, name, settings }: { session: OnlineSession; na
   useWatched(runtimeId, watched);
   const state = useShown(runtimeId, `${axis}.nAxisState`);
   const failed = useFlag(runtimeId, `${axis}.bError`);
+  const homed = useFlag(runtimeId, `${axis}.xHomed`);
   const exists = useExists(runtimeId, `${axis}.nAxisState`);
   if (!exists) return <Empty title={t('axis.notThere')} text={t('axis.notThereText', { name })} />;
   return (
@@ -94,6 +95,8 @@ function Commissioning({ session, name, settings }: { session: OnlineSession; na
                   runtimeId={runtimeId}
                   expression={`${axis}.fActAcceleration`}
                 />
+                <dt>{t('axis.value.homed')}</dt>
+                <dd>{t(homed ? 'axis.value.homedYes' : 'axis.value.homedNo')}</dd>
               </Facts>
             </Section>
           </div>

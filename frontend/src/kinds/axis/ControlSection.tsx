@@ -1,28 +1,14 @@
-import {
-  ArrowLeft,
-  ArrowRight,
-  Hand,
-  House,
-  MoveRight,
-  OctagonX,
-  Power,
-  RotateCcw,
-  SquarePen,
-  Unlock,
-} from 'lucide-react';
+import { ArrowLeft, ArrowRight, House, MoveRight, SquarePen } from 'lucide-react';
 import { useState, type KeyboardEvent } from 'react';
 import { useText } from '@/i18n';
 import { Button } from '@/ui/Button';
-import { confirm } from '@/ui/dialogs';
-import { notifyError } from '@/ui/notices';
-import { useCommandContext } from '@/workbench/useCommandContext';
 import type { OnlineSession } from '@/workbench/onlineSession';
-import { atLeast } from '@/workbench/rights';
 import { Section } from '@/editors/form/FormPage';
 import styles from './Axis.module.css';
+import { ControlBar, PowerButtons, useControlReasons } from './ControlBar';
 import { useAxisControl, type Motion, type SteerAction } from './control';
 import { ErrorBox } from './ErrorBox';
-import { panelPath, useShown } from './live';
+import { panelPath } from './live';
 import type { AxisSettings } from './model';
 import { NumberField } from '@/editors/form/NumberField';
 
@@ -36,29 +22,20 @@ interface ControlProps {
 export function ControlSection({ session, name, settings }: ControlProps) {
   const t = useText();
   const { runtimeId } = session;
-  const { role } = useCommandContext();
   const control = useAxisControl(runtimeId, name);
   const panel = panelPath(name);
-  const state = useShown(runtimeId, `${panel}.eState`);
   const [position, setPosition] = useState(0);
   const [distance, setDistance] = useState(10);
   const [velocity, setVelocity] = useState(() => settings.dynamic_limits.velocity / 10);
   const [acceleration, setAcceleration] = useState(settings.dynamic_limits.acceleration);
   const [deceleration, setDeceleration] = useState(settings.dynamic_limits.deceleration);
 
-  const blocked = !atLeast(role, 'operator')
-    ? t('axis.needsOperator')
-    : session.lostSince !== null
-      ? t('axis.noConnection')
-      : session.runtime?.state !== 'run'
-        ? t('axis.notRunning')
-        : null;
-  const others = state !== null && state !== 'Free' && !control.mine ? t('axis.othersControl') : null;
+  const reasons = useControlReasons(session, name, control);
+  const { inControl } = reasons;
   const numbersFault =
     [velocity, acceleration, deceleration].every((value) => value > 0) && Number.isFinite(position + distance)
       ? null
       : t('axis.motionFault');
-  const inControl = blocked ?? (control.mine && state === 'Control' ? null : t('axis.needsControl'));
   const movable = inControl ?? numbersFault;
   const motion = (target: number): Motion => ({
     position: target,
@@ -68,54 +45,10 @@ export function ControlSection({ session, name, settings }: ControlProps) {
     jerk: settings.dynamic_limits.jerk,
   });
 
-  const take = async () => {
-    try {
-      if (await control.take(false)) return;
-      const force = await confirm({
-        title: t('axis.forceTitle', { name }),
-        text: t('axis.forceText', { name }),
-        action: t('axis.force'),
-      });
-      if (force) await control.take(true);
-    } catch (error) {
-      notifyError(error);
-    }
-  };
-
   return (
     <Section title={t('axis.control')}>
-      <div className={styles.control} data-mine={control.mine}>
-        <p role="status">
-          {control.mine
-            ? t('axis.controlMine')
-            : control.lost
-              ? t('axis.controlLost')
-              : (others ?? t('axis.controlFree'))}
-        </p>
-        {control.mine ? (
-          <Button icon={Unlock} onClick={control.release}>
-            {t('axis.release')}
-          </Button>
-        ) : (
-          <Button variant="primary" icon={Hand} disabledReason={blocked ?? others} onClick={() => void take()}>
-            {t('axis.take')}
-          </Button>
-        )}
-        <Button variant="danger" icon={OctagonX} disabledReason={inControl} onClick={control.stop}>
-          {t('axis.stop')}
-        </Button>
-      </div>
-      <div className={styles.buttons}>
-        <Button icon={Power} disabledReason={inControl} onClick={() => control.steer('power_on')}>
-          {t('axis.powerOn')}
-        </Button>
-        <Button icon={Power} disabledReason={inControl} onClick={() => control.steer('power_off')}>
-          {t('axis.powerOff')}
-        </Button>
-        <Button icon={RotateCcw} disabledReason={inControl} onClick={() => control.steer('reset')}>
-          {t('axis.reset')}
-        </Button>
-      </div>
+      <ControlBar name={name} control={control} reasons={reasons} />
+      <PowerButtons control={control} disabledReason={inControl} />
       <div className={styles.buttons}>
         <JogButton forward={false} disabledReason={movable} steer={(action) => control.steer(action, motion(0))} />
         <JogButton forward disabledReason={movable} steer={(action) => control.steer(action, motion(0))} />

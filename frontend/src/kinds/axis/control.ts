@@ -22,6 +22,8 @@ export interface Motion {
 }
 
 export interface AxisControl {
+  /** The number of this page. */
+  holder: number;
   /** This page moves the axis. */
   mine: boolean;
   /** Control was lost although the page is there. */
@@ -123,5 +125,5 @@ export function useAxisControl(runtime_id: string, axis: string): AxisControl {
   );
   const stop = useCallback(() => void halt(false).catch(notifyError), [halt]);
   const release = useCallback(() => setMine(false), []);
-  return { mine, lost, take, steer, stop, release };
+  return { holder, mine, lost, take, steer, stop, release };
 }

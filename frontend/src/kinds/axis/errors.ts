@@ -29,6 +29,7 @@ const KNOWN = [
   'SMC_MR_INVALID_VELACC_VALUES',
   'SMC_MV_INVALID_ACCDEC_VALUES',
   'SMC_MS_AXIS_ALREADY_STOPPING',
+  'SMC_INVALID_SET_VALUES',
 ] as const;
 type KnownError = (typeof KNOWN)[number];
 

@@ -27,7 +27,7 @@ import {
   zoomed,
 } from './plot';
 import { useGraphDrag, type Place } from './useGraphDrag';
-import { useSize } from './useSize';
+import { useSize } from '@/editors/plot/useSize';
 
 export const TITLE_HEIGHT = 24;
 const X_TICK_PX = 90;

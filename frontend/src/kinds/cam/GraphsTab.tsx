@@ -6,7 +6,7 @@ import styles from './Cam.module.css';
 import type { CamEdit, GraphLayout, Tool } from './edit';
 import { Graph } from './Graph';
 import { type GraphName, GRAPHS, MARGIN_LEFT, MARGIN_RIGHT, niceStep, type Range, ticks, tickText } from './plot';
-import { useSize } from './useSize';
+import { useSize } from '@/editors/plot/useSize';
 
 const LEAST_SHARE = 0.15;
 const KEY_SHARE = 0.1;

@@ -14,7 +14,7 @@ import { rounded } from './cells';
 import type { CamEdit } from './edit';
 import { PlotGrid } from './PlotGrid';
 import { valueRange, type GraphName, type Range } from './plot';
-import { useSize } from './useSize';
+import { useSize } from '@/editors/plot/useSize';
 
 const GOALS = ['velocity', 'acceleration', 'jerk'] as const;
 type Goal = (typeof GOALS)[number];

@@ -23,7 +23,7 @@ import {
 import { TappetSign, type SignSide } from './TappetSign';
 import { onRanges } from './tappetBit';
 import { RunMarks } from './RunMarks';
-import { useSize } from './useSize';
+import { useSize } from '@/editors/plot/useSize';
 
 const HEIGHT = 56;
 const MIDDLE = 30;

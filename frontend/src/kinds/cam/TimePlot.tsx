@@ -15,7 +15,7 @@ import {
   ticks,
   tickText,
 } from './plot';
-import { useSize } from './useSize';
+import { useSize } from '@/editors/plot/useSize';
 
 const X_TICK_PX = 90;
 const Y_TICK_PX = 24;

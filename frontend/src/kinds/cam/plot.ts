@@ -1,11 +1,9 @@
 /** Scales of the graphs: ranges, ticks and snapping. Pure functions. */
-import type { CamDrawing } from './curves';
+import { acrossOf, clean, curvePath, downOf, niceStep, tickText, ticks, type Range } from '@/editors/plot/scales';
 import type { CamTable } from './camTable';
+import type { CamDrawing } from './curves';
 
-export interface Range {
-  min: number;
-  max: number;
-}
+export { acrossOf, downOf, niceStep, tickText, ticks, type Range };
 
 /** What a graph shows over the master. */
 export const GRAPHS = ['y', 'v', 'a', 'j'] as const;
@@ -13,37 +11,6 @@ export type GraphName = (typeof GRAPHS)[number];
 
 /** Room above and below a curve that has no range of its own, as a part of its height. */
 const MARGIN = 0.08;
-
-/** The step of a scale: 1, 2 or 5 times a power of ten, so that about `count` of them fill the range. */
-export function niceStep(range: Range, count: number): number {
-  const rough = (range.max - range.min) / Math.max(1, count);
-  if (!(rough > 0) || !Number.isFinite(rough)) return 1;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const part = rough / power;
-  return (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10) * power;
-}
-
-/** The multiples of the step within a range. */
-export function ticks(range: Range, count: number): number[] {
-  const step = niceStep(range, count);
-  const first = Math.ceil(range.min / step - 1e-9);
-  const last = Math.floor(range.max / step + 1e-9);
-  return Array.from({ length: Math.max(0, last - first + 1) }, (_, at) => clean((first + at) * step, step));
-}
-
-/** A tick with as many decimals as its step needs. */
-export function tickText(value: number, step: number): string {
-  if (value === 0) return '0';
-  const size = Math.max(Math.abs(value), step);
-  if (size >= 1e6 || step < 1e-5) return value.toExponential(2).replace(/\.?0+e/, 'e');
-  return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
-}
-
-/** A multiple of `step` without the rest that binary fractions leave. */
-function clean(value: number, step: number): number {
-  const decimals = Math.max(0, Math.min(15, 2 - Math.floor(Math.log10(step))));
-  return Number(value.toFixed(decimals)) + 0;
-}
 
 /** What a dragged value moves in: a tenth of the distance of two ticks. */
 export function snapStep(range: Range, count: number): number {
@@ -107,16 +74,6 @@ export function valueOnCurve(drawing: CamDrawing, graph: GraphName, x: number): 
   return curve[graph][right - 1]! * (1 - part) + curve[graph][right]! * part;
 }
 
-/** Pixels between the left edge of a plot and a place. */
-export function acrossOf(x: number, window: Range, width: number): number {
-  return ((x - window.min) / (window.max - window.min)) * width;
-}
-
-/** Pixels between the upper edge of a plot and a value. */
-export function downOf(value: number, values: Range, height: number): number {
-  return ((values.max - value) / (values.max - values.min)) * height;
-}
-
 /** Pixels that the circle of a point needs. */
 const POINT_ROOM = 7;
 
@@ -147,10 +104,5 @@ export function pathOf(
   width: number,
   height: number,
 ): string {
-  return xs
-    .map((x, at) => {
-      const [left, top] = [MARGIN_LEFT + acrossOf(x, window, width), downOf(curve[at]!, values, height)];
-      return `${at === 0 ? 'M' : 'L'}${left.toFixed(2)} ${top.toFixed(2)}`;
-    })
-    .join('');
+  return curvePath(xs, curve, window, values, { left: MARGIN_LEFT, width, height });
 }
