@@ -147,6 +147,41 @@ def test_a_drive_that_follows_a_speed_has_its_position_loop(page: Page, server: 
     expect(panel.get_by_text("IoConfig_Globals.Spindle : AXIS_REF_POSCONTROL_SM3")).to_be_visible()
 
 
+def test_a_simulated_drive_has_its_settings(page: Page, server: Server, project: str) -> None:
+    _add_drive(page, server, project, "Servo", "SM_Drive_Simulated")
+    open_object(page, "Servo")
+    panel = editor(page)
+    panel.get_by_role("tab", name="Drive").click()
+    stiffness = panel.get_by_label("Stiffness")
+    expect(stiffness).to_be_disabled()
+    panel.get_by_label("Load behind an elastic shaft").click()
+    stiffness.fill("0")
+    expect(panel.get_by_text("must be a number above 0")).to_be_visible()
+    expect(panel.get_by_test_id("eigenfrequency")).to_have_count(0)
+    stiffness.fill("100")
+    expect(panel.get_by_test_id("eigenfrequency")).to_contain_text("Eigenfrequency 290.6 Hz; 205.5 Hz")
+    panel.get_by_label("Homing method").click()
+    page.get_by_role("option", name=re.compile("^23: search")).click()
+    missing = panel.get_by_text(
+        "Method 23 needs what the drive does not have: Home switch, Positive limit switch"
+    )
+    expect(missing).to_be_visible()
+    panel.get_by_label("Home switch").check()
+    panel.get_by_label("Positive limit switch").check()
+    expect(missing).to_have_count(0)
+    panel.get_by_label("On until").fill("-1")
+    expect(panel.get_by_text("The home switch must end above its start")).to_be_visible()
+    panel.get_by_label("On until").fill("1.5")
+    expect(panel.get_by_text("≙ 540 u")).to_be_visible()
+    with objects_stored(page):
+        page.keyboard.press("Control+s")
+    drive = stored(page, server, project, "Servo")["data"]["simulated_drive"]
+    assert (drive["motor"]["elastic"], drive["homing"]["method"]) == (True, 23)
+    assert (drive["switches"]["home"], drive["switches"]["home_to"]) == (True, 1.5)
+    page.keyboard.press("Control+z")
+    expect(panel.get_by_label("On until")).not_to_have_value("1.5")
+
+
 def test_a_logical_axis_chooses_its_master(page: Page, server: Server, project: str) -> None:
     add_drive(page, server, project, "Feed", "SM_Drive_Virtual")
     add_drive(page, server, project, "Mirror", "SM_Drive_Logical")

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
+from tappet.cli.inputs import project_applications
+from tappet.codegen.build import BuildResult, build_application
 from tappet.project import edit
-from tappet.project.model import Project
+from tappet.project.model import Project, ProjectObject
 from tappet.project.new_project import new_project
+from tappet.runtime.local import LocalRuntime
 
 DECLARATION = """PROGRAM PLC_PRG
 VAR
@@ -32,3 +36,33 @@ def moving(project: Project, body: str = BODY) -> Project:
     """PLC_PRG moves the axis Drive to 50."""
     (program,) = project.find_kind("pou")
     return edit.change_data(project, program.id, {"declaration": DECLARATION, "implementation": body})
+
+
+def only(project: Project, kind: str) -> ProjectObject:
+    (found,) = project.find_kind(kind)
+    return found
+
+
+def application_id(project: Project) -> str:
+    return only(project, "application").id
+
+
+def build(project: Project) -> BuildResult:
+    (one,) = project_applications(project)
+    return build_application(one.sources, one.tasks, options=replace(one.options, level=1))
+
+
+def errors(project: Project) -> list[str]:
+    return [d.message for d in build(project).diagnostics if d.severity == "error"]
+
+
+def values(project: Project, cycles: int, *paths: str, **written: Any) -> list[Any]:
+    result = build(project)
+    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+    assert result.package is not None
+    with LocalRuntime(result.package) as plc:
+        plc.start()
+        for path, value in written.items():
+            plc.write(path.replace("__", "."), value)
+        plc.run(cycles)
+        return [plc.read(path) for path in paths]

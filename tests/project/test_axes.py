@@ -9,37 +9,18 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from tests.project.axis_projects import moving, with_axes
+from tests.project.axis_projects import application_id, build, errors, moving, only, values, with_axes
 
 from tappet.cli.inputs import project_applications
-from tappet.codegen.build import BuildResult, build_application
+from tappet.codegen.build import build_application
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import TABLE
 from tappet.project import edit
 from tappet.project.axes.literals import real
 from tappet.project.axes.settings import AxisSettings, Scaling
 from tappet.project.errors import InvalidDataError, NotPlaceableError
-from tappet.project.model import Project, ProjectObject
+from tappet.project.model import Project
 from tappet.project.sources import WrittenSources, application_sources, libraries, tasks
-from tappet.runtime.local import LocalRuntime
-
-
-def only(project: Project, kind: str) -> ProjectObject:
-    (found,) = project.find_kind(kind)
-    return found
-
-
-def application_id(project: Project) -> str:
-    return only(project, "application").id
-
-
-def build(project: Project) -> BuildResult:
-    (one,) = project_applications(project)
-    return build_application(one.sources, one.tasks, options=replace(one.options, level=1))
-
-
-def errors(project: Project) -> list[str]:
-    return [d.message for d in build(project).diagnostics if d.severity == "error"]
 
 
 def test_the_pool_stands_once_below_an_application_and_takes_axes() -> None:
@@ -196,18 +177,6 @@ def test_numbers_are_literals(value: float) -> None:
     assert float(text) == value
 
 
-def _values(project: Project, cycles: int, *paths: str, **written: Any) -> list[Any]:
-    result = build(project)
-    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
-    assert result.package is not None
-    with LocalRuntime(result.package) as plc:
-        plc.start()
-        for path, value in written.items():
-            plc.write(path.replace("__", "."), value)
-        plc.run(cycles)
-        return [plc.read(path) for path in paths]
-
-
 def test_an_axis_of_a_drive_that_follows_a_speed() -> None:
     """AXIS-40 to AXIS-48."""
     control = {
@@ -236,14 +205,14 @@ def test_an_axis_of_a_drive_that_follows_a_speed() -> None:
         "bSpeedFromPosition",
     )
     members += ("fMaxPositionLag", "bHWLimitEnable", "bVirtual", "out.bRegulatorOn")
-    found = _values(project, 20, *(f"Drive.{member}" for member in members))
+    found = values(project, 20, *(f"Drive.{member}" for member in members))
     assert found == [20.0, 1.5, 16, 500.0, 16384, True, 3.0, True, False, True]
     text = application_sources(project, application_id(project))[0].text
     assert "Drive : SM3_Basic.AXIS_REF_POSCONTROL_SM3" in "".join(
         source.text for source in application_sources(project, application_id(project))
     ), text
     given = {"Drive__in__bRegulatorRealState": True, "Drive__in__bDriveStartRealState": True}
-    (speed,) = _values(project, 60, "Drive.out.diSetVelocity", **given)
+    (speed,) = values(project, 60, "Drive.out.diSetVelocity", **given)
     assert speed > 0
 
 
@@ -266,7 +235,7 @@ def test_a_logical_axis_mirrors_its_master() -> None:
         "Mirror.usiFilterDepthVelocity",
         "Mirror.nAxisState",
     )
-    place, mirrored, depth, state = _values(project, 100, *members)
+    place, mirrored, depth, state = values(project, 100, *members)
     assert 0.0 < place < 50.0
     assert mirrored == pytest.approx(place, abs=1e-9)
     assert (depth, state) == (3, 6)

@@ -1783,53 +1783,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runtimes/{runtime_id}/axes/{axis}/tuning": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Get Axis Tuning
-         * @description The gains of an axis as they are, and a measurement that fits its limits.
-         *
-         *     An axis whose loop is closed elsewhere, or nowhere, is the problem `no-position-loop`.
-         */
-        get: operations["get_axis_tuning"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/runtimes/{runtime_id}/axes/{axis}/tuning/measure": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Measure Axis
-         * @description Measure an axis that one controls (`/panel`), and answer with what it says when it is back.
-         *
-         *     The controller makes the step or the fast move and brings the axis back. Keep saying that one is there
-         *     (`/panel/alive`); `/panel/stop` ends it at any time. A height beyond a limit is the problem
-         *     `measurement-refused`, an early end `measurement-interrupted`. For bad data the answer has `problem`
-         *     instead of proposals.
-         */
-        post: operations["measure_axis"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/runtimes/{runtime_id}/boot-application": {
         parameters: {
             query?: never;
@@ -2641,38 +2594,6 @@ export interface components {
             user: components["schemas"]["Me"] | null;
         };
         /**
-         * AxisMeasured
-         * @description A measurement of an axis and what it says.
-         */
-        AxisMeasured: {
-            /** Axis */
-            axis: string;
-            /**
-             * Closed In
-             * @enum {string}
-             */
-            closed_in: "controller" | "drive";
-            /** Cycle S */
-            cycle_s: number;
-            /**
-             * Excitation
-             * @enum {string}
-             */
-            excitation: "step" | "move";
-            figures: components["schemas"]["ResponseFigures"] | null;
-            /** Height */
-            height: number;
-            model: components["schemas"]["LoopModel"] | null;
-            /**
-             * Problem
-             * @description Why there is no proposal, and what to do.
-             */
-            problem: string | null;
-            /** Proposals */
-            proposals: components["schemas"]["GainProposal"][];
-            samples: components["schemas"]["ResponseSamples"] | null;
-        };
-        /**
          * AxisObject
          * @description An axis; it is a global variable of its name.
          */
@@ -2863,6 +2784,51 @@ export interface components {
             scaling: components["schemas"]["Scaling"];
             /**
              * @default {
+             *       "encoder": {
+             *         "noise": 0
+             *       },
+             *       "homing": {
+             *         "acceleration": 1000,
+             *         "method": 37,
+             *         "velocity": 10,
+             *         "zero_velocity": 2
+             *       },
+             *       "limits": {
+             *         "lag": 1,
+             *         "max_torque": 3.8,
+             *         "quick_stop": 2000,
+             *         "rated_torque": 1.27
+             *       },
+             *       "loops": {
+             *         "current_time": 0.0005,
+             *         "feed_forward": 1,
+             *         "integral_time": 0.02,
+             *         "position_gain": 60,
+             *         "velocity_gain": 0.03
+             *       },
+             *       "motor": {
+             *         "damping": 0.001,
+             *         "dry": 0.01,
+             *         "elastic": false,
+             *         "inertia": 0.00006,
+             *         "load_inertia": 0.00006,
+             *         "stiffness": 100,
+             *         "viscous": 0.0001
+             *       },
+             *       "switches": {
+             *         "home": false,
+             *         "home_from": -0.25,
+             *         "home_to": 0.25,
+             *         "negative": false,
+             *         "negative_at": -10,
+             *         "positive": false,
+             *         "positive_at": 10
+             *       }
+             *     }
+             */
+            simulated_drive: components["schemas"]["SimulatedDrive"];
+            /**
+             * @default {
              *       "deceleration": 0,
              *       "enabled": false,
              *       "negative": 0,
@@ -2882,50 +2848,6 @@ export interface components {
              * @default false
              */
             virtual_mode: boolean;
-        };
-        /**
-         * AxisTuning
-         * @description What there is to be tuned at an axis, and what a good measurement would be.
-         */
-        AxisTuning: {
-            /** Bus Task */
-            bus_task: string;
-            /**
-             * Closed In
-             * @description Who closes the position loop.
-             * @enum {string}
-             */
-            closed_in: "controller" | "drive";
-            /** Cycle S */
-            cycle_s: number;
-            /**
-             * Duration S
-             * @description Suggested.
-             */
-            duration_s: number;
-            /**
-             * Excitation
-             * @description Suggested: a step, or a fast move where there is no gain.
-             * @enum {string}
-             */
-            excitation: "step" | "move";
-            /** Gains */
-            gains: components["schemas"]["TuningGain"][];
-            /**
-             * Height
-             * @description Suggested, in units.
-             */
-            height: number;
-            /**
-             * Lag Limit
-             * @description Units from which a step is an error of the axis.
-             */
-            lag_limit: number | null;
-            /**
-             * State
-             * @description Of the axis, nAxisState.
-             */
-            state: string;
         };
         /**
          * BodyLanguage
@@ -4450,6 +4372,18 @@ export interface components {
             visible: boolean | components["schemas"]["Threshold"];
         };
         /**
+         * Encoder
+         * @description The encoder of the motor; its increments are those of the scaling.
+         */
+        Encoder: {
+            /**
+             * Noise
+             * @description Largest deviation, in increments.
+             * @default 0
+             */
+            noise: number;
+        };
+        /**
          * Entry
          * @description One line of a report.
          */
@@ -4665,44 +4599,6 @@ export interface components {
             on: boolean;
         };
         /**
-         * GainProposal
-         * @description Gains that fit the model, and what they would do.
-         */
-        GainProposal: {
-            /**
-             * Aim
-             * @enum {string}
-             */
-            aim: "no_overshoot" | "fast";
-            /**
-             * Answer
-             * @description Predicted positions, beside the samples.
-             */
-            answer: number[];
-            /**
-             * Gain Margin
-             * @description Factor until it oscillates, null: it does not.
-             */
-            gain_margin: number | null;
-            /** Gains */
-            gains: components["schemas"]["GainValue"][];
-            /** Phase Margin Deg */
-            phase_margin_deg: number;
-        };
-        /**
-         * GainValue
-         * @description A proposed value.
-         */
-        GainValue: {
-            /**
-             * Name
-             * @enum {string}
-             */
-            name: "position_gain" | "dead_time" | "velocity_gain" | "integral_time";
-            /** Value */
-            value: number;
-        };
-        /**
          * GvlData
          * @description VAR_GLOBAL ... END_VAR.
          */
@@ -4843,6 +4739,37 @@ export interface components {
             heading: string | null;
             /** Text */
             text: string;
+        };
+        /**
+         * Homing
+         * @description Homing by the drive, which MC_Home starts.
+         */
+        Homing: {
+            /**
+             * Acceleration
+             * @description In rad/s² (609Ah); 0: at once.
+             * @default 1000
+             */
+            acceleration: number;
+            /**
+             * Method
+             * @description Object 6098h.
+             * @default 37
+             * @enum {integer}
+             */
+            method: 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 17 | 18 | 19 | 20 | 21 | 22 | 23 | 24 | 25 | 26 | 27 | 28 | 29 | 30 | 33 | 34 | 35 | 37;
+            /**
+             * Velocity
+             * @description In the search of the switch, in rad/s (6099h, 1).
+             * @default 10
+             */
+            velocity: number;
+            /**
+             * Zero Velocity
+             * @description In the search of zero, in rad/s (6099h, 2).
+             * @default 2
+             */
+            zero_velocity: number;
         };
         /**
          * ImagePlace
@@ -5396,34 +5323,40 @@ export interface components {
             runtime_id: string;
         };
         /**
-         * LoopModel
-         * @description The identified model: dead time, and an integrator behind the lag of the velocity loop.
+         * Loops
+         * @description The controllers of the drive.
          */
-        LoopModel: {
+        Loops: {
             /**
-             * Answer
-             * @description Its positions, beside the samples.
+             * Current Time
+             * @description Time constant of the current loop, in s.
+             * @default 0.0005
              */
-            answer: number[];
-            /** Dead Time S */
-            dead_time_s: number;
+            current_time: number;
             /**
-             * Factor
-             * @description Velocity that comes of the one asked for.
+             * Feed Forward
+             * @description Part of the set velocity that goes past the position loop.
+             * @default 1
              */
-            factor: number;
+            feed_forward: number;
             /**
-             * Inertia
-             * @description Of motor and load by the gain of the drive, in kgm².
+             * Integral Time
+             * @description Of the velocity loop, in s; 0: it has no integral part.
+             * @default 0.02
              */
-            inertia: number | null;
-            /** Lag S */
-            lag_s: number;
+            integral_time: number;
             /**
-             * Residual
-             * @description Root mean square of what it does not explain, in units.
+             * Position Gain
+             * @description Velocity by position lag, in 1/s.
+             * @default 60
              */
-            residual: number;
+            position_gain: number;
+            /**
+             * Velocity Gain
+             * @description Torque by velocity deviation, in Nms.
+             * @default 0.03
+             */
+            velocity_gain: number;
         };
         /**
          * Margins
@@ -5477,34 +5410,6 @@ export interface components {
             theme: string | null;
             /** Username */
             username: string;
-        };
-        /**
-         * MeasureOrder
-         * @description What to measure, by somebody who has control of the axis.
-         */
-        MeasureOrder: {
-            /**
-             * Duration S
-             * @description Seconds until it moves back.
-             * @default 1
-             */
-            duration_s?: number;
-            /**
-             * Excitation
-             * @default step
-             * @enum {string}
-             */
-            excitation?: "step" | "move";
-            /**
-             * Height
-             * @description How far the set position steps or moves, in units.
-             */
-            height: number;
-            /**
-             * Holder
-             * @description Number of the page in control.
-             */
-            holder: number;
         };
         /**
          * MergeOrder
@@ -5630,6 +5535,84 @@ export interface components {
              * @default 0
              */
             velocity_filter: number;
+        };
+        /**
+         * MotorAndLoad
+         * @description What turns.
+         */
+        MotorAndLoad: {
+            /**
+             * Damping
+             * @description Of the shaft, in Nms/rad.
+             * @default 0.001
+             */
+            damping: number;
+            /**
+             * Dry
+             * @description Friction of any velocity and standstill, in Nm.
+             * @default 0.01
+             */
+            dry: number;
+            /**
+             * Elastic
+             * @description The load is behind an elastic shaft.
+             * @default false
+             */
+            elastic: boolean;
+            /**
+             * Inertia
+             * @description Of the motor and what is rigid with it, in kgm².
+             * @default 0.00006
+             */
+            inertia: number;
+            /**
+             * Load Inertia
+             * @description Of the load behind the shaft, in kgm².
+             * @default 0.00006
+             */
+            load_inertia: number;
+            /**
+             * Stiffness
+             * @description Of the shaft, in Nm/rad.
+             * @default 100
+             */
+            stiffness: number;
+            /**
+             * Viscous
+             * @description Friction by velocity, in Nms.
+             * @default 0.0001
+             */
+            viscous: number;
+        };
+        /**
+         * MotorLimits
+         * @description What the drive can do and stand.
+         */
+        MotorLimits: {
+            /**
+             * Lag
+             * @description Larger position lags are faults of the drive, in turns; 0: none is.
+             * @default 1
+             */
+            lag: number;
+            /**
+             * Max Torque
+             * @description Largest torque of the motor, in Nm.
+             * @default 3.8
+             */
+            max_torque: number;
+            /**
+             * Quick Stop
+             * @description Deceleration of quick stops and faults, in rad/s².
+             * @default 2000
+             */
+            quick_stop: number;
+            /**
+             * Rated Torque
+             * @description 1000 at objects 6071h and 6077h, in Nm.
+             * @default 1.27
+             */
+            rated_torque: number;
         };
         /**
          * NamedValue
@@ -6755,73 +6738,6 @@ export interface components {
             kind: "cold" | "origin" | "warm";
         };
         /**
-         * ResponseFigures
-         * @description What is read off an answer; null: it does not come to that in this time.
-         */
-        ResponseFigures: {
-            /**
-             * Band
-             * @description Half the width of the band that it settles in, in units.
-             */
-            band: number;
-            /**
-             * Dead Time Cycles
-             * @description From the first set motion to the first reaction (AXIS-40).
-             */
-            dead_time_cycles: number | null;
-            /**
-             * Noise
-             * @description Standard deviation at rest, in units.
-             */
-            noise: number;
-            /**
-             * Overshoot
-             * @description As a part of the height.
-             */
-            overshoot: number;
-            /**
-             * Rise Time S
-             * @description From 10 % to 90 % of the height.
-             */
-            rise_time_s: number | null;
-            /** Settling Time S */
-            settling_time_s: number | null;
-            /**
-             * Steady Error
-             * @description Set minus actual position at the end, in units.
-             */
-            steady_error: number;
-        };
-        /**
-         * ResponseSamples
-         * @description Values of the axis from rest to the end of the answer, in units from where it stood.
-         */
-        ResponseSamples: {
-            /** Act Position */
-            act_position: number[];
-            /** Act Velocity */
-            act_velocity: number[];
-            /**
-             * Command
-             * @description Velocity that the controller gives the drive.
-             */
-            command: number[] | null;
-            /** Set Position */
-            set_position: number[];
-            /** Set Velocity */
-            set_velocity: number[];
-            /**
-             * Time
-             * @description Seconds since the set position left its place.
-             */
-            time: number[];
-            /**
-             * Torque
-             * @description Of the drive, in Nm.
-             */
-            torque: number[] | null;
-        };
-        /**
          * Result
          * @description What became of an act.
          * @enum {string}
@@ -7391,6 +7307,70 @@ export interface components {
          */
         Severity: "error" | "warning" | "info";
         /**
+         * SimulatedDrive
+         * @description The drive of SM_Drive_Simulated.
+         */
+        SimulatedDrive: {
+            /**
+             * @default {
+             *       "noise": 0
+             *     }
+             */
+            encoder: components["schemas"]["Encoder"];
+            /**
+             * @default {
+             *       "acceleration": 1000,
+             *       "method": 37,
+             *       "velocity": 10,
+             *       "zero_velocity": 2
+             *     }
+             */
+            homing: components["schemas"]["Homing"];
+            /**
+             * @default {
+             *       "lag": 1,
+             *       "max_torque": 3.8,
+             *       "quick_stop": 2000,
+             *       "rated_torque": 1.27
+             *     }
+             */
+            limits: components["schemas"]["MotorLimits"];
+            /**
+             * @default {
+             *       "current_time": 0.0005,
+             *       "feed_forward": 1,
+             *       "integral_time": 0.02,
+             *       "position_gain": 60,
+             *       "velocity_gain": 0.03
+             *     }
+             */
+            loops: components["schemas"]["Loops"];
+            /**
+             * @default {
+             *       "damping": 0.001,
+             *       "dry": 0.01,
+             *       "elastic": false,
+             *       "inertia": 0.00006,
+             *       "load_inertia": 0.00006,
+             *       "stiffness": 100,
+             *       "viscous": 0.0001
+             *     }
+             */
+            motor: components["schemas"]["MotorAndLoad"];
+            /**
+             * @default {
+             *       "home": false,
+             *       "home_from": -0.25,
+             *       "home_to": 0.25,
+             *       "negative": false,
+             *       "negative_at": -10,
+             *       "positive": false,
+             *       "positive_at": 10
+             *     }
+             */
+            switches: components["schemas"]["Switches"];
+        };
+        /**
          * SoftwareLimits
          * @description The travel range of a finite axis (AXIS-12).
          */
@@ -7552,11 +7532,9 @@ export interface components {
             /** @default 100 */
             acceleration?: number;
             /** @enum {unknown} */
-            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "measure_move" | "measure_step" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
+            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
             /** @default 100 */
             deceleration?: number;
-            /** @default 1 */
-            duration?: number;
             /** @description Number that the page has made up. */
             holder: number;
             /** @default 10000 */
@@ -7639,6 +7617,54 @@ export interface components {
              * @default false
              */
             renewed: boolean;
+        };
+        /**
+         * Switches
+         * @description Switches along the way of the motor.
+         */
+        Switches: {
+            /**
+             * Home
+             * @description There is a home switch.
+             * @default false
+             */
+            home: boolean;
+            /**
+             * Home From
+             * @description From here on it is on, in turns.
+             * @default -0.25
+             */
+            home_from: number;
+            /**
+             * Home To
+             * @description To here, in turns.
+             * @default 0.25
+             */
+            home_to: number;
+            /**
+             * Negative
+             * @description There is a negative limit switch.
+             * @default false
+             */
+            negative: boolean;
+            /**
+             * Negative At
+             * @description Below it that switch is on, in turns.
+             * @default -10
+             */
+            negative_at: number;
+            /**
+             * Positive
+             * @description There is a positive limit switch.
+             * @default false
+             */
+            positive: boolean;
+            /**
+             * Positive At
+             * @description Above it that switch is on, in turns.
+             * @default 10
+             */
+            positive_at: number;
         };
         /**
          * Symbol
@@ -8031,24 +8057,6 @@ export interface components {
             role: components["schemas"]["Role"];
             /** Used At */
             used_at: string | null;
-        };
-        /**
-         * TuningGain
-         * @description A gain of the loop that can be written.
-         */
-        TuningGain: {
-            /**
-             * Expression
-             * @description Its variable in the application.
-             */
-            expression: string;
-            /**
-             * Name
-             * @enum {string}
-             */
-            name: "position_gain" | "dead_time" | "velocity_gain" | "integral_time";
-            /** Value */
-            value: number;
         };
         /**
          * UndoOutcome
@@ -12493,92 +12501,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PanelStatus"];
-                };
-            };
-            /** @description The request was refused */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-            /** @description The request was refused */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-        };
-    };
-    get_axis_tuning: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                axis: string;
-                runtime_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["AxisTuning"];
-                };
-            };
-            /** @description The request was refused */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-            /** @description The request was refused */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-        };
-    };
-    measure_axis: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                axis: string;
-                runtime_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["MeasureOrder"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["AxisMeasured"];
                 };
             };
             /** @description The request was refused */

@@ -10,13 +10,12 @@ from dataclasses import dataclass
 
 from tappet.project.axes.literals import flag, real
 from tappet.project.axes.settings import AxisSettings, DriveType
+from tappet.project.axes.simulated import changed_members
 
 LIBRARY = "SM3_Basic"
 """The library of all axes (AXIS-03, CAL-08)."""
 DRIVE_ENDING = "_Drive"
 """Behind the name of an axis: the variable that its drive is, where the drive is one."""
-_RATED_TORQUE = 1.27
-"""Of the simulated drive, in Nm: axis and drive tell each other parts of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +46,11 @@ def drive_name(axis: str) -> str:
 
 def _simulated(settings: AxisSettings) -> str:
     increments = max(1, round(settings.scaling.increments / settings.scaling.motor_turns))
-    return (
-        f"{LIBRARY}.SimulatedDrive := "
-        f"(stSettings := (diIncrements := {increments}, diMaxLag := {increments}, "
-        f"fRatedTorque := {real(_RATED_TORQUE)}))"
-    )
+    changed = changed_members(settings.simulated_drive, increments)
+    if not changed:
+        return f"{LIBRARY}.SimulatedDrive"
+    values = ", ".join(f"{member} := {value}" for member, value in changed.items())
+    return f"{LIBRARY}.SimulatedDrive := (stSettings := ({values}))"
 
 
 def _position_controlled(settings: AxisSettings) -> dict[str, str]:
@@ -84,7 +83,7 @@ _DRIVES: dict[DriveType, Drive] = {
     "SM_Drive_Virtual": Drive("AXIS_REF_VIRTUAL_SM3"),
     "SM_Drive_Simulated": Drive(
         "AXIS_REF_MAPPING_SM3",
-        members=lambda settings: {"fRatedTorque": real(_RATED_TORQUE)},
+        members=lambda settings: {"fRatedTorque": real(settings.simulated_drive.limits.rated_torque)},
         declared=_simulated,
         before="{axis}.in := {drive}.stIn;\n",
         behind="\n{drive}(stOut := {axis}.out, fCycle := {cycle});",

@@ -7,13 +7,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
+from tappet.project.axes.numbers import Count, NotNegative, Number, Positive
+from tappet.project.axes.simulated import SimulatedDrive
 from tappet.project.data import CodeData, Data, Line
 from tappet.project.naming import MAX_NAME
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Count = Annotated[StrictInt, Field(ge=1, le=2**31 - 1)]
 RampType = Literal["trapez", "sin2", "quadratic", "quadratic_smooth"]
 DriveType = Literal["SM_Drive_Virtual", "SM_Drive_Simulated", "SM_Drive_PosControl", "SM_Drive_Logical"]
 FilterDepth = Annotated[StrictInt, Field(ge=0, le=9)]
@@ -156,6 +154,7 @@ class AxisSettings(CodeData):
     scaling: Scaling = Scaling()
     position_control: PositionControl = PositionControl()
     mirroring: Mirroring = Mirroring()
+    simulated_drive: SimulatedDrive = SimulatedDrive()
     bus_task: Line = Field(
         default="",
         description="Task that moves the axis; empty: that of the pool, else the fastest cyclic one.",

@@ -9,6 +9,7 @@ import { useDraft } from '@/editors/form/useDraft';
 import { Tabs } from '@/ui/Tabs';
 import { BasicPage } from './BasicPage';
 import { CommissioningPage } from './CommissioningPage';
+import { DrivePage } from './DrivePage';
 import { InformationPage } from './InformationPage';
 import { LogicalPage } from './LogicalPage';
 import { canStore } from './model';
@@ -63,6 +64,8 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
           { id: 'basic', title: t('axis.page.basic'), content: form(BasicPage) },
           { id: 'scaling', title: t('axis.page.scaling'), content: form(ScalingPage) },
         ];
+  if (drive === 'SM_Drive_Simulated')
+    settings.push({ id: 'drive', title: t('axis.page.drive'), content: form(DrivePage) });
   if (drive === 'SM_Drive_PosControl')
     settings.push({ id: 'control', title: t('axis.page.control'), content: form(PositionControlPage) });
   const pages = [

@@ -4,15 +4,8 @@ import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { numberText } from '@/editors/form/numbers';
-import {
-  axisFaults,
-  type AxisPageProps,
-  COUNT_NAMES,
-  type CountName,
-  hasDrive,
-  type Scaling,
-  unitsPerIncrement,
-} from './model';
+import { axisFaults, type AxisPageProps, COUNT_NAMES, type CountName, hasDrive } from './model';
+import { type Scaling, unitsPerIncrement } from './scaling';
 import { NumberCell } from '@/editors/form/NumberField';
 
 /** From increments of the encoder to units of the application, with the arithmetic shown (devices.md, 14.3). */

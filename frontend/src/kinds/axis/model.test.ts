@@ -1,42 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { axisFaults, beyondDrive, canStore, unitsPerIncrement, type AxisSettings } from './model';
-
-const LIMITS = { velocity: 100, acceleration: 100, deceleration: 100, jerk: 1e5 };
-
-function axis(changes: Partial<AxisSettings> = {}): AxisSettings {
-  return {
-    drive: 'SM_Drive_Virtual',
-    axis_type: 'modulo',
-    modulo: 360,
-    software_limits: { enabled: false, negative: 0, positive: 1000, deceleration: 0 },
-    dynamic_limits: LIMITS,
-    drive_limits: { velocity: 1e4, acceleration: 1e6, deceleration: 1e6, jerk: 1e8 },
-    ramp_type: 'trapez',
-    stopping_distance: 0,
-    virtual_mode: false,
-    position_lag: 0,
-    scaling: {
-      increments: 65536,
-      motor_turns: 1,
-      gear_motor_turns: 1,
-      gear_output_turns: 1,
-      output_turns: 1,
-      units: 360,
-      invert: false,
-    },
-    position_control: {
-      dead_time: 2,
-      gain: 0,
-      bits: 32,
-      speed_from: 'velocity',
-      rated_velocity: 1000,
-      rated_raw: 32767,
-    },
-    mirroring: { master: '', reference: 'set', dead_time: 0, position_filter: 0, velocity_filter: 0 },
-    bus_task: '',
-    ...changes,
-  };
-}
+import { axisFaults, beyondDrive, canStore, type AxisSettings } from './model';
+import { LIMITS, sampleAxis as axis } from './sampleAxis';
+import { unitsPerIncrement } from './scaling';
 
 const scaled = (changes: Partial<AxisSettings['scaling']>) => ({ ...axis().scaling, ...changes });
 

@@ -1,9 +1,9 @@
-/** Settings of an axis: what may be entered, and the arithmetic of its scaling (devices.md, 14.2 and 14.3). Pure functions. */
+/** Settings of an axis: what may be entered (devices.md, 14.2 and 14.3). Pure functions. */
 import type { Schemas } from '@/api/types';
 import type { TextKey } from '@/i18n';
+import { driveFaults } from './drive';
 
 export type AxisSettings = Schemas['AxisSettings'];
-export type Scaling = AxisSettings['scaling'];
 export type Limits = AxisSettings['dynamic_limits'];
 
 /** What a page of settings gets. */
@@ -108,16 +108,11 @@ export function isLogical(axis: AxisSettings): boolean {
 }
 
 export function canStore(axis: AxisSettings): boolean {
-  return Object.keys(axisFaults(axis)).length === 0;
+  const faults = { ...axisFaults(axis), ...driveFaults(axis.simulated_drive) };
+  return Object.keys(faults).length === 0;
 }
 
 /** Limits of the program that lie above what the drive can do, so that motions with them end in an error. */
 export function beyondDrive(axis: AxisSettings): LimitName[] {
   return LIMIT_NAMES.filter((name) => axis.dynamic_limits[name] > axis.drive_limits[name]);
-}
-
-/** Units of the application for one increment, with the sign of the direction. */
-export function unitsPerIncrement(scaling: Scaling): number {
-  const turns = (scaling.motor_turns / scaling.increments) * (scaling.gear_output_turns / scaling.gear_motor_turns);
-  return (turns * scaling.units * (scaling.invert ? -1 : 1)) / scaling.output_turns;
 }
