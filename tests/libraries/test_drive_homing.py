@@ -58,7 +58,8 @@ MOMENTARY = {"diHomeFrom": LEFT, "diHomeTo": RIGHT}
 TO_THE_RIGHT = {"diHomeFrom": LEFT, "diHomeTo": EVERYWHERE}
 TO_THE_LEFT = {"diHomeFrom": -EVERYWHERE, "diHomeTo": LEFT}
 DIAGRAMS = {
-    # method: home switch, home by its index pulse, direction at last, first direction: left of, on, right of the switch
+    # method: home switch, home by its index pulse, direction at last,
+    # first direction by where it starts: left of the switch, on it, right of it
     1: ({}, -4000, 1, {-4900: 1, 0: -1, 7900: -1}),
     2: ({}, 7000, -1, {-4900: 1, 0: 1, 7900: -1}),
     3: (TO_THE_RIGHT, 1000, -1, {-2300: 1, 3300: -1}),

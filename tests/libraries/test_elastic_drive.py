@@ -1,4 +1,4 @@
-"""The elastic shaft of the simulated drive against closed forms and scipy: two inertias, stiffness and damping."""
+"""The elastic shaft of the simulated drive against closed forms and scipy."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ KP, TN, TAU, KV = 0.03, 0.02, 0.0005, 60.0
 PROGRAM = """
 PROGRAM Main
 VAR
-    Drive   : SM3_Basic.SimulatedDrive := (stSettings := (fInertia := 4E-5, fLoadInertia := 9E-5, diMaxLag := 0, {settings}));
+    Drive   : SM3_Basic.SimulatedDrive := (stSettings := (fInertia := 4E-5, fLoadInertia := 9E-5,
+        diMaxLag := 0, {settings}));
     Control : SM3_Basic.CiA402Control;
 END_VAR
 Control(wStatusWord := Drive.stIn.wStatusWord, bStart := TRUE);
@@ -61,7 +62,7 @@ def motion(program: Program, cycles: int) -> np.ndarray:
 @pytest.mark.parametrize("stiffness", [1e-3, 0.1, 10.0, 300.0, 3000.0, 1e5])
 @pytest.mark.parametrize("ratio", [0.0, 0.02, 0.3])
 def test_a_free_shaft_oscillates_as_its_closed_form(stiffness: float, ratio: float) -> None:
-    """A load torque steps; the twist oscillates with the eigenfrequency, the centre of gravity accelerates evenly."""
+    """A load torque steps: the twist has the eigenfrequency, the centre of gravity accelerates evenly."""
     inverse = 1 / MOTOR + 1 / LOAD
     omega = math.sqrt(stiffness * inverse)
     damping = 2 * ratio * omega / inverse
@@ -148,7 +149,7 @@ def test_a_torque_step_moves_motor_and_load_as_scipy_says(stiffness: float) -> N
 
 @pytest.mark.parametrize("stiffness", [2.0, 50.0, 1000.0])
 def test_the_closed_loops_move_the_load_as_scipy_says(stiffness: float) -> None:
-    """Position P, velocity PI, current of first order, over two inertias; the set position comes within a cycle."""
+    """Position P, velocity PI, current of first order; the set position comes within a cycle."""
     settings = {"k": stiffness, "c": 0.002, "b": 1e-4, "dry": 0.0}
     step = 200 * RADIANS
     with drive(f"fStiffness := {stiffness}, fDamping := 0.002, fDry := 0.0, fFeedForward := 0.0") as program:
