@@ -182,6 +182,36 @@ def test_a_simulated_drive_has_its_settings(page: Page, server: Server, project:
     expect(panel.get_by_label("On until")).not_to_have_value("1.5")
 
 
+def test_channels_of_a_drive_are_bound_to_addresses(page: Page, server: Server, project: str) -> None:
+    _add_drive(page, server, project, "Servo", "SM_Drive_GenericDSP402")
+    open_object(page, "Servo")
+    panel = editor(page)
+    panel.get_by_role("tab", name="Scaling/Mapping").click()
+    panel.get_by_label("Automatic mapping").uncheck()
+    expect(
+        panel.get_by_text("The axis cannot move without: in.wStatusWord, in.diActPosition")
+    ).to_be_visible()
+    place = panel.get_by_label("Address or variable of in.wStatusWord")
+    place.fill("%IB0")
+    expect(panel.get_by_text("%IB0 is no place of WORD; write one such as %IW0")).to_be_visible()
+    place.fill("%IW0")
+    expect(panel.get_by_text("is no place of")).to_have_count(0)
+    panel.get_by_label("Type of in.wStatusWord").click()
+    page.get_by_role("option", name="UINT").click()
+    panel.get_by_label("Address or variable of out.diSetPosition").fill("PLC_PRG.nowhere")
+    with objects_stored(page):
+        page.keyboard.press("Control+s")
+    channels = stored(page, server, project, "Servo")["data"]["mapping"]["channels"]
+    assert channels["in.wStatusWord"] == {"place": "%IW0", "type": "UINT"}
+    page.keyboard.press("F11")
+    fault = page.get_by_role("alert").filter(has_text="'nowhere' is no component of 'PLC_PRG'")
+    expect(fault).to_be_visible()
+    page.get_by_role("tab", name="Basic").click()
+    expect(fault).to_have_count(0)
+    page.get_by_role("gridcell").filter(has_text="'nowhere' is no component").dblclick()
+    expect(fault).to_be_visible()
+
+
 def test_a_logical_axis_chooses_its_master(page: Page, server: Server, project: str) -> None:
     add_drive(page, server, project, "Feed", "SM_Drive_Virtual")
     add_drive(page, server, project, "Mirror", "SM_Drive_Logical")

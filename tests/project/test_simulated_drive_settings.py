@@ -89,12 +89,26 @@ def test_impossible_settings_are_refused(settings: dict[str, Any], message: str)
         with_axes("Drive", drive="SM_Drive_Simulated", simulated_drive=settings)
 
 
-def test_an_axis_homes_by_the_switches_of_its_settings() -> None:
-    """From the tree to the motion: the home switch lies two turns away, which are 20 units."""
-    settings = {
-        "switches": {"home": True, "home_from": 2, "home_to": 3},
-        "homing": {"method": 24, "velocity": 100, "zero_velocity": 5},
-    }
+@pytest.mark.parametrize(
+    ("homing", "switches", "home"),
+    [
+        ({"method": 24}, {"home": True, "home_from": 2, "home_to": 3}, 20.0),
+        ({"method": 17}, {"negative": True, "negative_at": -2}, -20.0),
+        (
+            {"method": 7},
+            {"home": True, "home_from": -2.5, "home_to": -2, "positive": True, "positive_at": 1},
+            -30.0,
+        ),
+    ],
+)
+def test_an_axis_homes_by_the_switches_of_its_settings(
+    homing: dict[str, Any], switches: dict[str, Any], home: float
+) -> None:
+    """From the tree to the motion, a turn being 10 units.
+
+    Limit switches, which stop a finite axis, belong to the way of the drive while it homes.
+    """
+    settings = {"switches": switches, "homing": {**homing, "velocity": 100, "zero_velocity": 5}}
     scaling = {"increments": 10000, "units": 10}
     body = """fbPower(Axis := Drive, Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
 fbHome(Axis := Drive, Execute := fbPower.Status, Position := 500.0);"""
@@ -112,7 +126,7 @@ fbHome(Axis := Drive, Execute := fbPower.Status, Position := 500.0);"""
     declaration = "PROGRAM PLC_PRG\nVAR\n    fbPower : MC_Power;\n    fbHome : MC_Home;\nEND_VAR"
     project = edit.change_data(project, program.id, {"declaration": declaration, "implementation": body})
     done, place, angle = values(
-        project, 300, "PLC_PRG.fbHome.Done", "Drive.fActPosition", "Drive_Drive.fAngle"
+        project, 400, "PLC_PRG.fbHome.Done", "Drive.fActPosition", "Drive_Drive.fAngle"
     )
     assert done
-    assert place == pytest.approx(500.0 - 20.0 + angle / (2 * math.pi) * 10, abs=0.01)
+    assert place == pytest.approx(500.0 - home + angle / (2 * math.pi) * 10, abs=0.01)

@@ -2705,7 +2705,7 @@ export interface components {
              * @default SM_Drive_Virtual
              * @enum {string}
              */
-            drive: "SM_Drive_Virtual" | "SM_Drive_Simulated" | "SM_Drive_PosControl" | "SM_Drive_Logical";
+            drive: "SM_Drive_Virtual" | "SM_Drive_Simulated" | "SM_Drive_GenericDSP402" | "SM_Drive_PosControl" | "SM_Drive_Logical";
             /**
              * @default {
              *       "acceleration": 1000000,
@@ -2730,6 +2730,22 @@ export interface components {
              * @default false
              */
             exclude_from_build?: boolean;
+            /**
+             * @default {
+             *       "bits": 32,
+             *       "dead_time": 2,
+             *       "limit_switches": true,
+             *       "rated_torque": 1
+             *     }
+             */
+            generic_drive: components["schemas"]["GenericDrive"];
+            /**
+             * @default {
+             *       "automatic": true,
+             *       "channels": {}
+             *     }
+             */
+            mapping: components["schemas"]["ChannelMapping"];
             /**
              * @default {
              *       "dead_time": 0,
@@ -2848,6 +2864,24 @@ export interface components {
              * @default false
              */
             virtual_mode: boolean;
+        };
+        /**
+         * Binding
+         * @description What a channel is bound to.
+         */
+        Binding: {
+            /**
+             * Place
+             * @description An address such as %IW0, or a variable; empty: not bound.
+             * @default
+             */
+            place: string;
+            /**
+             * Type
+             * @description Type of the value there.
+             * @enum {string}
+             */
+            type: "BOOL" | "BYTE" | "SINT" | "USINT" | "WORD" | "INT" | "UINT" | "DWORD" | "DINT" | "UDINT";
         };
         /**
          * BodyLanguage
@@ -3671,6 +3705,26 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /**
+         * ChannelMapping
+         * @description How the channels of a drive are bound to its axis (AXIS-22).
+         */
+        ChannelMapping: {
+            /**
+             * Automatic
+             * @description The program or a bus writes `in` and reads `out` of the axis.
+             * @default true
+             */
+            automatic: boolean;
+            /**
+             * Channels
+             * @description Else what each channel is bound to.
+             * @default {}
+             */
+            channels: {
+                [key: string]: components["schemas"]["Binding"];
+            };
         };
         /**
          * CodingRule
@@ -4597,6 +4651,37 @@ export interface components {
          */
         FreezeFlight: {
             on: boolean;
+        };
+        /**
+         * GenericDrive
+         * @description A drive that speaks CiA 402, of which nothing else is known.
+         */
+        GenericDrive: {
+            /**
+             * Bits
+             * @description Width of the position counter.
+             * @default 32
+             * @enum {integer}
+             */
+            bits: 16 | 24 | 32;
+            /**
+             * Dead Time
+             * @description Cycles from a set position until its actual one.
+             * @default 2
+             */
+            dead_time: number;
+            /**
+             * Limit Switches
+             * @description On a finite axis, motion towards a limit switch that is on is an error.
+             * @default true
+             */
+            limit_switches: boolean;
+            /**
+             * Rated Torque
+             * @description Of the motor: 1000 at objects 6071h and 6077h, in Nm.
+             * @default 1
+             */
+            rated_torque: number;
         };
         /**
          * GvlData

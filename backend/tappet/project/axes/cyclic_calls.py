@@ -10,10 +10,11 @@ move an axis, an error at the axis says why.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tappet.iec.task import Task
+from tappet.project.axes.channels import assignment, bound
 from tappet.project.axes.drives import LIBRARY, drive_name, drive_of
 from tappet.project.axes.literals import real
 from tappet.project.axes.settings import AxisSettings
@@ -72,6 +73,16 @@ class _Moved:
     axis: ProjectObject
     task: Task | None
     fault: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """Statements of an axis."""
+
+    axis_id: str
+    text: str
+    channel: str = ""
+    """The channel that they carry: messages about them are at its row."""
 
 
 def around_tasks(
@@ -166,26 +177,39 @@ def _with_calls(task: Task, axes: Sequence[ProjectObject], writer: SourceWriter)
         return task
     cycle = real(task.interval_ns / _NS_PER_S)
     before, behind = f"SM3_Begin_{task.name}", f"SM3_End_{task.name}"
-    begin = [(axis, drive_of(axis.data_as(AxisSettings)).before + _BEGIN) for axis in axes]
-    end = [(axis, _END + drive_of(axis.data_as(AxisSettings)).behind) for axis in axes]
-    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", begin, cycle)
-    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", end, cycle, _END_LAST.format(before=before))
+    begin, end = [], []
+    for axis in axes:
+        begin += [*_carried(axis, inputs=True), _calls(axis, before=True, cycle=cycle)]
+        end += [_calls(axis, before=False, cycle=cycle), *_carried(axis, inputs=False)]
+    _program(writer, f"PROGRAM {before}\n{_BEGIN_VARIABLES}", begin)
+    _program(writer, f"PROGRAM {behind}\n{_END_VARIABLES}", end, _END_LAST.format(before=before))
     writer.keyword(_BRAKE.format(task=task.name, before=before, behind=behind))
     return replace(task, programs=(before, *task.programs, behind))
 
 
-def _program(
-    writer: SourceWriter,
-    head: str,
-    calls: Sequence[tuple[ProjectObject, str]],
-    cycle: str,
-    last: str = "",
-) -> None:
+def _calls(axis: ProjectObject, before: bool, cycle: str) -> _Piece:
+    """The calls of an axis and its drive in front of the programs, or behind them."""
+    drive = drive_of(axis.data_as(AxisSettings))
+    text = drive.before + _BEGIN if before else _END + drive.behind
+    return _Piece(axis.id, text.format(axis=axis.name, drive=drive_name(axis.name), cycle=cycle))
+
+
+def _carried(axis: ProjectObject, inputs: bool) -> Iterator[_Piece]:
+    """The assignments of channels that are not mapped automatically."""
+    settings = axis.data_as(AxisSettings)
+    for channel, binding in bound(settings.drive, settings.mapping):
+        if channel.is_input == inputs:
+            yield _Piece(axis.id, assignment(axis.name, channel, binding), channel.name)
+
+
+def _program(writer: SourceWriter, head: str, pieces: Sequence[_Piece], last: str = "") -> None:
     """A program with the statements of each axis."""
     writer.keyword(f"{{attribute 'hide'}}\n{head}")
-    for axis, text in calls:
-        statements = text.format(axis=axis.name, drive=drive_name(axis.name), cycle=cycle)
-        writer.part(axis.id, "declaration", statements)
+    for piece in pieces:
+        if piece.channel:
+            writer.element(piece.axis_id, piece.channel, piece.text)
+        else:
+            writer.part(piece.axis_id, "declaration", piece.text)
     writer.keyword(last or None)
     writer.keyword("END_PROGRAM")
 

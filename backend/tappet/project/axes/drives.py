@@ -53,6 +53,25 @@ def _simulated(settings: AxisSettings) -> str:
     return f"{LIBRARY}.SimulatedDrive := (stSettings := ({values}))"
 
 
+def _simulated_members(settings: AxisSettings) -> dict[str, str]:
+    drive = settings.simulated_drive
+    switches = drive.switches.negative or drive.switches.positive
+    return {
+        "fRatedTorque": real(drive.limits.rated_torque),
+        "bHWLimitEnable": flag(settings.axis_type == "finite" and switches),
+    }
+
+
+def _generic(settings: AxisSettings) -> dict[str, str]:
+    drive = settings.generic_drive
+    return {
+        "fRatedTorque": real(drive.rated_torque),
+        "byPositionBits": str(drive.bits),
+        "fDeadTimeCycles": real(drive.dead_time),
+        "bHWLimitEnable": flag(settings.axis_type == "finite" and drive.limit_switches),
+    }
+
+
 def _position_controlled(settings: AxisSettings) -> dict[str, str]:
     control = settings.position_control
     return {
@@ -83,11 +102,12 @@ _DRIVES: dict[DriveType, Drive] = {
     "SM_Drive_Virtual": Drive("AXIS_REF_VIRTUAL_SM3"),
     "SM_Drive_Simulated": Drive(
         "AXIS_REF_MAPPING_SM3",
-        members=lambda settings: {"fRatedTorque": real(settings.simulated_drive.limits.rated_torque)},
+        members=_simulated_members,
         declared=_simulated,
         before="{axis}.in := {drive}.stIn;\n",
         behind="\n{drive}(stOut := {axis}.out, fCycle := {cycle});",
     ),
+    "SM_Drive_GenericDSP402": Drive("AXIS_REF_MAPPING_SM3", members=_generic),
     "SM_Drive_PosControl": Drive("AXIS_REF_POSCONTROL_SM3", members=_position_controlled),
     "SM_Drive_Logical": Drive("AXIS_REF_LOGICAL_SM3", members=_mirroring),
 }

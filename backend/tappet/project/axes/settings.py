@@ -7,13 +7,20 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
+from tappet.project.axes.channels import ChannelMapping
 from tappet.project.axes.numbers import Count, NotNegative, Number, Positive
 from tappet.project.axes.simulated import SimulatedDrive
 from tappet.project.data import CodeData, Data, Line
 from tappet.project.naming import MAX_NAME
 
 RampType = Literal["trapez", "sin2", "quadratic", "quadratic_smooth"]
-DriveType = Literal["SM_Drive_Virtual", "SM_Drive_Simulated", "SM_Drive_PosControl", "SM_Drive_Logical"]
+DriveType = Literal[
+    "SM_Drive_Virtual",
+    "SM_Drive_Simulated",
+    "SM_Drive_GenericDSP402",
+    "SM_Drive_PosControl",
+    "SM_Drive_Logical",
+]
 FilterDepth = Annotated[StrictInt, Field(ge=0, le=9)]
 
 LARGEST_DENOMINATOR = 2**32 - 1
@@ -114,6 +121,21 @@ class PositionControl(Data):
     rated_raw: Count = Field(default=32767, description="Set value of the drive at that velocity.")
 
 
+class GenericDrive(Data):
+    """A drive that speaks CiA 402, of which nothing else is known."""
+
+    rated_torque: Positive = Field(
+        default=1.0, description="Of the motor: 1000 at objects 6071h and 6077h, in Nm."
+    )
+    bits: Literal[16, 24, 32] = Field(default=32, description="Width of the position counter.")
+    dead_time: Annotated[float, Field(ge=0, le=LONGEST_DEAD_TIME, allow_inf_nan=False)] = Field(
+        default=2.0, description="Cycles from a set position until its actual one."
+    )
+    limit_switches: StrictBool = Field(
+        default=True, description="On a finite axis, motion towards a limit switch that is on is an error."
+    )
+
+
 class Mirroring(Data):
     """What a logical axis mirrors (AXIS-30 to AXIS-34)."""
 
@@ -155,6 +177,8 @@ class AxisSettings(CodeData):
     position_control: PositionControl = PositionControl()
     mirroring: Mirroring = Mirroring()
     simulated_drive: SimulatedDrive = SimulatedDrive()
+    generic_drive: GenericDrive = GenericDrive()
+    mapping: ChannelMapping = ChannelMapping()
     bus_task: Line = Field(
         default="",
         description="Task that moves the axis; empty: that of the pool, else the fastest cyclic one.",
@@ -163,7 +187,7 @@ class AxisSettings(CodeData):
     @property
     def has_drive(self) -> bool:
         """Whether there is something behind the axis that has increments."""
-        return self.drive in ("SM_Drive_Simulated", "SM_Drive_PosControl")
+        return self.drive in ("SM_Drive_Simulated", "SM_Drive_GenericDSP402", "SM_Drive_PosControl")
 
     @property
     def subkind(self) -> str | None:

@@ -31,6 +31,7 @@ AXIS = ObjectKind(
     templates={
         "SM_Drive_Virtual": lambda name: AxisSettings(),
         "SM_Drive_Simulated": lambda name: AxisSettings(drive="SM_Drive_Simulated"),
+        "SM_Drive_GenericDSP402": lambda name: AxisSettings(drive="SM_Drive_GenericDSP402"),
         "SM_Drive_PosControl": lambda name: AxisSettings(drive="SM_Drive_PosControl"),
         "SM_Drive_Logical": lambda name: AxisSettings(drive="SM_Drive_Logical"),
     },

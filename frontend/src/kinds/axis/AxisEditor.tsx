@@ -10,6 +10,7 @@ import { Tabs } from '@/ui/Tabs';
 import { BasicPage } from './BasicPage';
 import { CommissioningPage } from './CommissioningPage';
 import { DrivePage } from './DrivePage';
+import { GenericDrivePage } from './GenericDrivePage';
 import { InformationPage } from './InformationPage';
 import { LogicalPage } from './LogicalPage';
 import { canStore } from './model';
@@ -30,7 +31,7 @@ const NO_OTHERS = {};
  * The pages of an axis (devices.md, 14.2 to 14.5). Settings are typed while logged out; what was measured while logged in is taken
  * into them, and taken back by Undo.
  */
-export default function AxisEditor({ panelId, projectId, objectId }: EditorProps) {
+export default function AxisEditor({ panelId, projectId, objectId, reveal }: EditorProps) {
   const t = useText();
   const draft = useDraft(panelId, projectId, objectId, ofKind('axis'), canStore, NO_OTHERS, mayChangeText);
   const mayType = mayEdit(useCommandContext());
@@ -66,6 +67,8 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
         ];
   if (drive === 'SM_Drive_Simulated')
     settings.push({ id: 'drive', title: t('axis.page.drive'), content: form(DrivePage) });
+  if (drive === 'SM_Drive_GenericDSP402')
+    settings.push({ id: 'drive', title: t('axis.page.drive'), content: form(GenericDrivePage) });
   if (drive === 'SM_Drive_PosControl')
     settings.push({ id: 'control', title: t('axis.page.control'), content: form(PositionControlPage) });
   const pages = [
@@ -100,5 +103,6 @@ export default function AxisEditor({ panelId, projectId, objectId }: EditorProps
       content: <InformationPage name={name} drive={drive} />,
     },
   ];
-  return <Tabs pages={pages} initial="basic" />;
+  const channel = reveal?.part === 'implementation'; // Messages of the build about a channel of the drive
+  return <Tabs key={channel ? reveal.serial : 0} pages={pages} initial={channel ? 'scaling' : 'basic'} />;
 }

@@ -7,6 +7,7 @@ import type { AxisSettings } from './model';
 const DRIVES = {
   SM_Drive_Virtual: { type: 'AXIS_REF_VIRTUAL_SM3', text: 'axis.info.virtualText' },
   SM_Drive_Simulated: { type: 'AXIS_REF_MAPPING_SM3', text: 'axis.info.simulatedText' },
+  SM_Drive_GenericDSP402: { type: 'AXIS_REF_MAPPING_SM3', text: 'axis.info.genericText' },
   SM_Drive_PosControl: { type: 'AXIS_REF_POSCONTROL_SM3', text: 'axis.info.controlText' },
   SM_Drive_Logical: { type: 'AXIS_REF_LOGICAL_SM3', text: 'axis.info.logicalText' },
 } as const satisfies Record<AxisSettings['drive'], { type: string; text: TextKey }>;

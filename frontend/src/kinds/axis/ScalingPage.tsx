@@ -4,12 +4,22 @@ import { Section } from '@/editors/form/FormPage';
 import form from '@/editors/form/Form.module.css';
 import styles from './Axis.module.css';
 import { numberText } from '@/editors/form/numbers';
+import { ChannelSection } from './ChannelSection';
 import { axisFaults, type AxisPageProps, COUNT_NAMES, type CountName, hasDrive } from './model';
 import { type Scaling, unitsPerIncrement } from './scaling';
 import { NumberCell } from '@/editors/form/NumberField';
 
-/** From increments of the encoder to units of the application, with the arithmetic shown (devices.md, 14.3). */
-export function ScalingPage({ axis, disabled, change }: AxisPageProps) {
+/** The arithmetic from increments of the encoder to units of the application, and the channels of the drive (devices.md, 14.3). */
+export function ScalingPage(page: AxisPageProps) {
+  return (
+    <>
+      <ScalingSection {...page} />
+      <ChannelSection {...page} />
+    </>
+  );
+}
+
+function ScalingSection({ axis, disabled, change }: AxisPageProps) {
   const t = useText();
   const { scaling } = axis;
   const faults = axisFaults(axis);

@@ -39,6 +39,8 @@ export type FieldName =
   | 'control.dead_time'
   | 'control.rated_velocity'
   | 'control.rated_raw'
+  | 'generic.rated_torque'
+  | 'generic.dead_time'
   | 'mirroring.dead_time'
   | 'mirroring.position_filter'
   | 'mirroring.velocity_filter'
@@ -90,6 +92,11 @@ export function axisFaults(axis: AxisSettings): Faults {
   }
   positive('control.rated_velocity', control.rated_velocity);
   if (!isWhole(control.rated_raw, 1, LARGEST_COUNT)) faults['control.rated_raw'] = 'axis.fault.count';
+  const generic = axis.generic_drive;
+  positive('generic.rated_torque', generic.rated_torque);
+  if (!(generic.dead_time >= 0 && generic.dead_time <= LONGEST_DEAD_TIME)) {
+    faults['generic.dead_time'] = 'axis.fault.deadTime';
+  }
   if (!Number.isFinite(axis.mirroring.dead_time)) faults['mirroring.dead_time'] = 'axis.fault.number';
   for (const name of ['position_filter', 'velocity_filter'] as const) {
     if (!isWhole(axis.mirroring[name], 0, DEEPEST_FILTER)) faults[`mirroring.${name}`] = 'axis.fault.filter';
@@ -99,7 +106,7 @@ export function axisFaults(axis: AxisSettings): Faults {
 
 /** Whether there is something behind the axis that has increments. */
 export function hasDrive(axis: AxisSettings): boolean {
-  return axis.drive === 'SM_Drive_Simulated' || axis.drive === 'SM_Drive_PosControl';
+  return axis.drive !== 'SM_Drive_Virtual' && axis.drive !== 'SM_Drive_Logical';
 }
 
 /** Whether the axis mirrors another one. */

@@ -60,6 +60,8 @@ export function sampleAxis(changes: Partial<AxisSettings> = {}): AxisSettings {
     },
     mirroring: { master: '', reference: 'set', dead_time: 0, position_filter: 0, velocity_filter: 0 },
     simulated_drive: SAMPLE_DRIVE,
+    generic_drive: { rated_torque: 1, bits: 32, dead_time: 2, limit_switches: true },
+    mapping: { automatic: true, channels: {} },
     bus_task: '',
     ...changes,
   };
