@@ -33,7 +33,9 @@ BEYOND = {
 """What the library has beyond the catalogs."""
 PINS_BEYOND: dict[str, set[str]] = {name: {*pins} for name, pins in PINS_ADDED.items()}
 PINS_BEYOND["MC_CAM_REF"] = {"nMaxElements"}
-PINS_BEYOND["AXIS_REF_MAPPING_SM3"] = {"byPositionBits", "fRatedTorque", "fDeadTimeCycles", "fMaxPositionLag"}
+PINS_BEYOND["AXIS_REF_MAPPING_SM3"] = {
+    *("byPositionBits", "fRatedTorque", "fDeadTimeCycles", "fMaxPositionLag", "byDriveMode"),
+}
 PINS_BEYOND["AXIS_REF_LOGICAL_SM3"] = {"pMaster"}
 """Pins that a block has beyond the catalogs."""
 OURS = {item.name: item for item in items(load("SM3_Basic"))}

@@ -205,9 +205,15 @@ def test_every_channel_is_a_member_of_its_type() -> None:
         rows = {}
         for number, channel in enumerate(channels):
             area = "I" if channel.is_input else "Q"
-            size = {"BOOL": "X", "BYTE": "B", "WORD": "W", "INT": "W", "DINT": "D", "DWORD": "D"}[
-                channel.type
-            ]
+            size = {
+                "BOOL": "X",
+                "BYTE": "B",
+                "WORD": "W",
+                "INT": "W",
+                "DINT": "D",
+                "UDINT": "D",
+                "DWORD": "D",
+            }[channel.type]
             place = f"%{area}{size}{number * (1 if size != 'X' else 4)}{'.0' if size == 'X' else ''}"
             rows[channel.name] = {"place": place, "type": channel.type}
         assert errors(mapped(rows, drive)) == []

@@ -71,6 +71,9 @@ CIA402 = (
     Channel("out.wSetTorque", "INT", "6071h"),
     Channel("out.dwDigitalOutputs", "DWORD", "60FEh"),
     Channel("out.wTouchProbeFunction", "WORD", "60B8h"),
+    Channel("out.udiProfileVelocity", "UDINT", "6081h"),
+    Channel("out.udiProfileAcceleration", "UDINT", "6083h"),
+    Channel("out.udiProfileDeceleration", "UDINT", "6084h"),
 )
 """Of a drive that speaks CiA 402."""
 SPEED = (
