@@ -137,7 +137,7 @@ def test_positions_count_from_the_switch(mode: int, ramp: int) -> None:
         assert found.number("Axis.fActPosition") == pytest.approx(found.number("Axis.fSetPosition"), abs=1e-9)
 
 
-@pytest.mark.parametrize(("cycle", "slow"), [(0.001, 10.0), (0.004, 5.0)], ids=["EX-13", "EX-AX-10"])
+@pytest.mark.parametrize(("cycle", "slow"), [(0.001, 10.0), (0.004, 5.0)], ids=["1 ms", "4 ms"])
 def test_the_delay_of_the_switch_is_made_up(cycle: float, slow: float) -> None:
     """motion_semantics EX-13 and ax3000 EX-AX-10: 0.03 u where the switch, 2 ms late, is seen to open.
 

@@ -67,7 +67,7 @@ def test_cited_requirements_are_documented() -> None:
 
 def test_an_example_is_cited_with_its_document() -> None:
     """`EX-06` alone would be one of twenty examples of that number."""
-    cited = re.compile(r"(?:\b(\w+) )?\b(EX-\d+(?:(?:, | and )EX-\d+)*)")
+    cited = re.compile(r"(?:\b(\w+)[ ,])?\b(EX-\d+(?:(?:, | and )EX-\d+)*)")
     wrong = [
         f"{path}: {document} {key}"
         for path, text in texts()
