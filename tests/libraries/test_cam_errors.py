@@ -69,6 +69,14 @@ REFUSED: list[tuple[Callable[[CamPair], None], dict[str, float], str]] = [
     (_nothing, {"StartMode": RAMP_IN, **RAMP, "VelocityDiff": 0.0}, "SMC_CI_RAMPIN_NEEDS_VELACC_VALUES"),
     (_nothing, {"StartMode": RAMP_IN, **RAMP, "Acceleration": NAN}, "SMC_CI_RAMPIN_NEEDS_VELACC_VALUES"),
     (_nothing, {"StartMode": RAMP_IN, **RAMP, "Deceleration": -1.0}, "SMC_CI_RAMPIN_NEEDS_VELACC_VALUES"),
+    *(
+        (_nothing, {"StartMode": RAMP_IN, **RAMP, pin: float("inf")}, "SMC_CI_RAMPIN_NEEDS_VELACC_VALUES")
+        for pin in ("VelocityDiff", "Acceleration", "Deceleration", "Jerk")
+    ),
+    *(
+        (_nothing, {pin: NAN}, "SMC_CI_SCALING_INCORRECT")
+        for pin in ("TappetHysteresis", "MasterStartDistance", "MasterSyncPosition")
+    ),
 ]
 
 
