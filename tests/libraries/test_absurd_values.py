@@ -6,7 +6,6 @@ import math
 
 import pytest
 from tests.libraries.absurd_values import BLOCKS, NUMBERS, AllBlocks, absurd, all_blocks, enable
-from tests.libraries.one_axis import CYCLE
 
 from tappet.libraries.catalog import Pin
 
@@ -66,7 +65,6 @@ OPEN = {
     ("MC_TorqueControl", "Velocity"),
     *(("MC_TouchProbe", pin) for pin in ("FirstPosition", "LastPosition")),
 }
-UNLIMITED = ("Acceleration", "Deceleration", "Jerk", "Acc", "Dec")
 """Limits that infinity takes away."""
 SET_VALUES = (
     *("fSetPosition", "fSetVelocity", "fSetAcceleration", "fSetTorque", "fSetCurrent"),
@@ -130,30 +128,17 @@ def test_an_absurd_value_leaves_the_axis_controllable(case: tuple[str, Pin, floa
         _begin(axes, block)
         axes.start(block, **{**_sane(block), pin.name: value})
         error = ""
-        for _ in range(100 if value == math.inf else 20):
-            before = _motion(axes)
-            axes.cycle(1 if value == math.inf else 5)
+        for _ in range(20):
+            axes.cycle(5)
             assert _finite(axes)
             error = error or axes.error(block)
-            if value == math.inf and block not in TORQUE:
-                _check_step(before, _motion(axes))
         reports = any(output.type.upper() == "SMC_ERROR" for output in BLOCKS[block].outputs)
-        unlimited = value == math.inf and pin.name.endswith(UNLIMITED)
-        unlimited = unlimited or (math.isinf(value) and (block, pin.name) in OPEN)
+        unlimited = math.isinf(value) and (block, pin.name) in OPEN
+        unlimited = unlimited or (value == math.inf and pin.name.endswith("Jerk"))  # Nothing in a trapezoid
         counts = reports and (block, pin.name) not in WITHOUT_EFFECT
         if counts and not (math.isfinite(value) or unlimited):
             assert error, "no motion has such a value"
         _take_control(axes, block)
-
-
-def _motion(axes: AllBlocks) -> tuple[float, float]:
-    return axes.number("Axis.fSetPosition"), axes.number("Axis.fSetVelocity")
-
-
-def _check_step(before: tuple[float, float], after: tuple[float, float]) -> None:
-    """Without a limit of the acceleration the velocity may jump, the position never."""
-    fastest = max(abs(before[1]), abs(after[1]))
-    assert abs(after[0] - before[0]) <= fastest * CYCLE * 1.001 + 1e-9
 
 
 def _take_control(axes: AllBlocks, block: str) -> None:
