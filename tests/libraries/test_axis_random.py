@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
@@ -190,3 +191,8 @@ AxisMachine.TestCase.settings = settings(
     suppress_health_check=list(HealthCheck),
 )
 TestRandomCommands = AxisMachine.TestCase
+
+
+@pytest.mark.slow
+class TestManyRandomCommands(AxisMachine.TestCase):  # type: ignore[name-defined,misc]
+    settings = settings(AxisMachine.TestCase.settings, max_examples=400, stateful_step_count=40)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from contextlib import ExitStack
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
@@ -259,3 +260,8 @@ CamMachine.TestCase.settings = settings(
     suppress_health_check=list(HealthCheck),
 )
 TestRandomCams = CamMachine.TestCase
+
+
+@pytest.mark.slow
+class TestManyRandomCams(CamMachine.TestCase):  # type: ignore[name-defined,misc]
+    settings = settings(CamMachine.TestCase.settings, max_examples=400, stateful_step_count=40)

@@ -6,6 +6,7 @@ import math
 from contextlib import ExitStack
 from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
@@ -238,3 +239,8 @@ DriveMachine.TestCase.settings = settings(
     suppress_health_check=list(HealthCheck),
 )
 TestRandomDrives = DriveMachine.TestCase
+
+
+@pytest.mark.slow
+class TestManyRandomDrives(DriveMachine.TestCase):  # type: ignore[name-defined,misc]
+    settings = settings(DriveMachine.TestCase.settings, max_examples=400, stateful_step_count=40)
