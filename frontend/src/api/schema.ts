@@ -1783,6 +1783,53 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/axes/{axis}/tuning": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Axis Tuning
+         * @description The gains of an axis as they are, and a measurement that fits its limits.
+         *
+         *     An axis whose loop is closed elsewhere, or nowhere, is the problem `no-position-loop`.
+         */
+        get: operations["get_axis_tuning"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/axes/{axis}/tuning/measure": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Measure Axis
+         * @description Measure an axis that one controls (`/panel`), and answer with what it says when it is back.
+         *
+         *     The controller makes the step or the fast move and brings the axis back. Keep saying that one is there
+         *     (`/panel/alive`); `/panel/stop` ends it at any time. A height beyond a limit is the problem
+         *     `measurement-refused`, an early end `measurement-interrupted`. For bad data the answer has `problem`
+         *     instead of proposals.
+         */
+        post: operations["measure_axis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/boot-application": {
         parameters: {
             query?: never;
@@ -2594,6 +2641,38 @@ export interface components {
             user: components["schemas"]["Me"] | null;
         };
         /**
+         * AxisMeasured
+         * @description A measurement of an axis and what it says.
+         */
+        AxisMeasured: {
+            /** Axis */
+            axis: string;
+            /**
+             * Closed In
+             * @enum {string}
+             */
+            closed_in: "controller" | "drive";
+            /** Cycle S */
+            cycle_s: number;
+            /**
+             * Excitation
+             * @enum {string}
+             */
+            excitation: "step" | "move";
+            figures: components["schemas"]["ResponseFigures"] | null;
+            /** Height */
+            height: number;
+            model: components["schemas"]["LoopModel"] | null;
+            /**
+             * Problem
+             * @description Why there is no proposal, and what to do.
+             */
+            problem: string | null;
+            /** Proposals */
+            proposals: components["schemas"]["GainProposal"][];
+            samples: components["schemas"]["ResponseSamples"] | null;
+        };
+        /**
          * AxisObject
          * @description An axis; it is a global variable of its name.
          */
@@ -2864,6 +2943,50 @@ export interface components {
              * @default false
              */
             virtual_mode: boolean;
+        };
+        /**
+         * AxisTuning
+         * @description What there is to be tuned at an axis, and what a good measurement would be.
+         */
+        AxisTuning: {
+            /** Bus Task */
+            bus_task: string;
+            /**
+             * Closed In
+             * @description Who closes the position loop.
+             * @enum {string}
+             */
+            closed_in: "controller" | "drive";
+            /** Cycle S */
+            cycle_s: number;
+            /**
+             * Duration S
+             * @description Suggested.
+             */
+            duration_s: number;
+            /**
+             * Excitation
+             * @description Suggested: a step, or a fast move where there is no gain.
+             * @enum {string}
+             */
+            excitation: "step" | "move";
+            /** Gains */
+            gains: components["schemas"]["TuningGain"][];
+            /**
+             * Height
+             * @description Suggested, in units.
+             */
+            height: number;
+            /**
+             * Lag Limit
+             * @description Units from which a step is an error of the axis.
+             */
+            lag_limit: number | null;
+            /**
+             * State
+             * @description Of the axis, nAxisState.
+             */
+            state: string;
         };
         /**
          * Binding
@@ -4653,6 +4776,44 @@ export interface components {
             on: boolean;
         };
         /**
+         * GainProposal
+         * @description Gains that fit the model, and what they would do.
+         */
+        GainProposal: {
+            /**
+             * Aim
+             * @enum {string}
+             */
+            aim: "no_overshoot" | "fast";
+            /**
+             * Answer
+             * @description Predicted positions, beside the samples.
+             */
+            answer: number[];
+            /**
+             * Gain Margin
+             * @description Factor until it oscillates, null: it does not.
+             */
+            gain_margin: number | null;
+            /** Gains */
+            gains: components["schemas"]["GainValue"][];
+            /** Phase Margin Deg */
+            phase_margin_deg: number;
+        };
+        /**
+         * GainValue
+         * @description A proposed value.
+         */
+        GainValue: {
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "position_gain" | "dead_time" | "velocity_gain" | "integral_time";
+            /** Value */
+            value: number;
+        };
+        /**
          * GenericDrive
          * @description A drive that speaks CiA 402, of which nothing else is known.
          */
@@ -5408,6 +5569,36 @@ export interface components {
             runtime_id: string;
         };
         /**
+         * LoopModel
+         * @description The identified model: dead time, and an integrator behind the lag of the velocity loop.
+         */
+        LoopModel: {
+            /**
+             * Answer
+             * @description Its positions, beside the samples.
+             */
+            answer: number[];
+            /** Dead Time S */
+            dead_time_s: number;
+            /**
+             * Factor
+             * @description Velocity that comes of the one asked for.
+             */
+            factor: number;
+            /**
+             * Inertia
+             * @description Of motor and load by the gain of the drive, in kgm².
+             */
+            inertia: number | null;
+            /** Lag S */
+            lag_s: number;
+            /**
+             * Residual
+             * @description Root mean square of what it does not explain, in units.
+             */
+            residual: number;
+        };
+        /**
          * Loops
          * @description The controllers of the drive.
          */
@@ -5495,6 +5686,34 @@ export interface components {
             theme: string | null;
             /** Username */
             username: string;
+        };
+        /**
+         * MeasureOrder
+         * @description What to measure, by somebody who has control of the axis.
+         */
+        MeasureOrder: {
+            /**
+             * Duration S
+             * @description Seconds until it moves back.
+             * @default 1
+             */
+            duration_s?: number;
+            /**
+             * Excitation
+             * @default step
+             * @enum {string}
+             */
+            excitation?: "step" | "move";
+            /**
+             * Height
+             * @description How far the set position steps or moves, in units.
+             */
+            height: number;
+            /**
+             * Holder
+             * @description Number of the page in control.
+             */
+            holder: number;
         };
         /**
          * MergeOrder
@@ -6823,6 +7042,73 @@ export interface components {
             kind: "cold" | "origin" | "warm";
         };
         /**
+         * ResponseFigures
+         * @description What is read off an answer; null: it does not come to that in this time.
+         */
+        ResponseFigures: {
+            /**
+             * Band
+             * @description Half the width of the band that it settles in, in units.
+             */
+            band: number;
+            /**
+             * Dead Time Cycles
+             * @description From the first set motion to the first reaction (AXIS-40).
+             */
+            dead_time_cycles: number | null;
+            /**
+             * Noise
+             * @description Standard deviation at rest, in units.
+             */
+            noise: number;
+            /**
+             * Overshoot
+             * @description As a part of the height.
+             */
+            overshoot: number;
+            /**
+             * Rise Time S
+             * @description From 10 % to 90 % of the height.
+             */
+            rise_time_s: number | null;
+            /** Settling Time S */
+            settling_time_s: number | null;
+            /**
+             * Steady Error
+             * @description Set minus actual position at the end, in units.
+             */
+            steady_error: number;
+        };
+        /**
+         * ResponseSamples
+         * @description Values of the axis from rest to the end of the answer, in units from where it stood.
+         */
+        ResponseSamples: {
+            /** Act Position */
+            act_position: number[];
+            /** Act Velocity */
+            act_velocity: number[];
+            /**
+             * Command
+             * @description Velocity that the controller gives the drive.
+             */
+            command: number[] | null;
+            /** Set Position */
+            set_position: number[];
+            /** Set Velocity */
+            set_velocity: number[];
+            /**
+             * Time
+             * @description Seconds since the set position left its place.
+             */
+            time: number[];
+            /**
+             * Torque
+             * @description Of the drive, in Nm.
+             */
+            torque: number[] | null;
+        };
+        /**
          * Result
          * @description What became of an act.
          * @enum {string}
@@ -7617,9 +7903,11 @@ export interface components {
             /** @default 100 */
             acceleration?: number;
             /** @enum {unknown} */
-            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
+            action: "force" | "home" | "jog_backward" | "jog_end" | "jog_forward" | "measure_move" | "measure_step" | "move_absolute" | "move_relative" | "power_off" | "power_on" | "reset" | "set_position" | "take";
             /** @default 100 */
             deceleration?: number;
+            /** @default 1 */
+            duration?: number;
             /** @description Number that the page has made up. */
             holder: number;
             /** @default 10000 */
@@ -8142,6 +8430,24 @@ export interface components {
             role: components["schemas"]["Role"];
             /** Used At */
             used_at: string | null;
+        };
+        /**
+         * TuningGain
+         * @description A gain of the loop that can be written.
+         */
+        TuningGain: {
+            /**
+             * Expression
+             * @description Its variable in the application.
+             */
+            expression: string;
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "position_gain" | "dead_time" | "velocity_gain" | "integral_time";
+            /** Value */
+            value: number;
         };
         /**
          * UndoOutcome
@@ -12586,6 +12892,92 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PanelStatus"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_axis_tuning: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                axis: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AxisTuning"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    measure_axis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                axis: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MeasureOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AxisMeasured"];
                 };
             };
             /** @description The request was refused */
