@@ -12,7 +12,9 @@ from playwright.sync_api import Locator, Page, expect
 
 
 def open_project(page: Page, name: str = "Bottling line") -> None:
-    page.locator("main > section").get_by_text(name).first.dblclick()  # beside them are examples of such names
+    page.locator("main > section").get_by_text(
+        name
+    ).first.dblclick()  # beside them are examples of such names
     expect(tree_item(page, "Application")).to_be_visible()
 
 
