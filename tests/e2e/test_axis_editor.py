@@ -148,7 +148,7 @@ def test_a_drive_that_follows_a_speed_has_its_position_loop(page: Page, server: 
 
 
 def test_a_simulated_drive_has_its_settings(page: Page, server: Server, project: str) -> None:
-    _add_drive(page, server, project, "Servo", "SM_Drive_Simulated")
+    add_drive(page, server, project, "Servo", "SM_Drive_Simulated")
     open_object(page, "Servo")
     panel = editor(page)
     panel.get_by_role("tab", name="Drive").click()
@@ -183,7 +183,7 @@ def test_a_simulated_drive_has_its_settings(page: Page, server: Server, project:
 
 
 def test_channels_of_a_drive_are_bound_to_addresses(page: Page, server: Server, project: str) -> None:
-    _add_drive(page, server, project, "Servo", "SM_Drive_GenericDSP402")
+    add_drive(page, server, project, "Servo", "SM_Drive_GenericDSP402")
     open_object(page, "Servo")
     panel = editor(page)
     panel.get_by_role("tab", name="Scaling/Mapping").click()

@@ -117,7 +117,7 @@ def test_points_are_inserted_with_the_values_of_the_curve_and_deleted(cam: CamPa
     cam.tab("Cam table")
     expect(cam.cell(1, 10)).to_have_text("1.512")
     cam.cell(1, 0).get_by_role("button").click()
-    for column, value in ((2, "60"), (3, "41.25"), (4, "1.4375"), (5, "0.0125"), (6, "-0.001041667")):
+    for column, value in ((2, "60"), (3, "41.25"), (4, "1.4375"), (5, "0.0125"), (6, "-0.0010417")):
         expect(cam.cell(2, column)).to_have_text(value)
     cam.tab("Cam")
     cam.expect_points(5)

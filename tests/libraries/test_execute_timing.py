@@ -181,7 +181,7 @@ def test_a_command_that_is_aborted(machines: dict[str, Machine], block: str, rel
 
 @pytest.mark.parametrize("block", ["MC_GearOut", "MC_CamOut"])
 def test_a_released_slave_stays_released(machines: dict[str, Machine], block: str) -> None:
-    """EXE-07: Done as long as Execute, also when another command has the axis; ax3000 EX-AX-17 stops by it."""
+    """EXE-07: Done as long as Execute, also when another command has it; ax3000 EX-AX-17 stops by it."""
     case = EXECUTES[block]
     found = machines[case.kind]
     _start(found, block, case)

@@ -122,7 +122,7 @@ def test_an_edge_on_the_same_ratio_does_not_disturb_the_gear(axes: CoupledAxes) 
 
 
 def test_what_waits_behind_a_gear_begins_when_it_is_reached(axes: CoupledAxes) -> None:
-    """SEQ-05 and SEQ-06, where ax3000 MC-08 has Aborting alone: no blending, and Buffered waits for InGear."""
+    """SEQ-05 and SEQ-06, where ax3000 MC-08 has Aborting alone: no blending; Buffered waits for InGear."""
     axes.run_master(100.0)
     axes.start("Gear1", RatioDenominator=2, **RAMP)
     axes.start("Velocity", Velocity=20.0, BufferMode=2, **RAMP)

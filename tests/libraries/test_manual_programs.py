@@ -19,15 +19,18 @@ VAR
     MasterRun, CamSelect, CamIn, CamOutX : BOOL;
     Cam_A : ARRAY[0..3] OF SM3_Basic.SMC_CAMXYVA := [(dX:=0,dY:=0,dV:=0,dA:=0), (dX:=120,dY:=120,dV:=1,dA:=0),
                                            (dX:=240,dY:=240,dV:=1,dA:=0), (dX:=360,dY:=360,dV:=0,dA:=0)];
-    Cam   : SM3_Basic.MC_CAM_REF := (byType:=3, nElements:=4, xStart:=0, xEnd:=360, nTappets:=0, strCAMName:='Cam',
+    Cam   : SM3_Basic.MC_CAM_REF := (byType:=3, nElements:=4, xStart:=0, xEnd:=360,
+        nTappets:=0, strCAMName:='Cam',
         pce:=ADR(Cam_A));
 END_VAR
 X.BeginCycle();
 Y.BeginCycle();
 MC_PowerX(Axis:=X, Enable:=TRUE, bRegulatorOn:=TRUE, bDriveStart:=TRUE);
 MC_PowerY(Axis:=Y, Enable:=TRUE, bRegulatorOn:=TRUE, bDriveStart:=TRUE);
-MC_MoveVelocity0(Axis:=X, Execute:=MasterRun, Velocity:=100, Acceleration:=100, Deceleration:=100, Direction:=positive);
-MC_CamTableSelect0(Master:=X, Slave:=Y, CamTable:=Cam, Execute:=CamSelect, Periodic:=TRUE, MasterAbsolute:=FALSE, SlaveAbsolute:=FALSE);
+MC_MoveVelocity0(Axis:=X, Execute:=MasterRun, Velocity:=100, Acceleration:=100, Deceleration:=100,
+    Direction:=positive);
+MC_CamTableSelect0(Master:=X, Slave:=Y, CamTable:=Cam, Execute:=CamSelect, Periodic:=TRUE,
+    MasterAbsolute:=FALSE, SlaveAbsolute:=FALSE);
 MC_CamIn0(Master:=X, Slave:=Y, Execute:=CamIn, StartMode:=0, CamTableID:=MC_CamTableSelect0.CamTableID);
 MC_CamOut0(Slave:=Y, Execute:=CamOutX);
 MC_Stop0(Axis:=Y, Execute:=MC_CamOut0.Done, Deceleration:=100);

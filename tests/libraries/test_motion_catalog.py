@@ -158,7 +158,7 @@ def test_items_have_the_pins_of_both_catalogs(name: str) -> None:
 
 @pytest.mark.parametrize("name", sorted({*OURS} - {*BLOCKS} - {*ENUMERATIONS} - BEYOND - {"LibParams"}))
 def test_items_are_of_the_kind_and_type_of_both_catalogs(name: str) -> None:
-    """A function block, a function with its result, a structure, an enumeration, or another name of a type."""
+    """A function block, a function with its result, a structure, an enumeration or an alias."""
     said = [catalog[name.upper()] for catalog in CATALOGS if name.upper() in catalog]
     assert OURS[name].kind in {item["kind"] for item in said}
     results = {result.upper() for item in said if (result := item.get("returns") or item.get("type"))}
@@ -167,7 +167,7 @@ def test_items_are_of_the_kind_and_type_of_both_catalogs(name: str) -> None:
 
 
 def test_library_show_has_what_is_compared_here() -> None:
-    """`tappet library show` is what is held against the catalogs: the same items, pins, types and defaults."""
+    """`tappet library show` is held against the catalogs: the same items, pins, types and defaults."""
     found = json.loads(invoke("library", "show", "SM3_Basic", "--format", "json").output)
     shown = {item["name"]: item for item in found}
     assert {*shown} == {*OURS}

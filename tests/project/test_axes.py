@@ -286,7 +286,7 @@ def test_cycle_times_of_a_bus_task(interval: str) -> None:
     project = moving(with_axes("Drive"))
     task = only(project, "task")
     project = edit.change_data(project, task.id, {**task.data.model_dump(), "interval": interval})
-    cycle, place = _values(project, 200, "Drive.fTaskCycle", "Drive.fSetPosition")
+    cycle, place = values(project, 200, "Drive.fTaskCycle", "Drive.fSetPosition")
     assert cycle == {"T#2500us": 0.0025}.get(interval, int(interval[2:-2]) / 1000)
     assert place > 0.0
 
@@ -296,7 +296,7 @@ def test_another_drive_needs_no_other_program(drive: str) -> None:
     """AXIS-05, AXIS-10: the program that moves the axis is the same; a virtual drive is always virtual."""
     project = moving(with_axes("Drive", drive=drive))
     given = {"Drive__in__bRegulatorRealState": True, "Drive__in__bDriveStartRealState": True}
-    virtual, place = _values(
+    virtual, place = values(
         project,
         60,
         "Drive.bVirtual",
@@ -308,7 +308,7 @@ def test_another_drive_needs_no_other_program(drive: str) -> None:
 
 
 def test_settings_become_members_of_the_axis() -> None:
-    """AXIS-11, AXIS-12, AXIS-13, AXIS-15, AXIS-17: the fields of the editor, by the numbers of their parameters."""
+    """AXIS-11, AXIS-12, AXIS-13, AXIS-15, AXIS-17: the fields of the editor, by their parameters."""
     settings = {
         "axis_type": "finite",
         "ramp_type": "sin2",
@@ -328,9 +328,9 @@ def test_settings_become_members_of_the_axis() -> None:
         "fSWMaxJerk": 140.0,
         "bVirtual": True,
     }
-    found = _values(moving(with_axes("Drive", **settings)), 5, *(f"Drive.{name}" for name in wanted))
+    found = values(moving(with_axes("Drive", **settings)), 5, *(f"Drive.{name}" for name in wanted))
     assert dict(zip(wanted, found, strict=True)) == wanted
     rotary = {"axis_type": "modulo", "modulo": 48.0, "ramp_type": "quadratic"}
     members = ("iMovementType", "fPositionPeriod", "eRampType", "fSWMaxVelocity", "fSWMaxAcceleration")
-    found = _values(moving(with_axes("Drive", **rotary)), 5, *(f"Drive.{name}" for name in members))
+    found = values(moving(with_axes("Drive", **rotary)), 5, *(f"Drive.{name}" for name in members))
     assert found == [0, 48.0, 2, 100.0, 100.0]

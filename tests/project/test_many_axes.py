@@ -30,10 +30,10 @@ END_VAR"""
 
 def _body() -> str:
     lines = ["ulCycles := ulCycles + 1;"]
-    for number, name in enumerate(AXES, 1):
-        lines.append(
-            f"afbPower[{number}](Axis := {name}, Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);"
-        )
+    lines += [
+        f"afbPower[{number}](Axis := {name}, Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);"
+        for number, name in enumerate(AXES, 1)
+    ]
     ramp = "Acceleration := 100.0, Deceleration := 100.0"
     lines.append(f"fbMaster(Axis := Axis1, Execute := afbPower[1].Status, Velocity := 90.0, {ramp});")
     for number in range(2, 17):
@@ -43,7 +43,8 @@ def _body() -> str:
         )
     for number in range(17, 33):
         lines.append(
-            f"afbSelect[{number}](Master := Axis1, Slave := Axis{number}, CamTable := stCam, Execute := TRUE);"
+            f"afbSelect[{number}](Master := Axis1, Slave := Axis{number}, CamTable := stCam, "
+            "Execute := TRUE);"
         )
         lines.append(
             f"afbCam[{number}](Master := Axis1, Slave := Axis{number}, "
@@ -53,7 +54,7 @@ def _body() -> str:
 
 
 def test_thirty_two_axes_move_for_ten_minutes() -> None:
-    """SYS-01: a master, 15 axes at a velocity and 16 slaves of a cam; no cycle is left out, none loses its way."""
+    """SYS-01: a master, 15 axes at a velocity and 16 slaves of a cam; no cycle is lost, no way either."""
     project = with_axes(*AXES)
     (program,) = project.find_kind("pou")
     project = edit.change_data(project, program.id, {"declaration": DECLARATION, "implementation": _body()})

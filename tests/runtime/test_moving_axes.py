@@ -204,7 +204,7 @@ fbHalt(Axis := Drive, Execute := xClosed, Deceleration := 100.0);"""
 
 
 def interlocked() -> Project:
-    """Logic in a slower task, in another language, closes a gate by the position of the axis; the motion halts by it."""
+    """Logic in a slower task, in another language, closes a gate by the position; the motion halts by it."""
     declaration = DECLARATION.replace("END_VAR", "    fbHalt : MC_Halt;\nEND_VAR")
     project = with_axes("Drive")
     (program,) = project.find_kind("pou")

@@ -9,7 +9,7 @@ export function numberText(value: number): string {
 }
 
 /** A number that fits into a narrow column: as `numberText`, with as few digits as that takes. */
-export function shortNumber(value: number, length = 9): string {
+export function shortNumber(value: number, length = 10): string {
   const whole = numberText(value);
   if (whole.length <= length) return whole;
   for (let digits = length; digits > 0; digits--) {

@@ -29,7 +29,7 @@ export function CamGrid({ edit }: { edit: CamEdit }) {
       ...POINT_COLUMNS.map((id) => ({
         id,
         title: t(`cam.column.${id}`),
-        width: 90,
+        width: 98,
         align: 'right' as const,
         code: true,
       })),
