@@ -137,7 +137,7 @@ def test_the_figures_are_those_of_a_system_of_second_order(damping: float) -> No
     assert found.steady_error == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("dead", [1.0, 2.0, 5.0])
+@pytest.mark.parametrize("dead", [1.0, 2.0, 3.0, 5.0])
 def test_the_dead_time_is_counted_from_the_first_motion_to_the_first_reaction(dead: float) -> None:
     """AXIS-40, devices EX-07: as one reads it off a trace, at a drive that follows within a cycle."""
     recording = controlled(ServoAxis(1.0, dead, 0.05, CYCLE), 30.0, old=3)
