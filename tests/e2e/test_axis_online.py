@@ -181,6 +181,10 @@ def test_a_measured_step_gives_gains_that_are_written(page: Page, server: Server
     assert proposed != "60 1/s"
     panel.get_by_role("button", name="Write to controller").click()
     expect(gain.get_by_role("cell").first).to_have_text(proposed)
+    with objects_stored(page):
+        panel.get_by_role("button", name="Take into project").click()
+    loops = stored(page, server, project, "Servo")["data"]["simulated_drive"]["loops"]
+    assert loops["position_gain"] == float(proposed.removesuffix(" 1/s"))
     acts = {(one["action"], one["subject"]) for one in fetch(page, server, "GET", "/audit")}
     assert ("axis-measured", "Servo") in acts
     assert ("write", "IoConfig_Globals.Servo_Drive.stSettings.fPositionGain") in acts

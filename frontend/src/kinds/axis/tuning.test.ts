@@ -46,6 +46,28 @@ describe('gains', () => {
     expect(axis.position_control.gain).toBe(0);
     expect(withGains({ ...axis, drive: 'SM_Drive_Virtual' }, proposal)).toBeNull();
   });
+
+  it('are taken into the loops of a simulated drive', () => {
+    const loops = {
+      current_time: 0.0005,
+      position_gain: 60,
+      velocity_gain: 0.03,
+      integral_time: 0.02,
+      feed_forward: 1,
+    };
+    const axis = { drive: 'SM_Drive_Simulated', simulated_drive: { loops } } as AxisSettings;
+    const gains: Proposal['gains'] = [
+      { name: 'position_gain', value: 166.666 },
+      { name: 'velocity_gain', value: 0.0439629 },
+      { name: 'integral_time', value: 0.0045 },
+    ];
+    expect(withGains(axis, { ...proposal, gains })?.simulated_drive.loops).toEqual({
+      ...loops,
+      position_gain: 166.7,
+      velocity_gain: 0.04396,
+      integral_time: 0.0045,
+    });
+  });
 });
 
 describe('what is entered', () => {

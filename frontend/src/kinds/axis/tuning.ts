@@ -51,18 +51,27 @@ export function writtenValue(value: number): number {
 
 /** The settings with the proposed gains; null where the project does not keep them. */
 export function withGains(axis: AxisSettings, proposal: Proposal): AxisSettings | null {
-  if (axis.drive !== 'SM_Drive_PosControl') return null;
   const value = (name: GainName, before: number) => {
     const found = proposal.gains.find((gain) => gain.name === name);
     return found === undefined ? before : writtenValue(found.value);
   };
-  const { position_control: control } = axis;
+  if (axis.drive === 'SM_Drive_PosControl') {
+    const { position_control: control } = axis;
+    const [gain, dead_time] = [value('position_gain', control.gain), value('dead_time', control.dead_time)];
+    return { ...axis, position_control: { ...control, gain, dead_time } };
+  }
+  if (axis.drive !== 'SM_Drive_Simulated') return null;
+  const { loops } = axis.simulated_drive;
   return {
     ...axis,
-    position_control: {
-      ...control,
-      gain: value('position_gain', control.gain),
-      dead_time: value('dead_time', control.dead_time),
+    simulated_drive: {
+      ...axis.simulated_drive,
+      loops: {
+        ...loops,
+        position_gain: value('position_gain', loops.position_gain),
+        velocity_gain: value('velocity_gain', loops.velocity_gain),
+        integral_time: value('integral_time', loops.integral_time),
+      },
     },
   };
 }
